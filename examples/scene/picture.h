@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Writes and reads pictures: PNG through libpng, PFM (Portable Float Map, little-endian float32) for linear data.
+ * Rows are handed over bottom to top, as OpenGL reads them.
+ */
+#ifndef GLSSAO_EXAMPLES_PICTURE_H
+#define GLSSAO_EXAMPLES_PICTURE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* 8 bits a channel; channels 1 (grey), 3 (RGB) or 4 (RGBA). False, with one line in `error`, on failure; a file
+ * that could not be written whole is removed. */
+bool picture_write_png(const char *path, int width, int height, int channels, const uint8_t *pixels,
+                       char *error, size_t error_size);
+
+/* channels 1 ("Pf") or 3 ("PF"). */
+bool picture_write_pfm(const char *path, int width, int height, int channels, const float *pixels,
+                       char *error, size_t error_size);
+
+/* Reads back what picture_write_pfm wrote; the caller frees the pixels. NULL on failure. */
+float *picture_read_pfm(const char *path, int *out_width, int *out_height, int *out_channels,
+                        char *error, size_t error_size);
+
+/* Reads an 8-bit PNG as RGBA, bottom to top; the caller frees it. NULL on failure. */
+uint8_t *picture_read_png(const char *path, int *out_width, int *out_height, char *error, size_t error_size);
+
+#endif

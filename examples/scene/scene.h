@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * A scene in memory, as the examples draw it: triangles, materials, textures, instances, cameras. It comes from a
+ * glTF 2.0 file or from one of the built-in scenes, and knows nothing of OpenGL. World space is glTF's: right-handed,
+ * y up, lengths in scene units. Matrices are column-major (cglm's mat4 as float[16]).
+ */
+#ifndef GLSSAO_EXAMPLES_SCENE_H
+#define GLSSAO_EXAMPLES_SCENE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct scene_vertex {
+    float position[3]; /* mesh space */
+    float normal[3];   /* mesh space, unit length; from the file, or computed where the file has none */
+    float uv[2][2];    /* TEXCOORD_0 and TEXCOORD_1, as in the file: v grows downwards */
+    float color[4];    /* linear; 1, 1, 1, 1 where the file has none */
+} scene_vertex;
+
+/* Rows top to bottom, as in the file. */
+typedef struct scene_image {
+    int width, height;
+    uint8_t *rgba;
+} scene_image;
+
+typedef enum scene_wrap { SCENE_WRAP_REPEAT = 0, SCENE_WRAP_MIRROR, SCENE_WRAP_CLAMP } scene_wrap;
+
+typedef struct scene_texture {
+    int image; /* index, always valid */
+    scene_wrap wrap_u, wrap_v;
+    bool min_nearest, mag_nearest, mipmaps;
+} scene_texture;
+
+typedef enum scene_alpha { SCENE_ALPHA_OPAQUE = 0, SCENE_ALPHA_MASK, SCENE_ALPHA_BLEND } scene_alpha;
+
+typedef struct scene_material {
+    float base_color[4];          /* linear factor */
+    int base_color_texture;       /* index into textures, -1: none; sRGB */
+    int base_color_uv;            /* which uv set, 0 or 1 */
+    float base_color_uv_from_uv[6]; /* KHR_texture_transform: u' = m0 u + m1 v + m2, v' = m3 u + m4 v + m5 */
+    scene_alpha alpha;
+    float alpha_cutoff;           /* MASK: drawn where alpha >= cutoff */
+    bool double_sided;
+    bool unlit;                   /* KHR_materials_unlit */
+} scene_material;
+
+/* Triangles that share a material: indices[first_index .. first_index + index_count), absolute into vertices. */
+typedef struct scene_primitive {
+    uint32_t first_index, index_count;
+    int material;
+    float bounds_min[3], bounds_max[3]; /* mesh space */
+} scene_primitive;
+
+typedef struct scene_mesh {
+    uint32_t first_primitive, primitive_count;
+    uint32_t first_instance, instance_count; /* instances are sorted by mesh */
+} scene_mesh;
+
+typedef struct scene_instance {
+    float world_from_mesh[16]; /* affine */
+} scene_instance;
+
+typedef struct scene_camera {
+    char name[64];
+    float world_from_view[16];
+    bool orthographic;
+    float fov_y_rad;              /* perspective */
+    float half_width, half_height; /* orthographic, scene units */
+    float near_plane, far_plane;  /* far 0: infinite */
+} scene_camera;
+
+typedef struct scene {
+    char name[256];              /* file name, or the built-in scene's */
+    scene_vertex *vertices;      uint32_t vertex_count;
+    uint32_t *indices;           uint32_t index_count;
+    scene_primitive *primitives; uint32_t primitive_count;
+    scene_mesh *meshes;          uint32_t mesh_count;
+    scene_instance *instances;   uint32_t instance_count;
+    scene_material *materials;   uint32_t material_count; /* at least 1 */
+    scene_texture *textures;     uint32_t texture_count;
+    scene_image *images;         uint32_t image_count;
+    scene_camera *cameras;       uint32_t camera_count;
+    float bounds_min[3], bounds_max[3]; /* world space, of what is drawn; all 0 where nothing is */
+} scene;
+
+/* Loads a .gltf or .glb file. NULL on failure, with one line in `error` that names the file and the fault.
+ * Nothing in the file is trusted: every index, offset, count and reference is checked before use. */
+scene *scene_load(const char *path, char *error, size_t error_size);
+
+/* Makes a built-in scene: "columns", "cornell", "steps" or "plane". NULL on failure, as above. */
+scene *scene_make(const char *name, char *error, size_t error_size);
+
+/* Frees the scene; NULL is fine. */
+void scene_destroy(scene *s);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * glssao: screen-space ambient occlusion for OpenGL 3.3 and later.
+ *
+ * It turns a depth map and view-space normals of your frame into an accessibility map (1: open, 0: fully
+ * occluded), or multiplies that map into your picture. It does not open windows, make contexts, load models
+ * or draw your scene; it has no global state and needs no library: you hand it a GL function loader.
+ *
+ * Rules for every call
+ *   Context    The GL context the effect was created in is current on the calling thread; 3.3 or later, core
+ *              or compatibility. One effect belongs to one context and is used by one thread at a time.
+ *   State      GL state is left as found (docs/architecture.md lists what is saved). No transform feedback may
+ *              be active, and a running occlusion query counts the effect's fragments too. In release builds
+ *              glGetError is never called, so your own errors stay yours.
+ *   Errors     A call that fails changes nothing, says why in one line of the log, and leaves the effect
+ *              usable. A NULL effect gives GLSSAO_INVALID_ARGUMENT, 0 or NULL, as the type allows.
+ *   Ownership  Structs handed in are copied. The effect deletes only what it created.
+ *
+ * Spaces: view space has the camera at its origin, is right-handed, and looks down -z; view distance is -z.
+ * Window depth is what the depth buffer stores, 0 to 1. uv is 0 to 1 with its origin at the bottom left.
+ */
+#ifndef GLSSAO_H
+#define GLSSAO_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define GLSSAO_VERSION_MAJOR 0
+#define GLSSAO_VERSION_MINOR 1
+#define GLSSAO_VERSION_PATCH 0
+
+#if defined(_WIN32) && defined(GLSSAO_SHARED)
+#if defined(GLSSAO_BUILD)
+#define GLSSAO_API __declspec(dllexport)
+#else
+#define GLSSAO_API __declspec(dllimport)
+#endif
+#elif defined(__GNUC__)
+#define GLSSAO_API __attribute__((visibility("default")))
+#else
+#define GLSSAO_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- results and log ------------------------------------------------------------------------------------ */
+
+typedef struct glssao_effect glssao_effect; /* one per GL context; opaque */
+
+typedef enum glssao_result {
+    GLSSAO_OK = 0,
+    GLSSAO_INVALID_ARGUMENT,    /* the log names the field and its value */
+    GLSSAO_UNSUPPORTED_CONTEXT, /* older than 3.3, or a function of 3.3 is missing */
+    GLSSAO_OUT_OF_MEMORY,
+    GLSSAO_SHADER_ERROR,        /* the log holds the driver's text and the numbered source */
+    GLSSAO_FRAMEBUFFER_ERROR    /* the driver refuses one of the formats or attachments */
+} glssao_result;
+
+typedef enum glssao_log_level { GLSSAO_LOG_ERROR = 0, GLSSAO_LOG_WARNING, GLSSAO_LOG_INFO } glssao_log_level;
+
+/* Finds the GL function `name` ("glClear"); NULL where there is none. glfwGetProcAddress and the like, wrapped. */
+typedef void *(*glssao_load_fn)(const char *name, void *user);
+/* Takes one message, valid during the call only. It must not call the effect. */
+typedef void (*glssao_log_fn)(glssao_log_level level, const char *message, void *user);
+
+/* ---- config: fixed for the effect's life ---------------------------------------------------------------- */
+
+typedef struct glssao_config {
+    glssao_load_fn load; /* required */
+    void *load_user;
+    glssao_log_fn log;   /* NULL: silent */
+    void *log_user;
+    int width, height;   /* full size in pixels: the size of the depth maps handed over. 1 to GL_MAX_TEXTURE_SIZE */
+    uint32_t seed;       /* of every random input: the same seed gives the same bits */
+    bool no_timers;      /* true: no timer queries; glssao_stats then holds no times */
+} glssao_config;
+
+/* ---- settings: may change every frame ------------------------------------------------------------------- */
+
+typedef enum glssao_technique {
+    GLSSAO_CLASSIC = 0, /* 14 offsets about the point, distance fade, bilateral blur (Luna, D3D12 book, ch. 21) */
+    GLSSAO_HEMISPHERE,  /* hemisphere kernel with tiled rotations; not there yet: GLSSAO_INVALID_ARGUMENT */
+    GLSSAO_HORIZON      /* cosine-weighted visibility by slices; not there yet: GLSSAO_INVALID_ARGUMENT */
+} glssao_technique;
+
+typedef enum glssao_quality { GLSSAO_LOW = 0, GLSSAO_MEDIUM, GLSSAO_HIGH, GLSSAO_ULTRA } glssao_quality;
+
+typedef enum glssao_blur {
+    GLSSAO_BLUR_NONE = 0,
+    GLSSAO_BLUR_GAUSSIAN,  /* separable, 11 taps, crosses edges */
+    GLSSAO_BLUR_BILATERAL, /* the same taps, kept only where normal and view distance agree */
+    GLSSAO_BLUR_BOX        /* not there yet: GLSSAO_INVALID_ARGUMENT */
+} glssao_blur;
+
+typedef struct glssao_settings {   /* fill with glssao_default_settings() first, then change what you like */
+    glssao_technique technique;
+    float radius;                  /* scene units, >= 0: how far away an occluder can be. 0 occludes nothing */
+    float fade_start, fade_end;    /* scene units of view distance, 0 <= start <= end: an occluder this much nearer
+                                      than the point counts fully, or no longer (classic) */
+    float surface_epsilon;         /* scene units, >= 0: an occluder less than this nearer does not count (classic) */
+    float power;                   /* 0 to 64: accessibility is raised to this; more is darker */
+    int sample_count;              /* classic: 1 to 14 offset vectors, the 8 cube corners first */
+    bool half_resolution;          /* estimate at half the size, (w + 1) / 2 by (h + 1) / 2 */
+    glssao_blur blur;
+    int blur_rounds;               /* 0 to 16: each is one horizontal and one vertical pass */
+    float blur_sigma;              /* pixels of the ambient map, above 0 to 2.5 */
+    float blur_normal_threshold;   /* cosine, -1 to 1: taps whose normals' dot product is below are dropped */
+    float blur_depth_threshold;    /* scene units, >= 0: taps farther off in view distance are dropped */
+} glssao_settings;
+
+/* ---- frame: what the host hands over each time ---------------------------------------------------------- */
+
+typedef enum glssao_depth {
+    GLSSAO_DEPTH_WINDOW = 0,    /* what the depth buffer stores; depth or depth-stencil format */
+    GLSSAO_DEPTH_VIEW_DISTANCE, /* view distance in the red channel; not there yet: GLSSAO_INVALID_ARGUMENT */
+    GLSSAO_DEPTH_NORMAL_ALPHA   /* view distance in the normal map's alpha; not there yet: GLSSAO_INVALID_ARGUMENT */
+} glssao_depth;
+
+typedef enum glssao_normal {
+    GLSSAO_NORMAL_SIGNED = 0, /* xyz in -1..1, any length but 0 */
+    GLSSAO_NORMAL_UNSIGNED,   /* xyz stored as 0..1 */
+    GLSSAO_NORMAL_OCTAHEDRAL  /* two channels; not there yet: GLSSAO_INVALID_ARGUMENT */
+} glssao_normal;
+
+typedef struct glssao_frame {
+    uint32_t depth_texture;    /* GL_TEXTURE_2D of the effect's full size, level 0 */
+    glssao_depth depth_kind;
+    uint32_t normal_texture;   /* GL_TEXTURE_2D of the full size, view space; 0: rebuilt from depth (one more pass) */
+    glssao_normal normal_kind;
+    float projection[16];      /* column-major clip_from_view, finite and invertible: perspective (off-centre,
+                                  infinite, reversed: all fine) or orthographic */
+    bool clip_zero_to_one;     /* true where the host called glClipControl(..., GL_ZERO_TO_ONE) */
+} glssao_frame;
+
+/* ---- what the effect tells ------------------------------------------------------------------------------ */
+
+typedef enum glssao_map_id {
+    GLSSAO_MAP_AMBIENT = 0,   /* the result: accessibility in red, R16, half or full size */
+    GLSSAO_MAP_AMBIENT_OTHER, /* the other of the two ping-pong maps: the last horizontal blur */
+    GLSSAO_MAP_NORMAL,        /* the effect's own normal map, RGBA16F, full size */
+    GLSSAO_MAP_RANDOM_VECTOR, /* RGBA8, 256 x 256 */
+    GLSSAO_MAP_DEPTH          /* the host's depth texture as last handed over; 0 before the first */
+} glssao_map_id;
+
+/* The uniform block cbSsao, std140, with the D3D12 demo's members and names. Matrices are column-major. */
+typedef struct glssao_constants {
+    float gProj[16];             /* clip from view */
+    float gInvProj[16];          /* view from clip */
+    float gProjTex[16];          /* uv from view, by way of clip: divide by w */
+    float gOffsetVectors[14][4]; /* 8 cube corners, 6 face centres, each of random length in 0.25..1 */
+    float gBlurWeights[3][4];    /* 11 Gaussian weights that sum to 1; the twelfth is 0 */
+    float gInvRenderTargetSize[2]; /* one texel of the ambient map, in uv */
+    float gOcclusionRadius, gOcclusionFadeStart, gOcclusionFadeEnd, gSurfaceEpsilon; /* scene units */
+    float gPadding[2];           /* std140 rounds the block up to 496 bytes */
+} glssao_constants;
+
+typedef enum glssao_pass {
+    GLSSAO_PASS_NORMALS = 0, /* normals rebuilt from depth */
+    GLSSAO_PASS_ESTIMATE,    /* raw accessibility */
+    GLSSAO_PASS_BLUR,        /* all rounds */
+    GLSSAO_PASS_APPLY,       /* accessibility multiplied into colour, by glssao_apply */
+    GLSSAO_PASS_COUNT
+} glssao_pass;
+
+typedef struct glssao_plan { /* indexed by glssao_pass; GLSSAO_PASS_APPLY belongs to glssao_apply and is not planned */
+    struct glssao_planned_pass {
+        const char *name;    /* static text, as is `reason` */
+        const char *reason;  /* why it runs or is skipped, in words */
+        bool run;
+        int draw_calls;
+        int width, height;   /* pixels it covers */
+    } passes[GLSSAO_PASS_COUNT];
+} glssao_plan;
+
+typedef struct glssao_stats { /* of the last glssao_compute and glssao_apply */
+    uint64_t frame;          /* how many glssao_compute calls succeeded so far */
+    int draw_calls;          /* sum over the passes */
+    double gpu_ms;           /* sum over the passes; negative: not measured, or not known yet */
+    struct glssao_pass_stats {
+        const char *name;
+        int draw_calls;
+        double gpu_ms;       /* negative: as above */
+    } passes[GLSSAO_PASS_COUNT];
+} glssao_stats;
+
+/* ---- functions ------------------------------------------------------------------------------------------ */
+
+/* Makes an effect in the current context, with its maps, programs and random inputs; *out_effect is NULL on any
+ * failure. Fails with every glssao_result. Checks the driver's offsets of cbSsao against glssao_constants. */
+GLSSAO_API glssao_result glssao_create(const glssao_config *config, glssao_effect **out_effect);
+
+/* Deletes everything that the effect made; the context must still be current. NULL is fine. */
+GLSSAO_API void glssao_destroy(glssao_effect *effect);
+
+/* Sets a new full size in pixels and makes the maps anew; on failure the old ones stay. May fail with
+ * INVALID_ARGUMENT, OUT_OF_MEMORY, FRAMEBUFFER_ERROR. Map names from glssao_map are void afterwards. */
+GLSSAO_API glssao_result glssao_resize(glssao_effect *effect, int width, int height);
+
+/* Settings that suit the technique; out-of-range arguments are taken as GLSSAO_CLASSIC and GLSSAO_HIGH. */
+GLSSAO_API glssao_settings glssao_default_settings(glssao_technique technique, glssao_quality quality);
+
+/* For hosts without view-space normals of their own: binds the effect's normal map and your depth texture
+ * (depth or depth-stencil format, full size) as the draw framebuffer, sets the viewport to the full size, and
+ * clears both: normals to (0, 0, 1, 0), depth to your glClearDepth value. Draw your opaque geometry, writing
+ * view-space normals to output 0, then call glssao_end_normals, which restores framebuffers and viewport.
+ * Hand glssao_map(effect, GLSSAO_MAP_NORMAL, ...) to glssao_compute as normal_texture afterwards. */
+GLSSAO_API glssao_result glssao_begin_normals(glssao_effect *effect, uint32_t depth_texture);
+GLSSAO_API glssao_result glssao_end_normals(glssao_effect *effect);
+
+/* Runs the passes of glssao_plan_frame; the result is GLSSAO_MAP_AMBIENT. May fail with INVALID_ARGUMENT, and with
+ * the rest when a map or program needed for the first time can't be made. */
+GLSSAO_API glssao_result glssao_compute(glssao_effect *effect, const glssao_frame *frame,
+                                        const glssao_settings *settings);
+
+/* Multiplies accessibility into the colour (alpha stays) of draw buffer 0 of `framebuffer` (0: the default one),
+ * over the full size from its lower left corner. Occlusion then darkens direct light too: to be exact, sample
+ * the map in your own shader and scale ambient light alone. Needs a glssao_compute before. */
+GLSSAO_API glssao_result glssao_apply(glssao_effect *effect, uint32_t framebuffer);
+
+/* The texture's name, and its size if the pointers are not NULL; valid until the next resize, compute (which makes
+ * the ambient maps anew when half_resolution changes) or destroy. 0 and sizes of 0 where there is no such map. */
+GLSSAO_API uint32_t glssao_map(const glssao_effect *effect, glssao_map_id id, int *out_width, int *out_height);
+
+/* The block as last uploaded; the pointer lives as long as the effect. */
+GLSSAO_API const glssao_constants *glssao_get_constants(const glssao_effect *effect);
+
+/* What glssao_compute would do with these, without doing it. All passes are skipped where it would fail. */
+GLSSAO_API glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *frame,
+                                         const glssao_settings *settings);
+
+/* Counts of the last frame; its times as soon as the GPU has them (call glFinish first to be sure). Never waits. */
+GLSSAO_API glssao_stats glssao_get_stats(glssao_effect *effect);
+
+/* Static English text; never NULL. */
+GLSSAO_API const char *glssao_result_string(glssao_result result);
+
+/* Major << 16 | minor << 8 | patch of the library that runs, which may differ from the header's macros. */
+GLSSAO_API uint32_t glssao_version(void);
+
+/* A glssao_log_fn that prints "glssao: error: ..." to stderr; `user` is ignored. */
+GLSSAO_API void glssao_log_to_stderr(glssao_log_level level, const char *message, void *user);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
