@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// One direction of the separable blur: 11 taps of cbSsao's weights. With EDGE_AWARE 1, a tap counts only where its
+// normal and view distance agree with the centre's, and the weights that are left are scaled to sum to 1.
+// in  v_uv           0..1
+// in  u_ambient_map  accessibility, point sampled
+// in  u_normal_map, u_depth_map  as for the estimate (EDGE_AWARE 1)
+// out o_accessibility  0..1, R16
+
+in vec2 v_uv;
+uniform sampler2D u_ambient_map;
+uniform bool gHorizontalBlur;
+out float o_accessibility;
+
+const int RADIUS = 5;
+
+void main()
+{
+    vec2 step_uv = gHorizontalBlur ? vec2(gInvRenderTargetSize.x, 0.0) : vec2(0.0, gInvRenderTargetSize.y);
+#if EDGE_AWARE
+    vec2 center_uv = texel_center_uv(v_uv);
+    vec3 center_normal = normal_view_from_map(center_uv);
+    float center_distance = distance_from_depth(texture(u_depth_map, center_uv).r);
+#endif
+    float sum = 0.0;
+    float weights = 0.0;
+    for (int i = -RADIUS; i <= RADIUS; ++i) {
+        int slot = i + RADIUS;
+        float weight = gBlurWeights[slot / 4][slot % 4];
+        vec2 uv = v_uv + float(i) * step_uv;
+#if EDGE_AWARE
+        vec2 tap_uv = texel_center_uv(uv);
+        float cosine = dot(normal_view_from_map(tap_uv), center_normal);
+        float distance = distance_from_depth(texture(u_depth_map, tap_uv).r);
+        // The centre always counts, so the sum of weights is never 0, whatever the maps hold.
+        bool keep = i == 0 || (cosine >= gBlurNormalThreshold && abs(distance - center_distance) <= gBlurDepthThreshold);
+        weight = keep ? weight : 0.0;
+#endif
+        sum += weight * texture(u_ambient_map, uv).r;
+        weights += weight;
+    }
+    o_accessibility = sum / weights;
+}

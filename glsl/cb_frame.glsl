@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+// Members of the uniform block cbFrame (std140): what cbSsao has no room for. Read by both compilers, as cb_ssao.glsl.
+vec4 gDistanceFromDepth;    // numerator at depth 0 and at 1, denominator at depth 0 and at 1
+vec4 gRayOrigin;            // view xy at view distance 0: uv * xy + zw
+vec4 gRayDirection;         // view xy gained per unit of view distance: uv * xy + zw
+float gSkyDepth;            // the stored depth that means nothing was drawn
+float gPower;               // accessibility is raised to this
+float gBlurNormalThreshold; // cosine
+float gBlurDepthThreshold;  // scene units of view distance
+int gSampleCount;           // offset vectors in use, 1..14

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// The classic estimate (Luna, Introduction to 3D Game Programming with DirectX 12, chapter 21): 14 offset vectors,
+// reflected about a random vector, flipped to the normal's side; what is seen through each is a possible occluder.
+// in  v_uv              0..1
+// in  u_normal_map      view space, point sampled
+// in  u_depth_map       stored depth, linearly sampled, border: sky
+// in  u_random_vector_map  RGBA8, each channel uniform in 0..1, repeated 4 times across the target
+// out o_accessibility   0..1, R16
+
+in vec2 v_uv;
+uniform sampler2D u_random_vector_map;
+out float o_accessibility;
+
+// How much an occluder counts that is this much nearer to the camera than the point (scene units).
+float weight_from_distance(float nearer)
+{
+    if (nearer <= gSurfaceEpsilon)
+        return 0.0;
+    // Equal bounds make a step; the floor keeps its 0 / 0 from arising at exactly fade_end.
+    float fade_length = max(gOcclusionFadeEnd - gOcclusionFadeStart, 1e-20);
+    return clamp((gOcclusionFadeEnd - nearer) / fade_length, 0.0, 1.0);
+}
+
+void main()
+{
+    o_accessibility = 1.0;
+    vec2 center_uv = texel_center_uv(v_uv);
+    vec3 normal_view = normal_view_from_map(center_uv);
+    float depth = texture(u_depth_map, center_uv).r;
+    // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
+    if (depth == gSkyDepth || normal_view == vec3(0.0))
+        return;
+    vec3 position_view = position_view_from_uv(center_uv, distance_from_depth(depth));
+    // Not normalised, as in the reference; a vector of length 0 leaves every offset as it is.
+    vec3 random_vector = 2.0 * texture(u_random_vector_map, 4.0 * v_uv).rgb - 1.0;
+
+    float occlusion = 0.0;
+    for (int i = 0; i < gSampleCount; ++i) {
+        vec3 offset = gOffsetVectors[i].xyz;
+        offset -= 2.0 * dot(random_vector, offset) * random_vector; // reflect(), written out: no unit length needed
+        vec3 sample_view = position_view + sign(dot(offset, normal_view)) * gOcclusionRadius * offset;
+        vec4 sample_uvw = gProjTex * vec4(sample_view, 1.0);
+        // At or behind the camera nothing can be seen through the sample, and the division would mirror it.
+        if (sample_uvw.w <= 0.0)
+            continue;
+        // Near the camera's plane uv overflows; beyond the border all of it reads the same sky.
+        vec2 uv = clamp(sample_uvw.xy / sample_uvw.w, -1.0, 2.0);
+        vec3 occluder_view = position_view_from_uv(uv, distance_from_depth(texture(u_depth_map, uv).r));
+        vec3 to_occluder = occluder_view - position_view;
+        // r = p: the direction is 0 / 0 without the floor; its weight is 0 in any case.
+        float facing = max(dot(normal_view, to_occluder) * inversesqrt(max(dot(to_occluder, to_occluder), 1e-30)), 0.0);
+        occlusion += weight_from_distance(to_occluder.z) * facing;
+    }
+    float accessibility = 1.0 - occlusion / float(gSampleCount);
+    // pow() is undefined for a base of 0 with power 0, and for the negative that rounding can leave.
+    o_accessibility = clamp(pow(max(accessibility, 1e-6), gPower), 0.0, 1.0);
+}

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Reads the normal map. UNSIGNED_NORMALS 1: stored as 0..1.
+
+uniform sampler2D u_normal_map; // view space, any length
+
+// View-space unit normal, or 0 where the map holds none (length 0, infinite, not a number): a comparison with
+// something that is no number is false, so all three take the same way out, and normalize() never divides by 0.
+vec3 normal_view_from_map(vec2 uv)
+{
+    vec3 normal = texture(u_normal_map, uv).xyz;
+#if UNSIGNED_NORMALS
+    normal = normal * 2.0 - 1.0;
+#endif
+    float length_squared = dot(normal, normal);
+    if (!(length_squared > 1e-20 && length_squared < 1e20))
+        return vec3(0.0);
+    return normal * inversesqrt(length_squared);
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// View-space normals rebuilt from depth, for hosts that have none. Along each axis the side is taken whose two
+// nearest depths best predict the pixel's own (window depth is linear across a plane, so a plane predicts exactly
+// and a silhouette's other side does not).
+// in  u_depth_map  stored depth, full size, fetched
+// out o_normal     view space, unit length, RGBA16F; (0, 0, 1) on sky
+
+out vec4 o_normal;
+
+float depth_at(ivec2 pixel, ivec2 size)
+{
+    return texelFetch(u_depth_map, clamp(pixel, ivec2(0), size - 1), 0).r;
+}
+
+vec3 position_view_at(ivec2 pixel, ivec2 size)
+{
+    pixel = clamp(pixel, ivec2(0), size - 1);
+    return position_view_from_uv((vec2(pixel) + 0.5) / vec2(size), distance_from_depth(depth_at(pixel, size)));
+}
+
+// Change of position from the pixel to its neighbour along `axis`, from the better side.
+vec3 step_view(ivec2 pixel, ivec2 axis, ivec2 size, float depth, vec3 position_view)
+{
+    float before = abs(2.0 * depth_at(pixel - axis, size) - depth_at(pixel - 2 * axis, size) - depth);
+    float after = abs(2.0 * depth_at(pixel + axis, size) - depth_at(pixel + 2 * axis, size) - depth);
+    ivec2 low = pixel - 2 * axis;
+    ivec2 high = pixel + 2 * axis;
+    // A side that lies outside the map was clamped and predicts by chance.
+    bool has_before = low.x >= 0 && low.y >= 0;
+    bool has_after = high.x < size.x && high.y < size.y;
+    bool use_before = has_before && (!has_after || before < after);
+    // In maps of 1 or 2 pixels neither side has two depths: take one that exists.
+    if (!has_before && !has_after)
+        use_before = pixel.x - axis.x >= 0 && pixel.y - axis.y >= 0;
+    return use_before ? position_view - position_view_at(pixel - axis, size)
+                      : position_view_at(pixel + axis, size) - position_view;
+}
+
+// Only the direction matters: at length 1 or so the cross product neither overflows nor underflows at any scene scale.
+vec3 scaled_to_one(vec3 v)
+{
+    float largest = max(max(abs(v.x), abs(v.y)), abs(v.z));
+    return largest > 0.0 ? v / largest : v;
+}
+
+void main()
+{
+    ivec2 size = textureSize(u_depth_map, 0);
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float depth = depth_at(pixel, size);
+    vec3 position_view = position_view_at(pixel, size);
+    vec3 across = step_view(pixel, ivec2(1, 0), size, depth, position_view);
+    vec3 up = step_view(pixel, ivec2(0, 1), size, depth, position_view);
+    vec3 normal = cross(scaled_to_one(across), scaled_to_one(up));
+    float length_squared = dot(normal, normal);
+    // Where a map is one pixel wide there is no second direction; the view's own axis is the one neutral answer.
+    bool known = depth != gSkyDepth && length_squared > 0.0;
+    o_normal = vec4(known ? normal * inversesqrt(length_squared) : vec3(0.0, 0.0, 1.0), 0.0);
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// From stored depth to view space, for any perspective or orthographic projection. Included by passes that read depth.
+
+uniform sampler2D u_depth_map; // as the host stores it, red channel
+
+// Farther than any surface: stands for sky and for depths that are no number. Its square still fits a float.
+const float FAR_AWAY = 1e15;
+
+// View distance (scene units) of a stored depth. Both ends of the depth range are exact constants and are blended
+// as (1 - d) a + d b, because a + d (b - a) cancels where far is much larger than near.
+float distance_from_depth(float depth)
+{
+    vec4 k = gDistanceFromDepth;
+    float distance = ((1.0 - depth) * k.x + depth * k.y) / ((1.0 - depth) * k.z + depth * k.w);
+    // An infinite far plane divides by 0 at the sky, and 0 / 0 is possible beyond it: neither may reach a sum.
+    return abs(distance) < FAR_AWAY ? distance : FAR_AWAY;
+}
+
+// The centre of the full-size texel that stands for a pixel of the ambient map. At half size and even sizes, uv falls
+// on the corner of four texels, where rounding would pick one at random and filtering would mix a silhouette's two
+// sides; a quarter texel back, the lower left of the four is always meant. At full size uv is a centre already.
+vec2 texel_center_uv(vec2 uv)
+{
+    vec2 size = vec2(textureSize(u_depth_map, 0));
+    return (floor(uv * size - 0.25) + 0.5) / size;
+}
+
+// The point that is seen at uv at a view distance (scene units).
+vec3 position_view_from_uv(vec2 uv, float distance)
+{
+    vec2 origin = uv * gRayOrigin.xy + gRayOrigin.zw;
+    vec2 direction = uv * gRayDirection.xy + gRayDirection.zw;
+    return vec3(origin + distance * direction, -distance);
+}

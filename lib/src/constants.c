@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Fills the uniform blocks. glsl/cb_ssao.glsl and glsl/cb_frame.glsl are compiled here as C too, so that the structs
+ * can't drift from what the shaders read.
+ */
+#include "effect.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef float mat4[16];
+typedef float vec4[4];
+typedef float vec2[2];
+struct block_ssao {
+#include "cb_ssao.glsl"
+};
+struct block_frame {
+#include "cb_frame.glsl"
+};
+
+#define SAME(block, type, member)                                                                                      \
+    _Static_assert(offsetof(struct block, member) == offsetof(type, member), #member " lies elsewhere in the shader")
+SAME(block_ssao, glssao_constants, gProj);
+SAME(block_ssao, glssao_constants, gInvProj);
+SAME(block_ssao, glssao_constants, gProjTex);
+SAME(block_ssao, glssao_constants, gOffsetVectors);
+SAME(block_ssao, glssao_constants, gBlurWeights);
+SAME(block_ssao, glssao_constants, gInvRenderTargetSize);
+SAME(block_ssao, glssao_constants, gOcclusionRadius);
+SAME(block_ssao, glssao_constants, gOcclusionFadeStart);
+SAME(block_ssao, glssao_constants, gOcclusionFadeEnd);
+SAME(block_ssao, glssao_constants, gSurfaceEpsilon);
+SAME(block_frame, glssao__frame_constants, gDistanceFromDepth);
+SAME(block_frame, glssao__frame_constants, gRayOrigin);
+SAME(block_frame, glssao__frame_constants, gRayDirection);
+SAME(block_frame, glssao__frame_constants, gSkyDepth);
+SAME(block_frame, glssao__frame_constants, gPower);
+SAME(block_frame, glssao__frame_constants, gBlurNormalThreshold);
+SAME(block_frame, glssao__frame_constants, gBlurDepthThreshold);
+SAME(block_frame, glssao__frame_constants, gSampleCount);
+_Static_assert(sizeof(struct block_ssao) == 488 && sizeof(glssao_constants) == 496, "cbSsao has another size");
+_Static_assert(sizeof(glssao__frame_constants) % 16 == 0, "std140 rounds a block up to a vec4");
+
+void glssao__constants_init(glssao_constants *c, uint32_t seed)
+{
+    memset(c, 0, sizeof *c);
+    /* Opposite ones next to each other, so that any even count of them is balanced. */
+    static const float directions[14][3] = {
+        {1, 1, 1},  {-1, -1, -1}, {-1, 1, 1}, {1, -1, -1}, {1, 1, -1}, {-1, -1, 1}, {-1, 1, -1},
+        {1, -1, 1}, {-1, 0, 0},   {1, 0, 0},  {0, -1, 0},  {0, 1, 0},  {0, 0, -1},  {0, 0, 1},
+    };
+    glssao__random random = glssao__random_seed(seed, 0);
+    for (int i = 0; i < 14; ++i) {
+        const float *d = directions[i];
+        float length = sqrtf(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+        float scale = (0.25f + 0.75f * glssao__random_unit(&random)) / length;
+        for (int axis = 0; axis < 3; ++axis)
+            c->gOffsetVectors[i][axis] = scale * d[axis];
+    }
+}
+
+/* weight(i) ~ exp(-i^2 / (2 sigma^2)), i = -radius..radius with radius = ceil(2 sigma), stored about slot 5. */
+void glssao__constants_gauss_weights(float sigma, float out_weights[3][4])
+{
+    int radius = (int)ceilf(2.0f * sigma);
+    double sum = 0.0, weights[12] = {0.0};
+    for (int i = -radius; i <= radius; ++i) {
+        weights[i + 5] = exp(-(double)(i * i) / (2.0 * (double)sigma * (double)sigma));
+        sum += weights[i + 5];
+    }
+    for (int i = 0; i < 12; ++i)
+        out_weights[i / 4][i % 4] = (float)(weights[i] / sum);
+}
+
+void glssao__constants_fill(glssao_constants *c, const glssao_frame *frame, const glssao_settings *settings,
+                            const glssao__projection *projection, int ambient_width, int ambient_height)
+{
+    memcpy(c->gProj, frame->projection, sizeof c->gProj);
+    memcpy(c->gInvProj, projection->view_from_clip, sizeof c->gInvProj);
+    for (int col = 0; col < 4; ++col) {
+        const float *p = frame->projection + 4 * col;
+        float *t = c->gProjTex + 4 * col;
+        t[0] = 0.5f * p[0] + 0.5f * p[3];
+        t[1] = 0.5f * p[1] + 0.5f * p[3];
+        t[2] = p[2];
+        t[3] = p[3];
+    }
+    glssao__constants_gauss_weights(settings->blur_sigma, c->gBlurWeights);
+    c->gInvRenderTargetSize[0] = 1.0f / (float)ambient_width;
+    c->gInvRenderTargetSize[1] = 1.0f / (float)ambient_height;
+    c->gOcclusionRadius = settings->radius;
+    c->gOcclusionFadeStart = settings->fade_start;
+    c->gOcclusionFadeEnd = settings->fade_end;
+    c->gSurfaceEpsilon = settings->surface_epsilon;
+}
+
+void glssao__constants_fill_frame(glssao__frame_constants *c, const glssao_settings *settings,
+                                  const glssao__projection *projection)
+{
+    memset(c, 0, sizeof *c);
+    memcpy(c->gDistanceFromDepth, projection->distance_from_depth, sizeof c->gDistanceFromDepth);
+    memcpy(c->gRayOrigin, projection->ray_origin, sizeof c->gRayOrigin);
+    memcpy(c->gRayDirection, projection->ray_direction, sizeof c->gRayDirection);
+    c->gSkyDepth = projection->sky_depth;
+    c->gPower = settings->power;
+    c->gBlurNormalThreshold = settings->blur_normal_threshold;
+    c->gBlurDepthThreshold = settings->blur_depth_threshold;
+    c->gSampleCount = settings->sample_count;
+}

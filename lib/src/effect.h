@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What an effect is made of, and the internal functions of the library, by file.
+ */
+#ifndef GLSSAO_EFFECT_H
+#define GLSSAO_EFFECT_H
+
+#include "gl.h"
+#include "glssao/glssao.h"
+
+#include <stdarg.h>
+
+#if defined(__GNUC__)
+#define GLSSAO_PRINTF(text, first) __attribute__((format(printf, text, first)))
+#else
+#define GLSSAO_PRINTF(text, first)
+#endif
+
+/* Texture units that the passes read through; the shaders' samplers are tied to them once. */
+enum glssao__unit { UNIT_NORMAL = 0, UNIT_DEPTH, UNIT_RANDOM_VECTOR, UNIT_AMBIENT, UNIT_COUNT };
+
+/* The D3D12 demo's static samplers. */
+enum glssao__sampler {
+    SAMPLER_POINT_CLAMP = 0,
+    SAMPLER_LINEAR_CLAMP,
+    SAMPLER_DEPTH,
+    SAMPLER_LINEAR_WRAP,
+    SAMPLER_COUNT
+};
+
+enum glssao__block { BLOCK_SSAO = 0, BLOCK_FRAME, BLOCK_COUNT }; /* also the uniform buffer binding points used */
+
+/* One shader variant each; the table in program.c says what they are compiled from. */
+enum glssao__program {
+    PROGRAM_NORMALS = 0,
+    PROGRAM_CLASSIC,
+    PROGRAM_CLASSIC_UNSIGNED, /* normals stored as 0..1 */
+    PROGRAM_BLUR_GAUSSIAN,
+    PROGRAM_BLUR_BILATERAL,
+    PROGRAM_BLUR_BILATERAL_UNSIGNED,
+    PROGRAM_APPLY,
+    PROGRAM_COUNT
+};
+
+enum { RANDOM_VECTOR_MAP_SIZE = 256, TIMER_FRAMES = 4, MAX_DRAW_BUFFERS = 8, TOGGLE_CAPACITY = 32 };
+
+typedef struct glssao__log_sink {
+    glssao_log_fn write; /* may be NULL */
+    void *user;
+} glssao__log_sink;
+
+/* glsl/cb_frame.glsl in C. */
+typedef struct glssao__frame_constants {
+    float gDistanceFromDepth[4];
+    float gRayOrigin[4];
+    float gRayDirection[4];
+    float gSkyDepth;
+    float gPower;
+    float gBlurNormalThreshold;
+    float gBlurDepthThreshold;
+    int gSampleCount;
+    float padding[3]; /* std140 rounds the block up to 80 bytes */
+} glssao__frame_constants;
+
+/* What a projection says about depth, worked out in double precision. */
+typedef struct glssao__projection {
+    float view_from_clip[16];
+    float distance_from_depth[4], ray_origin[4], ray_direction[4]; /* as in cbFrame */
+    float sky_depth;
+    float sky_distance; /* scene units; infinite where the far plane is */
+} glssao__projection;
+
+typedef struct glssao__ambient_maps {
+    gl_uint texture[2], framebuffer[2];
+    int width, height;
+} glssao__ambient_maps;
+
+typedef struct glssao__normal_map {
+    gl_uint texture, framebuffer;
+} glssao__normal_map;
+
+typedef struct glssao__program_object {
+    gl_uint name;               /* 0: not compiled yet */
+    gl_int horizontal_location; /* of gHorizontalBlur, -1 where there is none */
+} glssao__program_object;
+
+typedef struct glssao__timer_frame {
+    gl_uint queries[GLSSAO_PASS_COUNT][2]; /* timestamps before and after */
+    bool used[GLSSAO_PASS_COUNT];
+} glssao__timer_frame;
+
+/* The host's GL state, as state.c found it. */
+typedef struct glssao__host_state {
+    gl_int program, vertex_array, draw_framebuffer, read_framebuffer, active_texture;
+    gl_float viewport[4];
+    gl_int textures[UNIT_COUNT], samplers[UNIT_COUNT];
+    gl_int uniform_buffer;
+    struct {
+        gl_int buffer;
+        int64_t offset, size;
+    } uniform_binding[BLOCK_COUNT];
+    gl_int unpack_buffer;
+    gl_int unpack[6];
+    gl_int polygon_mode[2];
+    gl_int clip_origin, clip_depth;
+    gl_boolean depth_mask;
+    gl_boolean color_mask[MAX_DRAW_BUFFERS][4];
+    gl_int blend_function[4], blend_equation[2];
+    gl_boolean blend, scissor;
+    gl_boolean toggles[TOGGLE_CAPACITY];
+} glssao__host_state;
+
+struct glssao_effect {
+    glssao__gl gl;
+    glssao__log_sink log;
+    uint32_t seed;
+    bool has_timers;
+    int width, height;
+
+    glssao__normal_map normal_map;
+    glssao__ambient_maps ambient;
+    bool ambient_is_one; /* both ambient maps hold 1 everywhere: nothing to clear */
+    gl_uint random_vector_map;
+    gl_uint depth_texture; /* the host's, as last handed over */
+    gl_uint samplers[SAMPLER_COUNT];
+    gl_uint vertex_array;
+    gl_uint uniform_buffers[BLOCK_COUNT];
+    glssao__program_object programs[PROGRAM_COUNT];
+
+    glssao_constants constants;
+    glssao__frame_constants frame_constants;
+
+    bool between_normals; /* glssao_begin_normals was called, glssao_end_normals not yet */
+    gl_int host_framebuffer;
+    gl_float host_viewport[4];
+
+    uint64_t frame;
+    int draw_calls[GLSSAO_PASS_COUNT];
+    glssao__timer_frame timers[TIMER_FRAMES];
+};
+
+/* log.c: one line to the host's log. */
+void glssao__log_write(const glssao__log_sink *log, glssao_log_level level, const char *format, ...)
+    GLSSAO_PRINTF(3, 4);
+
+/* projection.c: false, with the reason logged, where the matrix is none that a depth map can come from. */
+bool glssao__projection_analyse(const float projection[16], bool clip_zero_to_one, const glssao__log_sink *log,
+                                glssao__projection *out);
+
+/* constants.c */
+void glssao__constants_init(glssao_constants *c, uint32_t seed);
+void glssao__constants_fill(glssao_constants *c, const glssao_frame *frame, const glssao_settings *settings,
+                            const glssao__projection *projection, int ambient_width, int ambient_height);
+void glssao__constants_fill_frame(glssao__frame_constants *c, const glssao_settings *settings,
+                                  const glssao__projection *projection);
+void glssao__constants_gauss_weights(float sigma, float out_weights[3][4]);
+
+/* random.c: PCG32 (O'Neill 2014); the same seed gives the same numbers on every machine. */
+typedef struct glssao__random {
+    uint64_t state;
+} glssao__random;
+glssao__random glssao__random_seed(uint32_t seed, uint32_t stream);
+uint32_t glssao__random_next(glssao__random *r);
+float glssao__random_unit(glssao__random *r);                        /* 0 <= x < 1, 24 bits */
+void glssao__random_vector_texels(uint32_t seed, uint8_t *out_rgba); /* RANDOM_VECTOR_MAP_SIZE squared */
+
+/* settings.c: false, with field and value logged, where one is out of range. */
+bool glssao__settings_check(const glssao_settings *settings, const glssao__log_sink *log);
+bool glssao__settings_check_frame(const glssao_effect *effect, const glssao_frame *frame,
+                                  const glssao_settings *settings, const glssao__log_sink *log,
+                                  glssao__projection *out_projection);
+
+/* plan.c: the size of the ambient maps that the settings ask for. */
+void glssao__plan_ambient_size(const glssao_effect *effect, const glssao_settings *settings, int *out_width,
+                               int *out_height);
+
+/* state.c: saves what the passes touch, then sets what they need; and puts all of it back. */
+void glssao__state_save(const glssao__gl *gl, glssao__host_state *out_state);
+void glssao__state_restore(const glssao__gl *gl, const glssao__host_state *state);
+void glssao__state_set_viewport(const glssao__gl *gl, const gl_float viewport[4]);
+
+/* maps.c */
+glssao_result glssao__maps_make_ambient(glssao_effect *effect, int width, int height, glssao__ambient_maps *out_maps);
+void glssao__maps_delete_ambient(const glssao__gl *gl, glssao__ambient_maps *maps);
+glssao_result glssao__maps_make_normal(glssao_effect *effect, int width, int height, glssao__normal_map *out_map);
+void glssao__maps_delete_normal(const glssao__gl *gl, glssao__normal_map *map);
+glssao_result glssao__maps_make_random_vector(glssao_effect *effect);
+void glssao__maps_clear_ambient(glssao_effect *effect);
+void glssao__maps_make_samplers(glssao_effect *effect);
+glssao_result glssao__maps_check_texture(glssao_effect *effect, gl_uint texture, bool needs_depth, const char *field);
+
+/* program.c */
+enum { GLSSAO__PROGRAM_MAX_SOURCES = 12 };
+/* Pieces of a shader stage of a variant, in the order that the driver gets them; returns how many. */
+int glssao__program_sources(enum glssao__program id, gl_enum stage,
+                            const char *out_sources[GLSSAO__PROGRAM_MAX_SOURCES]);
+const char *glssao__program_name(enum glssao__program id);
+/* The variant, compiled on first use. */
+glssao_result glssao__program_get(glssao_effect *effect, enum glssao__program id, const glssao__program_object **out);
+
+/* stats.c */
+void glssao__stats_begin_frame(glssao_effect *effect);
+void glssao__stats_begin_pass(glssao_effect *effect, glssao_pass pass);
+void glssao__stats_end_pass(glssao_effect *effect, glssao_pass pass, int draw_calls);
+void glssao__stats_make_timers(glssao_effect *effect);
+extern const char *const glssao__stats_pass_names[GLSSAO_PASS_COUNT];
+
+#endif

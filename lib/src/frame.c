@@ -1,0 +1,301 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * One frame: the host's normals, the planned passes, and the result multiplied into colour.
+ */
+#include "effect.h"
+
+/* With GLSSAO_CHECK_GL only: names the pass after which the driver holds an error. Eats errors of the host. */
+static void check_gl(const glssao_effect *effect, const char *where)
+{
+#if GLSSAO_CHECK_GL
+    for (gl_enum error = effect->gl.GetError(); error != 0; error = effect->gl.GetError())
+        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "OpenGL error 0x%04X after %s", error, where);
+#else
+    (void)effect;
+    (void)where;
+#endif
+}
+
+static void bind_input(const glssao_effect *effect, enum glssao__unit unit, gl_uint texture,
+                       enum glssao__sampler sampler)
+{
+    effect->gl.ActiveTexture(GL_TEXTURE0 + (gl_uint)unit);
+    effect->gl.BindTexture(GL_TEXTURE_2D, texture);
+    effect->gl.BindSampler((gl_uint)unit, effect->samplers[sampler]);
+}
+
+/* Covers width x height of the framebuffer with the bound program. */
+static void draw(const glssao_effect *effect, gl_uint framebuffer, int width, int height)
+{
+    const glssao__gl *gl = &effect->gl;
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    glssao__state_set_viewport(gl, (const gl_float[4]){0.0f, 0.0f, (gl_float)width, (gl_float)height});
+    gl->BindVertexArray(effect->vertex_array);
+    gl->DrawArrays(GL_TRIANGLES, 0, 6);
+}
+
+static bool is_between_normals(const glssao_effect *effect, const char *function)
+{
+    if (effect->between_normals)
+        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "%s called before glssao_end_normals", function);
+    return effect->between_normals;
+}
+
+/* ---- the host's normals ---- */
+
+static void attach_depth(const glssao_effect *effect, gl_uint depth_texture)
+{
+    const glssao__gl *gl = &effect->gl;
+    gl_int stencil_bits = 0;
+    if (depth_texture) {
+        gl->ActiveTexture(GL_TEXTURE0 + UNIT_DEPTH);
+        gl->BindTexture(GL_TEXTURE_2D, depth_texture);
+        gl->GetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_STENCIL_SIZE, &stencil_bits);
+    }
+    gl_enum attachment = stencil_bits > 0 ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT;
+    gl->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, 0, 0);
+    gl->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, attachment, GL_TEXTURE_2D, depth_texture, 0);
+}
+
+static glssao_result begin_normals(glssao_effect *effect, gl_uint depth_texture)
+{
+    const glssao__gl *gl = &effect->gl;
+    glssao_result result = glssao__maps_check_texture(effect, depth_texture, true, "depth_texture");
+    if (result != GLSSAO_OK)
+        return result;
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, effect->normal_map.framebuffer);
+    attach_depth(effect, depth_texture);
+    gl_enum status = gl->CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE) {
+        attach_depth(effect, 0);
+        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "depth_texture = %u: refused beside the normal map: 0x%04X",
+                          depth_texture, status);
+        return GLSSAO_FRAMEBUFFER_ERROR;
+    }
+    gl_float clear_depth = 1.0f;
+    gl->GetFloatv(GL_DEPTH_CLEAR_VALUE, &clear_depth);
+    gl->ClearBufferfv(GL_COLOR, 0, (const gl_float[4]){0.0f, 0.0f, 1.0f, 0.0f});
+    gl->ClearBufferfv(GL_DEPTH, 0, &clear_depth);
+    return GLSSAO_OK;
+}
+
+glssao_result glssao_begin_normals(glssao_effect *effect, uint32_t depth_texture)
+{
+    if (!effect || is_between_normals(effect, "glssao_begin_normals"))
+        return GLSSAO_INVALID_ARGUMENT;
+    const glssao__gl *gl = &effect->gl;
+    glssao__host_state host;
+    glssao__state_save(gl, &host);
+    glssao_result result = begin_normals(effect, depth_texture);
+    glssao__state_restore(gl, &host);
+    check_gl(effect, "glssao_begin_normals");
+    if (result != GLSSAO_OK)
+        return result;
+    effect->depth_texture = depth_texture;
+    effect->between_normals = true;
+    effect->host_framebuffer = host.draw_framebuffer;
+    for (int i = 0; i < 4; ++i)
+        effect->host_viewport[i] = host.viewport[i];
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, effect->normal_map.framebuffer);
+    glssao__state_set_viewport(gl, (const gl_float[4]){0.0f, 0.0f, (gl_float)effect->width, (gl_float)effect->height});
+    return GLSSAO_OK;
+}
+
+glssao_result glssao_end_normals(glssao_effect *effect)
+{
+    if (!effect)
+        return GLSSAO_INVALID_ARGUMENT;
+    if (!effect->between_normals) {
+        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "glssao_end_normals called without glssao_begin_normals");
+        return GLSSAO_INVALID_ARGUMENT;
+    }
+    const glssao__gl *gl = &effect->gl;
+    /* Detached, the depth texture can be read by the passes, and deleted by the host. */
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, effect->normal_map.framebuffer);
+    gl->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, 0, 0);
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, (gl_uint)effect->host_framebuffer);
+    glssao__state_set_viewport(gl, effect->host_viewport);
+    effect->between_normals = false;
+    check_gl(effect, "glssao_end_normals");
+    return GLSSAO_OK;
+}
+
+/* ---- the passes ---- */
+
+typedef struct frame_programs {
+    const glssao__program_object *normals, *estimate, *blur;
+} frame_programs;
+
+/* Compiles what the plan needs, before anything changes. */
+static glssao_result get_programs(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
+                                  const glssao_plan *plan, frame_programs *out)
+{
+    bool is_unsigned = frame->normal_texture && frame->normal_kind == GLSSAO_NORMAL_UNSIGNED;
+    glssao_result result = GLSSAO_OK;
+    if (plan->passes[GLSSAO_PASS_NORMALS].run)
+        result = glssao__program_get(effect, PROGRAM_NORMALS, &out->normals);
+    if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_ESTIMATE].run)
+        result = glssao__program_get(effect, is_unsigned ? PROGRAM_CLASSIC_UNSIGNED : PROGRAM_CLASSIC, &out->estimate);
+    if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_BLUR].run)
+        result = glssao__program_get(effect,
+                                     settings->blur == GLSSAO_BLUR_GAUSSIAN ? PROGRAM_BLUR_GAUSSIAN
+                                     : is_unsigned                          ? PROGRAM_BLUR_BILATERAL_UNSIGNED
+                                                                            : PROGRAM_BLUR_BILATERAL,
+                                     &out->blur);
+    return result;
+}
+
+static glssao_result fit_ambient(glssao_effect *effect, const glssao_settings *settings)
+{
+    int width, height;
+    glssao__plan_ambient_size(effect, settings, &width, &height);
+    if (width == effect->ambient.width && height == effect->ambient.height)
+        return GLSSAO_OK;
+    glssao__ambient_maps maps;
+    glssao_result result = glssao__maps_make_ambient(effect, width, height, &maps);
+    if (result != GLSSAO_OK)
+        return result;
+    glssao__maps_delete_ambient(&effect->gl, &effect->ambient);
+    effect->ambient = maps;
+    effect->ambient_is_one = true;
+    return GLSSAO_OK;
+}
+
+static void upload_constants(glssao_effect *effect)
+{
+    const glssao__gl *gl = &effect->gl;
+    const void *data[BLOCK_COUNT] = {&effect->constants, &effect->frame_constants};
+    const gl_sizeiptr sizes[BLOCK_COUNT] = {sizeof effect->constants, sizeof effect->frame_constants};
+    for (gl_uint i = 0; i < BLOCK_COUNT; ++i) {
+        gl->BindBufferBase(GL_UNIFORM_BUFFER, i, effect->uniform_buffers[i]);
+        gl->BufferSubData(GL_UNIFORM_BUFFER, 0, sizes[i], data[i]);
+    }
+}
+
+static void rebuild_normals(glssao_effect *effect, const glssao__program_object *program)
+{
+    effect->gl.UseProgram(program->name);
+    draw(effect, effect->normal_map.framebuffer, effect->width, effect->height);
+}
+
+static void estimate(glssao_effect *effect, const glssao__program_object *program)
+{
+    bind_input(effect, UNIT_RANDOM_VECTOR, effect->random_vector_map, SAMPLER_LINEAR_WRAP);
+    effect->gl.UseProgram(program->name);
+    draw(effect, effect->ambient.framebuffer[0], effect->ambient.width, effect->ambient.height);
+}
+
+static void blur(glssao_effect *effect, const glssao__program_object *program, int rounds)
+{
+    effect->gl.UseProgram(program->name);
+    for (int i = 0; i < 2 * rounds; ++i) {
+        int from = i % 2; /* horizontal 0 to 1, vertical 1 to 0 */
+        effect->gl.Uniform1i(program->horizontal_location, from == 0);
+        bind_input(effect, UNIT_AMBIENT, effect->ambient.texture[from], SAMPLER_POINT_CLAMP);
+        draw(effect, effect->ambient.framebuffer[1 - from], effect->ambient.width, effect->ambient.height);
+    }
+}
+
+static glssao_result compute(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
+                             const glssao__projection *projection)
+{
+    glssao_result result = glssao__maps_check_texture(effect, frame->depth_texture, false, "frame.depth_texture");
+    if (result == GLSSAO_OK && frame->normal_texture)
+        result = glssao__maps_check_texture(effect, frame->normal_texture, false, "frame.normal_texture");
+    const glssao_plan plan = glssao_plan_frame(effect, frame, settings);
+    frame_programs programs = {0};
+    if (result == GLSSAO_OK)
+        result = get_programs(effect, frame, settings, &plan, &programs);
+    if (result == GLSSAO_OK)
+        result = fit_ambient(effect, settings);
+    if (result != GLSSAO_OK)
+        return result;
+
+    effect->depth_texture = frame->depth_texture;
+    glssao__constants_fill(&effect->constants, frame, settings, projection, effect->ambient.width,
+                           effect->ambient.height);
+    glssao__constants_fill_frame(&effect->frame_constants, settings, projection);
+    upload_constants(effect);
+    glssao__stats_begin_frame(effect);
+    if (!plan.passes[GLSSAO_PASS_ESTIMATE].run) {
+        glssao__maps_clear_ambient(effect);
+        return GLSSAO_OK;
+    }
+    effect->ambient_is_one = false;
+    gl_float sky = projection->sky_depth;
+    effect->gl.SamplerParameterfv(effect->samplers[SAMPLER_DEPTH], GL_TEXTURE_BORDER_COLOR,
+                                  (const gl_float[4]){sky, sky, sky, sky});
+    bind_input(effect, UNIT_DEPTH, frame->depth_texture, SAMPLER_DEPTH);
+    if (plan.passes[GLSSAO_PASS_NORMALS].run) {
+        glssao__stats_begin_pass(effect, GLSSAO_PASS_NORMALS);
+        rebuild_normals(effect, programs.normals);
+        glssao__stats_end_pass(effect, GLSSAO_PASS_NORMALS, plan.passes[GLSSAO_PASS_NORMALS].draw_calls);
+        check_gl(effect, "rebuilding normals");
+    }
+    bind_input(effect, UNIT_NORMAL, frame->normal_texture ? frame->normal_texture : effect->normal_map.texture,
+               SAMPLER_POINT_CLAMP);
+    glssao__stats_begin_pass(effect, GLSSAO_PASS_ESTIMATE);
+    estimate(effect, programs.estimate);
+    glssao__stats_end_pass(effect, GLSSAO_PASS_ESTIMATE, plan.passes[GLSSAO_PASS_ESTIMATE].draw_calls);
+    check_gl(effect, "the estimate");
+    if (plan.passes[GLSSAO_PASS_BLUR].run) {
+        glssao__stats_begin_pass(effect, GLSSAO_PASS_BLUR);
+        blur(effect, programs.blur, settings->blur_rounds);
+        glssao__stats_end_pass(effect, GLSSAO_PASS_BLUR, plan.passes[GLSSAO_PASS_BLUR].draw_calls);
+        check_gl(effect, "the blur");
+    }
+    return GLSSAO_OK;
+}
+
+glssao_result glssao_compute(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
+{
+    glssao__projection projection;
+    if (!effect || is_between_normals(effect, "glssao_compute") ||
+        !glssao__settings_check_frame(effect, frame, settings, &effect->log, &projection))
+        return GLSSAO_INVALID_ARGUMENT;
+    glssao__host_state host;
+    glssao__state_save(&effect->gl, &host);
+    glssao_result result = compute(effect, frame, settings, &projection);
+    glssao__state_restore(&effect->gl, &host);
+    check_gl(effect, "glssao_compute");
+    return result;
+}
+
+static glssao_result apply(glssao_effect *effect, gl_uint framebuffer)
+{
+    const glssao__gl *gl = &effect->gl;
+    const glssao__program_object *program;
+    glssao_result result = glssao__program_get(effect, PROGRAM_APPLY, &program);
+    if (result != GLSSAO_OK)
+        return result;
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    gl_enum status = gl->CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE) {
+        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "framebuffer = %u: not complete: 0x%04X", framebuffer,
+                          status);
+        return GLSSAO_FRAMEBUFFER_ERROR;
+    }
+    glssao__stats_begin_pass(effect, GLSSAO_PASS_APPLY);
+    gl->Enablei(GL_BLEND, 0);
+    gl->UseProgram(program->name);
+    bind_input(effect, UNIT_AMBIENT, effect->ambient.texture[0], SAMPLER_LINEAR_CLAMP);
+    draw(effect, framebuffer, effect->width, effect->height);
+    glssao__stats_end_pass(effect, GLSSAO_PASS_APPLY, 1);
+    return GLSSAO_OK;
+}
+
+glssao_result glssao_apply(glssao_effect *effect, uint32_t framebuffer)
+{
+    if (!effect || is_between_normals(effect, "glssao_apply"))
+        return GLSSAO_INVALID_ARGUMENT;
+    if (effect->frame == 0) {
+        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "glssao_apply called before glssao_compute");
+        return GLSSAO_INVALID_ARGUMENT;
+    }
+    glssao__host_state host;
+    glssao__state_save(&effect->gl, &host);
+    glssao_result result = apply(effect, framebuffer);
+    glssao__state_restore(&effect->gl, &host);
+    check_gl(effect, "glssao_apply");
+    return result;
+}

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Fills the table of GL functions from the host's loader and looks at what the context is.
+ */
+#include "gl.h"
+
+#include <string.h>
+
+static bool has_extension(const glssao__gl *gl, const char *name)
+{
+    gl_int count = 0;
+    gl->GetIntegerv(GL_NUM_EXTENSIONS, &count);
+    for (gl_int i = 0; i < count; ++i) {
+        const unsigned char *extension = gl->GetStringi(GL_EXTENSIONS, (gl_uint)i);
+        if (extension && strcmp((const char *)extension, name) == 0)
+            return true;
+    }
+    return false;
+}
+
+static int read_version(const glssao__gl *gl)
+{
+    /* Embedded contexts answer the same queries with numbers of their own. */
+    const char *text = (const char *)gl->GetString(GL_VERSION);
+    if (!text || strncmp(text, "OpenGL ES", 9) == 0)
+        return 0;
+    gl_int major = 0, minor = 0;
+    gl->GetIntegerv(GL_MAJOR_VERSION, &major);
+    gl->GetIntegerv(GL_MINOR_VERSION, &minor);
+    return 10 * major + minor;
+}
+
+static int smaller(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+bool glssao__gl_load(glssao__gl *gl, glssao__gl_load_fn load, void *user, const char **out_missing)
+{
+    memset(gl, 0, sizeof *gl);
+    void *address;
+/* ISO C has no cast from an object pointer to a function pointer; every platform with OpenGL keeps them alike. */
+#define LOAD(returns, name, arguments)                                                                                 \
+    address = load("gl" #name, user);                                                                                  \
+    memcpy(&gl->name, &address, sizeof address);
+#define LOAD_REQUIRED(returns, name, arguments)                                                                        \
+    LOAD(returns, name, arguments)                                                                                     \
+    if (!gl->name) {                                                                                                   \
+        *out_missing = "gl" #name;                                                                                     \
+        return false;                                                                                                  \
+    }
+    GLSSAO_GL_FUNCTIONS(LOAD_REQUIRED)
+    gl->version = read_version(gl);
+    if (gl->version < 33) {
+        *out_missing = "OpenGL 3.3";
+        return false;
+    }
+    GLSSAO_GL_OPTIONAL_FUNCTIONS(LOAD)
+#undef LOAD_REQUIRED
+#undef LOAD
+
+    /* A loader may hand out a stub for a name that the context lacks, so the version or extension decides. */
+    if (gl->version < 40 && !has_extension(gl, "GL_ARB_draw_buffers_blend")) {
+        gl->BlendEquationSeparatei = NULL;
+        gl->BlendFuncSeparatei = NULL;
+    }
+    if (gl->version < 41 && !has_extension(gl, "GL_ARB_viewport_array"))
+        gl->ViewportIndexedf = NULL;
+    if (gl->version < 45 && !has_extension(gl, "GL_ARB_clip_control"))
+        gl->ClipControl = NULL;
+    gl->depth_bounds_test = has_extension(gl, "GL_EXT_depth_bounds_test");
+
+    gl_int mask = 0, texture_size = 0, viewport[2] = {0, 0};
+    gl->GetIntegerv(GL_CONTEXT_PROFILE_MASK, &mask);
+    gl->compatibility = (mask & GL_CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0;
+    gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &texture_size);
+    gl->GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+    gl->max_size = smaller(texture_size, smaller(viewport[0], viewport[1]));
+    gl->GetIntegerv(GL_MAX_DRAW_BUFFERS, &gl->max_draw_buffers);
+    gl->GetIntegerv(GL_MAX_CLIP_DISTANCES, &gl->max_clip_distances);
+    return true;
+}

@@ -1,0 +1,259 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The part of OpenGL 3.3 that the library uses: types, constants, and a table of functions that the host's loader
+ * fills, one per effect. No GL header is needed. Functions of later versions are optional and may be NULL.
+ */
+#ifndef GLSSAO_GL_H
+#define GLSSAO_GL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(_WIN32) && !defined(_WIN64)
+#define GLSSAO_GL_CALL __stdcall
+#else
+#define GLSSAO_GL_CALL
+#endif
+
+typedef unsigned int gl_enum;
+typedef unsigned int gl_uint;
+typedef int gl_int;
+typedef int gl_sizei;
+typedef unsigned char gl_boolean;
+typedef unsigned int gl_bitfield;
+typedef float gl_float;
+typedef char gl_char;
+typedef ptrdiff_t gl_intptr;
+typedef ptrdiff_t gl_sizeiptr;
+
+/* Values from the Khronos registry (gl.xml). */
+enum {
+    GL_ZERO = 0,
+    GL_ONE = 1,
+    GL_TRIANGLES = 0x0004,
+    GL_SRC_COLOR = 0x0300,
+    GL_FRONT = 0x0404,
+    GL_BACK = 0x0405,
+    GL_FRONT_AND_BACK = 0x0408,
+    GL_POLYGON_MODE = 0x0B40,
+    GL_POLYGON_SMOOTH = 0x0B41,
+    GL_POLYGON_STIPPLE = 0x0B42,
+    GL_CULL_FACE = 0x0B44,
+    GL_DEPTH_TEST = 0x0B71,
+    GL_DEPTH_WRITEMASK = 0x0B72,
+    GL_DEPTH_CLEAR_VALUE = 0x0B73,
+    GL_STENCIL_TEST = 0x0B90,
+    GL_VIEWPORT = 0x0BA2,
+    GL_ALPHA_TEST = 0x0BC0,
+    GL_BLEND = 0x0BE2,
+    GL_COLOR_LOGIC_OP = 0x0BF2,
+    GL_SCISSOR_TEST = 0x0C11,
+    GL_COLOR_WRITEMASK = 0x0C23,
+    GL_UNPACK_SWAP_BYTES = 0x0CF0,
+    GL_UNPACK_LSB_FIRST = 0x0CF1,
+    GL_UNPACK_ROW_LENGTH = 0x0CF2,
+    GL_UNPACK_SKIP_ROWS = 0x0CF3,
+    GL_UNPACK_SKIP_PIXELS = 0x0CF4,
+    GL_UNPACK_ALIGNMENT = 0x0CF5,
+    GL_MAX_TEXTURE_SIZE = 0x0D33,
+    GL_MAX_VIEWPORT_DIMS = 0x0D3A,
+    GL_TEXTURE_2D = 0x0DE1,
+    GL_TEXTURE_WIDTH = 0x1000,
+    GL_TEXTURE_HEIGHT = 0x1001,
+    GL_TEXTURE_BORDER_COLOR = 0x1004,
+    GL_UNSIGNED_BYTE = 0x1401,
+    GL_FLOAT = 0x1406,
+    GL_COLOR = 0x1800,
+    GL_DEPTH = 0x1801,
+    GL_RED = 0x1903,
+    GL_RGBA = 0x1908,
+    GL_FILL = 0x1B02,
+    GL_VENDOR = 0x1F00,
+    GL_RENDERER = 0x1F01,
+    GL_VERSION = 0x1F02,
+    GL_NEAREST = 0x2600,
+    GL_LINEAR = 0x2601,
+    GL_TEXTURE_MAG_FILTER = 0x2800,
+    GL_TEXTURE_MIN_FILTER = 0x2801,
+    GL_TEXTURE_WRAP_S = 0x2802,
+    GL_TEXTURE_WRAP_T = 0x2803,
+    GL_REPEAT = 0x2901,
+    GL_CLIP_DISTANCE0 = 0x3000,
+    GL_FUNC_ADD = 0x8006,
+    GL_BLEND_EQUATION_RGB = 0x8009,
+    GL_RGBA8 = 0x8058,
+    GL_TEXTURE_BINDING_2D = 0x8069,
+    GL_SAMPLE_ALPHA_TO_COVERAGE = 0x809E,
+    GL_SAMPLE_COVERAGE = 0x80A0,
+    GL_BLEND_DST_RGB = 0x80C8,
+    GL_BLEND_SRC_RGB = 0x80C9,
+    GL_BLEND_DST_ALPHA = 0x80CA,
+    GL_BLEND_SRC_ALPHA = 0x80CB,
+    GL_CLAMP_TO_BORDER = 0x812D,
+    GL_CLAMP_TO_EDGE = 0x812F,
+    GL_TEXTURE_MAX_LEVEL = 0x813D,
+    GL_DEPTH_STENCIL_ATTACHMENT = 0x821A,
+    GL_MAJOR_VERSION = 0x821B,
+    GL_MINOR_VERSION = 0x821C,
+    GL_NUM_EXTENSIONS = 0x821D,
+    GL_R16 = 0x822A,
+    GL_TEXTURE0 = 0x84C0,
+    GL_ACTIVE_TEXTURE = 0x84E0,
+    GL_TEXTURE_COMPARE_MODE = 0x884C,
+    GL_TEXTURE_DEPTH_SIZE = 0x884A,
+    GL_QUERY_RESULT = 0x8866,
+    GL_QUERY_RESULT_AVAILABLE = 0x8867,
+    GL_MAX_DRAW_BUFFERS = 0x8824,
+    GL_BLEND_EQUATION_ALPHA = 0x883D,
+    GL_DEPTH_BOUNDS_TEST_EXT = 0x8890,
+    GL_STREAM_DRAW = 0x88E0,
+    GL_PIXEL_UNPACK_BUFFER = 0x88EC,
+    GL_PIXEL_UNPACK_BUFFER_BINDING = 0x88EF,
+    GL_TEXTURE_STENCIL_SIZE = 0x88F1,
+    GL_SAMPLER_BINDING = 0x8919,
+    GL_RGBA16F = 0x881A,
+    GL_UNIFORM_BUFFER = 0x8A11,
+    GL_UNIFORM_BUFFER_BINDING = 0x8A28,
+    GL_UNIFORM_BUFFER_START = 0x8A29,
+    GL_UNIFORM_BUFFER_SIZE = 0x8A2A,
+    GL_UNIFORM_OFFSET = 0x8A3B,
+    GL_UNIFORM_BLOCK_DATA_SIZE = 0x8A40,
+    GL_FRAGMENT_SHADER = 0x8B30,
+    GL_VERTEX_SHADER = 0x8B31,
+    GL_COMPILE_STATUS = 0x8B81,
+    GL_LINK_STATUS = 0x8B82,
+    GL_CURRENT_PROGRAM = 0x8B8D,
+    GL_VERTEX_ARRAY_BINDING = 0x85B5,
+    GL_RASTERIZER_DISCARD = 0x8C89,
+    GL_LOWER_LEFT = 0x8CA1,
+    GL_DRAW_FRAMEBUFFER_BINDING = 0x8CA6,
+    GL_READ_FRAMEBUFFER = 0x8CA8,
+    GL_DRAW_FRAMEBUFFER = 0x8CA9,
+    GL_READ_FRAMEBUFFER_BINDING = 0x8CAA,
+    GL_FRAMEBUFFER_COMPLETE = 0x8CD5,
+    GL_COLOR_ATTACHMENT0 = 0x8CE0,
+    GL_DEPTH_ATTACHMENT = 0x8D00,
+    GL_MAX_CLIP_DISTANCES = 0x0D32,
+    GL_TIMESTAMP = 0x8E28,
+    GL_SAMPLE_MASK = 0x8E51,
+    GL_EXTENSIONS = 0x1F03,
+    GL_PRIMITIVE_RESTART = 0x8F9D,
+    GL_CLIP_ORIGIN = 0x935C,
+    GL_CLIP_DEPTH_MODE = 0x935D,
+    GL_CONTEXT_PROFILE_MASK = 0x9126,
+    GL_CONTEXT_COMPATIBILITY_PROFILE_BIT = 2
+};
+#define GL_INVALID_INDEX 0xFFFFFFFFu /* does not fit an enumerator, which is an int */
+
+/* X(returns, name without gl, arguments) */
+#define GLSSAO_GL_FUNCTIONS(X)                                                                                         \
+    X(void, ActiveTexture, (gl_enum unit))                                                                             \
+    X(void, AttachShader, (gl_uint program, gl_uint shader))                                                           \
+    X(void, BindBuffer, (gl_enum target, gl_uint buffer))                                                              \
+    X(void, BindBufferBase, (gl_enum target, gl_uint index, gl_uint buffer))                                           \
+    X(void, BindBufferRange, (gl_enum target, gl_uint index, gl_uint buffer, gl_intptr offset, gl_sizeiptr size))      \
+    X(void, BindFramebuffer, (gl_enum target, gl_uint framebuffer))                                                    \
+    X(void, BindSampler, (gl_uint unit, gl_uint sampler))                                                              \
+    X(void, BindTexture, (gl_enum target, gl_uint texture))                                                            \
+    X(void, BindVertexArray, (gl_uint array))                                                                          \
+    X(void, BlendEquationSeparate, (gl_enum rgb, gl_enum alpha))                                                       \
+    X(void, BlendFuncSeparate, (gl_enum src_rgb, gl_enum dst_rgb, gl_enum src_alpha, gl_enum dst_alpha))               \
+    X(void, BufferData, (gl_enum target, gl_sizeiptr size, const void *data, gl_enum usage))                           \
+    X(void, BufferSubData, (gl_enum target, gl_intptr offset, gl_sizeiptr size, const void *data))                     \
+    X(gl_enum, CheckFramebufferStatus, (gl_enum target))                                                               \
+    X(void, ClearBufferfv, (gl_enum buffer, gl_int index, const gl_float *value))                                      \
+    X(void, ColorMaski, (gl_uint index, gl_boolean r, gl_boolean g, gl_boolean b, gl_boolean a))                       \
+    X(void, CompileShader, (gl_uint shader))                                                                           \
+    X(gl_uint, CreateProgram, (void))                                                                                  \
+    X(gl_uint, CreateShader, (gl_enum type))                                                                           \
+    X(void, DeleteBuffers, (gl_sizei n, const gl_uint *buffers))                                                       \
+    X(void, DeleteFramebuffers, (gl_sizei n, const gl_uint *framebuffers))                                             \
+    X(void, DeleteProgram, (gl_uint program))                                                                          \
+    X(void, DeleteQueries, (gl_sizei n, const gl_uint *queries))                                                       \
+    X(void, DeleteSamplers, (gl_sizei n, const gl_uint *samplers))                                                     \
+    X(void, DeleteShader, (gl_uint shader))                                                                            \
+    X(void, DeleteTextures, (gl_sizei n, const gl_uint *textures))                                                     \
+    X(void, DeleteVertexArrays, (gl_sizei n, const gl_uint *arrays))                                                   \
+    X(void, DepthMask, (gl_boolean flag))                                                                              \
+    X(void, Disable, (gl_enum cap))                                                                                    \
+    X(void, Disablei, (gl_enum cap, gl_uint index))                                                                    \
+    X(void, DrawArrays, (gl_enum mode, gl_int first, gl_sizei count))                                                  \
+    X(void, Enable, (gl_enum cap))                                                                                     \
+    X(void, Enablei, (gl_enum cap, gl_uint index))                                                                     \
+    X(void, FramebufferTexture2D,                                                                                      \
+      (gl_enum target, gl_enum attachment, gl_enum textarget, gl_uint texture, gl_int level))                          \
+    X(void, GenBuffers, (gl_sizei n, gl_uint * buffers))                                                               \
+    X(void, GenFramebuffers, (gl_sizei n, gl_uint * framebuffers))                                                     \
+    X(void, GenQueries, (gl_sizei n, gl_uint * queries))                                                               \
+    X(void, GenSamplers, (gl_sizei n, gl_uint * samplers))                                                             \
+    X(void, GenTextures, (gl_sizei n, gl_uint * textures))                                                             \
+    X(void, GenVertexArrays, (gl_sizei n, gl_uint * arrays))                                                           \
+    X(void, GetActiveUniformBlockiv, (gl_uint program, gl_uint block, gl_enum name, gl_int * out))                     \
+    X(void, GetActiveUniformsiv, (gl_uint program, gl_sizei n, const gl_uint *indices, gl_enum name, gl_int *out))     \
+    X(void, GetBooleani_v, (gl_enum name, gl_uint index, gl_boolean * out))                                            \
+    X(void, GetBooleanv, (gl_enum name, gl_boolean * out))                                                             \
+    X(gl_enum, GetError, (void))                                                                                       \
+    X(void, GetFloatv, (gl_enum name, gl_float * out))                                                                 \
+    X(void, GetInteger64i_v, (gl_enum name, gl_uint index, int64_t * out))                                             \
+    X(void, GetIntegeri_v, (gl_enum name, gl_uint index, gl_int * out))                                                \
+    X(void, GetIntegerv, (gl_enum name, gl_int * out))                                                                 \
+    X(void, GetProgramInfoLog, (gl_uint program, gl_sizei size, gl_sizei * length, gl_char * log))                     \
+    X(void, GetProgramiv, (gl_uint program, gl_enum name, gl_int * out))                                               \
+    X(void, GetQueryObjectiv, (gl_uint query, gl_enum name, gl_int * out))                                             \
+    X(void, GetQueryObjectui64v, (gl_uint query, gl_enum name, uint64_t * out))                                        \
+    X(void, GetShaderInfoLog, (gl_uint shader, gl_sizei size, gl_sizei * length, gl_char * log))                       \
+    X(void, GetShaderiv, (gl_uint shader, gl_enum name, gl_int * out))                                                 \
+    X(const unsigned char *, GetString, (gl_enum name))                                                                \
+    X(const unsigned char *, GetStringi, (gl_enum name, gl_uint index))                                                \
+    X(void, GetTexLevelParameteriv, (gl_enum target, gl_int level, gl_enum name, gl_int * out))                        \
+    X(gl_uint, GetUniformBlockIndex, (gl_uint program, const gl_char *name))                                           \
+    X(void, GetUniformIndices, (gl_uint program, gl_sizei n, const gl_char *const *names, gl_uint *out))               \
+    X(gl_int, GetUniformLocation, (gl_uint program, const gl_char *name))                                              \
+    X(gl_boolean, IsEnabled, (gl_enum cap))                                                                            \
+    X(gl_boolean, IsEnabledi, (gl_enum cap, gl_uint index))                                                            \
+    X(gl_boolean, IsTexture, (gl_uint texture))                                                                        \
+    X(void, LinkProgram, (gl_uint program))                                                                            \
+    X(void, PixelStorei, (gl_enum name, gl_int value))                                                                 \
+    X(void, PolygonMode, (gl_enum face, gl_enum mode))                                                                 \
+    X(void, QueryCounter, (gl_uint query, gl_enum target))                                                             \
+    X(void, SamplerParameterfv, (gl_uint sampler, gl_enum name, const gl_float *value))                                \
+    X(void, SamplerParameteri, (gl_uint sampler, gl_enum name, gl_int value))                                          \
+    X(void, ShaderSource, (gl_uint shader, gl_sizei n, const gl_char *const *text, const gl_int *lengths))             \
+    X(void, TexImage2D,                                                                                                \
+      (gl_enum target, gl_int level, gl_int internal_format, gl_sizei width, gl_sizei height, gl_int border,           \
+       gl_enum format, gl_enum type, const void *pixels))                                                              \
+    X(void, TexParameteri, (gl_enum target, gl_enum name, gl_int value))                                               \
+    X(void, Uniform1i, (gl_int location, gl_int value))                                                                \
+    X(void, UniformBlockBinding, (gl_uint program, gl_uint block, gl_uint binding))                                    \
+    X(void, UseProgram, (gl_uint program))                                                                             \
+    X(void, Viewport, (gl_int x, gl_int y, gl_sizei width, gl_sizei height))
+
+/* Of later versions, asked for only so that a host that uses them gets its state back exactly. */
+#define GLSSAO_GL_OPTIONAL_FUNCTIONS(X)                                                                                \
+    X(void, BlendEquationSeparatei, (gl_uint index, gl_enum rgb, gl_enum alpha))                                       \
+    X(void, BlendFuncSeparatei,                                                                                        \
+      (gl_uint index, gl_enum src_rgb, gl_enum dst_rgb, gl_enum src_alpha, gl_enum dst_alpha))                         \
+    X(void, ClipControl, (gl_enum origin, gl_enum depth))                                                              \
+    X(void, ViewportIndexedf, (gl_uint index, gl_float x, gl_float y, gl_float width, gl_float height))
+
+typedef struct glssao__gl {
+#define GLSSAO_GL_MEMBER(returns, name, arguments) returns(GLSSAO_GL_CALL *name) arguments;
+    GLSSAO_GL_FUNCTIONS(GLSSAO_GL_MEMBER)
+    GLSSAO_GL_OPTIONAL_FUNCTIONS(GLSSAO_GL_MEMBER)
+#undef GLSSAO_GL_MEMBER
+    int version;            /* 10 * major + minor: 33 for 3.3 */
+    bool compatibility;     /* a compatibility profile: fixed-function toggles exist */
+    bool depth_bounds_test; /* GL_EXT_depth_bounds_test */
+    int max_size;           /* largest texture and viewport side, pixels */
+    int max_draw_buffers;
+    int max_clip_distances;
+} glssao__gl;
+
+typedef void *(*glssao__gl_load_fn)(const char *name, void *user);
+
+/* Fills the table and reads the limits of the current context. On failure *out_missing says what is lacking, in
+ * static text ("glClear", "OpenGL 3.3"), and false is returned. */
+bool glssao__gl_load(glssao__gl *gl, glssao__gl_load_fn load, void *user, const char **out_missing);
+
+#endif

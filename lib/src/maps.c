@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The textures that the effect owns, their framebuffers, and the samplers through which all textures are read.
+ * Everything here runs between glssao__state_save and _restore, so bindings are left as they fall.
+ */
+#include "effect.h"
+
+#include <stdlib.h>
+
+static bool has_size(const glssao__gl *gl, int width, int height)
+{
+    gl_int w = 0, h = 0;
+    gl->GetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &w);
+    gl->GetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &h);
+    return w == width && h == height;
+}
+
+/* 0 where the driver has no memory for it: the level then stays undefined, which shows without glGetError. */
+static gl_uint make_texture(const glssao__gl *gl, gl_enum format, int width, int height, const void *rgba8)
+{
+    gl_uint texture = 0;
+    gl->GenTextures(1, &texture);
+    gl->ActiveTexture(GL_TEXTURE0 + UNIT_AMBIENT);
+    gl->BindTexture(GL_TEXTURE_2D, texture);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, (gl_int)format, width, height, 0, format == GL_R16 ? GL_RED : GL_RGBA,
+                   rgba8 ? GL_UNSIGNED_BYTE : GL_FLOAT, rgba8);
+    /* Hosts may read the maps with a sampler of their own or with none: complete either way. */
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, rgba8 ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, rgba8 ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+    if (has_size(gl, width, height))
+        return texture;
+    gl->DeleteTextures(1, &texture);
+    return 0;
+}
+
+static glssao_result make_target(glssao_effect *effect, gl_enum format, int width, int height, const char *what,
+                                 gl_uint *out_texture, gl_uint *out_framebuffer)
+{
+    const glssao__gl *gl = &effect->gl;
+    *out_texture = make_texture(gl, format, width, height, NULL);
+    if (!*out_texture) {
+        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "no memory for the %s map of %d x %d", what, width, height);
+        return GLSSAO_OUT_OF_MEMORY;
+    }
+    gl->GenFramebuffers(1, out_framebuffer);
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, *out_framebuffer);
+    gl->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *out_texture, 0);
+    gl_enum status = gl->CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
+    if (status == GL_FRAMEBUFFER_COMPLETE)
+        return GLSSAO_OK;
+    glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "the framebuffer of the %s map of %d x %d is refused: 0x%04X",
+                      what, width, height, status);
+    return GLSSAO_FRAMEBUFFER_ERROR;
+}
+
+glssao_result glssao__maps_make_normal(glssao_effect *effect, int width, int height, glssao__normal_map *out_map)
+{
+    *out_map = (glssao__normal_map){0};
+    glssao_result result =
+        make_target(effect, GL_RGBA16F, width, height, "normal", &out_map->texture, &out_map->framebuffer);
+    if (result == GLSSAO_OK)
+        effect->gl.ClearBufferfv(GL_COLOR, 0, (const gl_float[4]){0.0f, 0.0f, 1.0f, 0.0f});
+    else
+        glssao__maps_delete_normal(&effect->gl, out_map);
+    return result;
+}
+
+void glssao__maps_delete_normal(const glssao__gl *gl, glssao__normal_map *map)
+{
+    gl->DeleteFramebuffers(1, &map->framebuffer); /* names of 0 are ignored */
+    gl->DeleteTextures(1, &map->texture);
+    *map = (glssao__normal_map){0};
+}
+
+static void clear_to_one(const glssao__gl *gl, const glssao__ambient_maps *maps)
+{
+    for (int i = 0; i < 2; ++i) {
+        gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, maps->framebuffer[i]);
+        gl->ClearBufferfv(GL_COLOR, 0, (const gl_float[4]){1.0f, 1.0f, 1.0f, 1.0f});
+    }
+}
+
+glssao_result glssao__maps_make_ambient(glssao_effect *effect, int width, int height, glssao__ambient_maps *out_maps)
+{
+    *out_maps = (glssao__ambient_maps){.width = width, .height = height};
+    glssao_result result = GLSSAO_OK;
+    for (int i = 0; i < 2 && result == GLSSAO_OK; ++i)
+        result =
+            make_target(effect, GL_R16, width, height, "ambient", &out_maps->texture[i], &out_maps->framebuffer[i]);
+    if (result == GLSSAO_OK)
+        clear_to_one(&effect->gl, out_maps);
+    else
+        glssao__maps_delete_ambient(&effect->gl, out_maps);
+    return result;
+}
+
+void glssao__maps_delete_ambient(const glssao__gl *gl, glssao__ambient_maps *maps)
+{
+    gl->DeleteFramebuffers(2, maps->framebuffer);
+    gl->DeleteTextures(2, maps->texture);
+    *maps = (glssao__ambient_maps){0};
+}
+
+void glssao__maps_clear_ambient(glssao_effect *effect)
+{
+    if (!effect->ambient_is_one)
+        clear_to_one(&effect->gl, &effect->ambient);
+    effect->ambient_is_one = true;
+}
+
+glssao_result glssao__maps_make_random_vector(glssao_effect *effect)
+{
+    uint8_t *texels = malloc((size_t)RANDOM_VECTOR_MAP_SIZE * RANDOM_VECTOR_MAP_SIZE * 4);
+    if (texels) {
+        glssao__random_vector_texels(effect->seed, texels);
+        effect->random_vector_map =
+            make_texture(&effect->gl, GL_RGBA8, RANDOM_VECTOR_MAP_SIZE, RANDOM_VECTOR_MAP_SIZE, texels);
+        free(texels);
+    }
+    if (effect->random_vector_map)
+        return GLSSAO_OK;
+    glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "no memory for the random vector map");
+    return GLSSAO_OUT_OF_MEMORY;
+}
+
+void glssao__maps_make_samplers(glssao_effect *effect)
+{
+    static const struct {
+        gl_int filter, wrap;
+    } kinds[SAMPLER_COUNT] = {
+        [SAMPLER_POINT_CLAMP] = {GL_NEAREST, GL_CLAMP_TO_EDGE},
+        [SAMPLER_LINEAR_CLAMP] = {GL_LINEAR, GL_CLAMP_TO_EDGE},
+        [SAMPLER_DEPTH] = {GL_LINEAR, GL_CLAMP_TO_BORDER}, /* border: the sky's depth, set each frame */
+        [SAMPLER_LINEAR_WRAP] = {GL_LINEAR, GL_REPEAT},
+    };
+    const glssao__gl *gl = &effect->gl;
+    gl->GenSamplers(SAMPLER_COUNT, effect->samplers);
+    for (int i = 0; i < SAMPLER_COUNT; ++i) {
+        gl->SamplerParameteri(effect->samplers[i], GL_TEXTURE_MIN_FILTER, kinds[i].filter);
+        gl->SamplerParameteri(effect->samplers[i], GL_TEXTURE_MAG_FILTER, kinds[i].filter);
+        gl->SamplerParameteri(effect->samplers[i], GL_TEXTURE_WRAP_S, kinds[i].wrap);
+        gl->SamplerParameteri(effect->samplers[i], GL_TEXTURE_WRAP_T, kinds[i].wrap);
+    }
+}
+
+glssao_result glssao__maps_check_texture(glssao_effect *effect, gl_uint texture, bool needs_depth, const char *field)
+{
+    const glssao__gl *gl = &effect->gl;
+    if (!gl->IsTexture(texture)) {
+        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "%s = %u: no texture of this context", field, texture);
+        return GLSSAO_INVALID_ARGUMENT;
+    }
+    gl->ActiveTexture(GL_TEXTURE0 + UNIT_AMBIENT);
+    gl->BindTexture(GL_TEXTURE_2D, 0);
+    gl->BindTexture(GL_TEXTURE_2D, texture); /* of another kind, it does not bind, and 0 has no size */
+    if (!has_size(gl, effect->width, effect->height)) {
+        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "%s = %u: not a GL_TEXTURE_2D of the full size, %d x %d",
+                          field, texture, effect->width, effect->height);
+        return GLSSAO_INVALID_ARGUMENT;
+    }
+    gl_int depth_bits = 0;
+    gl->GetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_DEPTH_SIZE, &depth_bits);
+    if (needs_depth && depth_bits == 0) {
+        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "%s = %u: not a depth format", field, texture);
+        return GLSSAO_INVALID_ARGUMENT;
+    }
+    return GLSSAO_OK;
+}

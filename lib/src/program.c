@@ -1,0 +1,231 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The shader variants: one table of what each is compiled from; compiled when first needed; the uniform blocks'
+ * layout checked against the C structs by asking the driver.
+ */
+#include "effect.h"
+#include "shaders.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Every macro that a file tests is defined in each variant of it, as 0 or 1. */
+static const struct variant {
+    const char *name;
+    const char *macros;
+    const char *files[3]; /* after the blocks, in order; the last is the pass itself */
+} variants[PROGRAM_COUNT] = {
+    [PROGRAM_NORMALS] = {"normals", "", {shader_view_glsl, shader_normals_frag}},
+    [PROGRAM_CLASSIC] = {"classic",
+                         "#define UNSIGNED_NORMALS 0\n",
+                         {shader_view_glsl, shader_normal_map_glsl, shader_classic_frag}},
+    [PROGRAM_CLASSIC_UNSIGNED] = {"classic-unsigned",
+                                  "#define UNSIGNED_NORMALS 1\n",
+                                  {shader_view_glsl, shader_normal_map_glsl, shader_classic_frag}},
+    [PROGRAM_BLUR_GAUSSIAN] = {"blur-gaussian", "#define EDGE_AWARE 0\n", {shader_blur_frag}},
+    [PROGRAM_BLUR_BILATERAL] = {"blur-bilateral",
+                                "#define EDGE_AWARE 1\n#define UNSIGNED_NORMALS 0\n",
+                                {shader_view_glsl, shader_normal_map_glsl, shader_blur_frag}},
+    [PROGRAM_BLUR_BILATERAL_UNSIGNED] = {"blur-bilateral-unsigned",
+                                         "#define EDGE_AWARE 1\n#define UNSIGNED_NORMALS 1\n",
+                                         {shader_view_glsl, shader_normal_map_glsl, shader_blur_frag}},
+    [PROGRAM_APPLY] = {"apply", "", {shader_apply_frag}},
+};
+
+const char *glssao__program_name(enum glssao__program id)
+{
+    return variants[id].name;
+}
+
+int glssao__program_sources(enum glssao__program id, gl_enum stage,
+                            const char *out_sources[GLSSAO__PROGRAM_MAX_SOURCES])
+{
+    int n = 0;
+    out_sources[n++] = "#version 330\n";
+    if (stage == GL_VERTEX_SHADER) {
+        out_sources[n++] = shader_fullscreen_vert;
+        return n;
+    }
+    out_sources[n++] = variants[id].macros;
+    out_sources[n++] = "layout(std140) uniform cbSsao {\n";
+    out_sources[n++] = shader_cb_ssao_glsl;
+    out_sources[n++] = "};\nlayout(std140) uniform cbFrame {\n";
+    out_sources[n++] = shader_cb_frame_glsl;
+    out_sources[n++] = "};\n";
+    for (int i = 0; i < 3 && variants[id].files[i]; ++i)
+        out_sources[n++] = variants[id].files[i];
+    return n;
+}
+
+/* The source with line numbers as the driver counts them, a log line each. */
+static void log_source(const glssao_effect *effect, const char *const *sources, int count)
+{
+    char line[160];
+    size_t length = 0;
+    int number = 1;
+    for (int i = 0; i < count; ++i)
+        for (const char *at = sources[i]; *at; ++at) {
+            if (*at != '\n') {
+                if (length + 1 < sizeof line)
+                    line[length++] = *at;
+                continue;
+            }
+            line[length] = '\0';
+            glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "%4d  %s", number++, line);
+            length = 0;
+        }
+}
+
+static gl_uint compile(const glssao_effect *effect, enum glssao__program id, gl_enum stage)
+{
+    const glssao__gl *gl = &effect->gl;
+    const char *sources[GLSSAO__PROGRAM_MAX_SOURCES];
+    int count = glssao__program_sources(id, stage, sources);
+    gl_uint shader = gl->CreateShader(stage);
+    gl->ShaderSource(shader, count, sources, NULL);
+    gl->CompileShader(shader);
+    gl_int ok = 0;
+    gl->GetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+    if (ok)
+        return shader;
+    char text[400] = "";
+    gl->GetShaderInfoLog(shader, sizeof text, NULL, text);
+    glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "%s shader of %s: %s",
+                      stage == GL_VERTEX_SHADER ? "vertex" : "fragment", variants[id].name, text);
+    log_source(effect, sources, count);
+    gl->DeleteShader(shader);
+    return 0;
+}
+
+/* Where the driver puts a block's members against where C does; every member is active in a std140 block. */
+static const struct member {
+    enum glssao__block block;
+    const char *name;
+    size_t offset;
+} members[] = {
+#define SSAO(member)                                                                                                   \
+    {                                                                                                                  \
+        BLOCK_SSAO, #member, offsetof(glssao_constants, member)                                                        \
+    }
+    SSAO(gProj),
+    SSAO(gInvProj),
+    SSAO(gProjTex),
+    SSAO(gOffsetVectors),
+    SSAO(gBlurWeights),
+    SSAO(gInvRenderTargetSize),
+    SSAO(gOcclusionRadius),
+    SSAO(gOcclusionFadeStart),
+    SSAO(gOcclusionFadeEnd),
+    SSAO(gSurfaceEpsilon),
+#undef SSAO
+#define FRAME(member)                                                                                                  \
+    {                                                                                                                  \
+        BLOCK_FRAME, #member, offsetof(glssao__frame_constants, member)                                                \
+    }
+    FRAME(gDistanceFromDepth),
+    FRAME(gRayOrigin),
+    FRAME(gRayDirection),
+    FRAME(gSkyDepth),
+    FRAME(gPower),
+    FRAME(gBlurNormalThreshold),
+    FRAME(gBlurDepthThreshold),
+    FRAME(gSampleCount),
+#undef FRAME
+};
+
+static const struct block {
+    const char *name;
+    size_t size;
+} blocks[BLOCK_COUNT] = {{"cbSsao", sizeof(glssao_constants)}, {"cbFrame", sizeof(glssao__frame_constants)}};
+
+/* Ties the blocks that the program has to their binding points; false where the driver lays one out otherwise. */
+static bool bind_blocks(const glssao_effect *effect, gl_uint program)
+{
+    const glssao__gl *gl = &effect->gl;
+    bool active[BLOCK_COUNT];
+    for (gl_uint i = 0; i < BLOCK_COUNT; ++i) {
+        gl_uint index = gl->GetUniformBlockIndex(program, blocks[i].name);
+        active[i] = index != GL_INVALID_INDEX;
+        if (!active[i])
+            continue;
+        gl->UniformBlockBinding(program, index, i);
+        gl_int size = 0;
+        gl->GetActiveUniformBlockiv(program, index, GL_UNIFORM_BLOCK_DATA_SIZE, &size);
+        if (size < 0 || (size_t)size > blocks[i].size) {
+            glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "block %s: %d bytes in the driver, %zu in C",
+                              blocks[i].name, size, blocks[i].size);
+            return false;
+        }
+    }
+    for (size_t i = 0; i < sizeof members / sizeof *members; ++i) {
+        if (!active[members[i].block])
+            continue;
+        gl_uint index = GL_INVALID_INDEX;
+        gl_int offset = -1;
+        gl->GetUniformIndices(program, 1, &members[i].name, &index);
+        if (index != GL_INVALID_INDEX)
+            gl->GetActiveUniformsiv(program, 1, &index, GL_UNIFORM_OFFSET, &offset);
+        if (offset < 0 || (size_t)offset != members[i].offset) {
+            glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "block %s: %s lies at %d in the driver, at %zu in C",
+                              blocks[members[i].block].name, members[i].name, offset, members[i].offset);
+            return false;
+        }
+    }
+    return true;
+}
+
+static gl_uint link(const glssao_effect *effect, enum glssao__program id, gl_uint vertex, gl_uint fragment)
+{
+    const glssao__gl *gl = &effect->gl;
+    gl_uint program = gl->CreateProgram();
+    gl->AttachShader(program, vertex);
+    gl->AttachShader(program, fragment);
+    gl->LinkProgram(program);
+    gl_int ok = 0;
+    gl->GetProgramiv(program, GL_LINK_STATUS, &ok);
+    if (!ok) {
+        char text[400] = "";
+        gl->GetProgramInfoLog(program, sizeof text, NULL, text);
+        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "program %s does not link: %s", variants[id].name, text);
+    }
+    if (ok && bind_blocks(effect, program))
+        return program;
+    gl->DeleteProgram(program);
+    return 0;
+}
+
+static void tie_samplers(const glssao__gl *gl, gl_uint program)
+{
+    static const struct {
+        const char *name;
+        enum glssao__unit unit;
+    } samplers[] = {
+        {"u_normal_map", UNIT_NORMAL},
+        {"u_depth_map", UNIT_DEPTH},
+        {"u_random_vector_map", UNIT_RANDOM_VECTOR},
+        {"u_ambient_map", UNIT_AMBIENT},
+    };
+    gl->UseProgram(program);
+    for (size_t i = 0; i < sizeof samplers / sizeof *samplers; ++i)
+        gl->Uniform1i(gl->GetUniformLocation(program, samplers[i].name), (gl_int)samplers[i].unit); /* -1 is ignored */
+}
+
+glssao_result glssao__program_get(glssao_effect *effect, enum glssao__program id, const glssao__program_object **out)
+{
+    glssao__program_object *object = &effect->programs[id];
+    *out = object;
+    if (object->name)
+        return GLSSAO_OK;
+    const glssao__gl *gl = &effect->gl;
+    gl_uint vertex = compile(effect, id, GL_VERTEX_SHADER);
+    gl_uint fragment = vertex ? compile(effect, id, GL_FRAGMENT_SHADER) : 0;
+    if (fragment)
+        object->name = link(effect, id, vertex, fragment);
+    gl->DeleteShader(vertex); /* names of 0 are ignored; an attached shader lives as long as its program */
+    gl->DeleteShader(fragment);
+    if (!object->name)
+        return GLSSAO_SHADER_ERROR;
+    tie_samplers(gl, object->name);
+    object->horizontal_location = gl->GetUniformLocation(object->name, "gHorizontalBlur");
+    return GLSSAO_OK;
+}

@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Default settings, and the checks of everything that can be judged without asking OpenGL.
+ */
+#include "effect.h"
+
+#include <math.h>
+#include <stddef.h>
+
+glssao_settings glssao_default_settings(glssao_technique technique, glssao_quality quality)
+{
+    /* Luna's first edition of the effect; HIGH is what the book ships. */
+    glssao_settings s = {
+        .technique = GLSSAO_CLASSIC,
+        .radius = 0.5f,
+        .fade_start = 0.2f,
+        .fade_end = 1.0f,
+        .surface_epsilon = 0.05f,
+        .power = 6.0f,
+        .sample_count = 14,
+        .half_resolution = true,
+        .blur = GLSSAO_BLUR_BILATERAL,
+        .blur_rounds = 3,
+        .blur_sigma = 2.5f,
+        .blur_normal_threshold = 0.8f,
+        .blur_depth_threshold = 0.2f,
+    };
+    if (technique == GLSSAO_HEMISPHERE || technique == GLSSAO_HORIZON)
+        s.technique = technique;
+    switch (quality) {
+    case GLSSAO_LOW:
+        s.sample_count = 8;
+        s.blur_rounds = 1;
+        break;
+    case GLSSAO_MEDIUM:
+        s.blur_rounds = 2;
+        break;
+    case GLSSAO_HIGH:
+        break;
+    case GLSSAO_ULTRA:
+        s.half_resolution = false;
+        s.blur_rounds = 4;
+        break;
+    }
+    return s;
+}
+
+/* One row a number: its field, and the range it must lie in. */
+static const struct number {
+    const char *field;
+    size_t offset;
+    bool is_int;
+    double least, most;
+} numbers[] = {
+    {"radius", offsetof(glssao_settings, radius), false, 0.0, 1e12},
+    {"fade_start", offsetof(glssao_settings, fade_start), false, 0.0, 1e12},
+    {"fade_end", offsetof(glssao_settings, fade_end), false, 0.0, 1e12},
+    {"surface_epsilon", offsetof(glssao_settings, surface_epsilon), false, 0.0, 1e12},
+    {"power", offsetof(glssao_settings, power), false, 0.0, 64.0},
+    {"sample_count", offsetof(glssao_settings, sample_count), true, 1.0, 14.0},
+    {"blur_rounds", offsetof(glssao_settings, blur_rounds), true, 0.0, 16.0},
+    {"blur_sigma", offsetof(glssao_settings, blur_sigma), false, 0.1, 2.5},
+    {"blur_normal_threshold", offsetof(glssao_settings, blur_normal_threshold), false, -1.0, 1.0},
+    {"blur_depth_threshold", offsetof(glssao_settings, blur_depth_threshold), false, 0.0, 1e12},
+};
+
+static bool refuse(const glssao__log_sink *log, const char *field, long long value, const char *wanted)
+{
+    glssao__log_write(log, GLSSAO_LOG_ERROR, "%s = %lld: %s", field, value, wanted);
+    return false;
+}
+
+bool glssao__settings_check(const glssao_settings *settings, const glssao__log_sink *log)
+{
+    if (settings->technique == GLSSAO_HEMISPHERE || settings->technique == GLSSAO_HORIZON)
+        return refuse(log, "settings.technique", settings->technique, "not there yet; take GLSSAO_CLASSIC");
+    if (settings->technique != GLSSAO_CLASSIC)
+        return refuse(log, "settings.technique", settings->technique, "unknown");
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; ++i) {
+        const struct number *n = &numbers[i];
+        const char *at = (const char *)settings + n->offset;
+        double value = n->is_int ? (double)*(const int *)(const void *)at : (double)*(const float *)(const void *)at;
+        if (!(value >= n->least && value <= n->most)) { /* also true for nan */
+            glssao__log_write(log, GLSSAO_LOG_ERROR, "settings.%s = %g: want %g to %g", n->field, value, n->least,
+                              n->most);
+            return false;
+        }
+    }
+    if (settings->fade_end < settings->fade_start) {
+        glssao__log_write(log, GLSSAO_LOG_ERROR, "settings.fade_end = %g: less than fade_start = %g",
+                          (double)settings->fade_end, (double)settings->fade_start);
+        return false;
+    }
+    switch (settings->blur) {
+    case GLSSAO_BLUR_NONE:
+    case GLSSAO_BLUR_GAUSSIAN:
+    case GLSSAO_BLUR_BILATERAL:
+        return true;
+    case GLSSAO_BLUR_BOX:
+        return refuse(log, "settings.blur", settings->blur, "GLSSAO_BLUR_BOX is not there yet");
+    }
+    return refuse(log, "settings.blur", settings->blur, "unknown");
+}
+
+static bool check_frame(const glssao_effect *effect, const glssao_frame *frame, const glssao__log_sink *log,
+                        glssao__projection *out_projection)
+{
+    if (frame->depth_texture == 0)
+        return refuse(log, "frame.depth_texture", 0, "no texture");
+    if (frame->depth_kind != GLSSAO_DEPTH_WINDOW)
+        return refuse(log, "frame.depth_kind", frame->depth_kind, "only GLSSAO_DEPTH_WINDOW is there yet");
+    if (frame->normal_kind != GLSSAO_NORMAL_SIGNED && frame->normal_kind != GLSSAO_NORMAL_UNSIGNED)
+        return refuse(log, "frame.normal_kind", frame->normal_kind, "only _SIGNED and _UNSIGNED are there yet");
+    for (int i = 0; i < 2; ++i)
+        if (frame->depth_texture == effect->ambient.texture[i] || frame->normal_texture == effect->ambient.texture[i])
+            return refuse(log, "frame texture", effect->ambient.texture[i], "an ambient map can't be its own input");
+    return glssao__projection_analyse(frame->projection, frame->clip_zero_to_one, log, out_projection);
+}
+
+bool glssao__settings_check_frame(const glssao_effect *effect, const glssao_frame *frame,
+                                  const glssao_settings *settings, const glssao__log_sink *log,
+                                  glssao__projection *out_projection)
+{
+    if (!frame || !settings) {
+        glssao__log_write(log, GLSSAO_LOG_ERROR, "%s is NULL", frame ? "settings" : "frame");
+        return false;
+    }
+    return glssao__settings_check(settings, log) && check_frame(effect, frame, log, out_projection);
+}
