@@ -17,7 +17,6 @@ static const struct toggle {
     {GL_RASTERIZER_DISCARD, ALWAYS},
     {GL_SAMPLE_MASK, ALWAYS},
     {GL_SAMPLE_COVERAGE, ALWAYS},
-    {GL_SAMPLE_ALPHA_TO_COVERAGE, ALWAYS},
     {GL_POLYGON_SMOOTH, ALWAYS},
     {GL_PRIMITIVE_RESTART, ALWAYS}, /* early specifications let the index cut DrawArrays too */
     {GL_ALPHA_TEST, COMPATIBILITY},

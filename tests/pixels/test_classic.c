@@ -1,0 +1,288 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The classic estimate and the blur against their double-precision model, pixel by pixel.
+ *
+ * Tolerance on accessibility: 1.5 steps of R16 (rounding of the map and of the compared value) plus 2e-5 times power
+ * (float arithmetic of 14 samples, steepened by the exponent); everything that a threshold could turn is in the
+ * model's interval, and the share of pixels with a wide interval is bounded too, so that the test can't pass by
+ * being vague.
+ */
+#include "analytic.h"
+#include "fixture.h"
+#include "model.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double R16_STEP = 1.0 / 65535.0;
+
+static GLuint compile(GLenum stage, const char *text)
+{
+    GLuint shader = gl.CreateShader(stage);
+    gl.ShaderSource(shader, 1, &text, NULL);
+    gl.CompileShader(shader);
+    return shader;
+}
+
+/* What the linear wrap sampler delivers for each ambient pixel: drivers filter 8-bit texels with few bits, which is
+ * theirs to choose, so the model is fed the filtered vectors. */
+static float *sampled_random_vectors(const glssao_effect *effect, int width, int height)
+{
+    GLuint program = gl.CreateProgram();
+    GLuint vertex = compile(GL_VERTEX_SHADER,
+                            "#version 330\nout vec2 v_uv;\nvoid main() {\n"
+                            "vec2 c[6] = vec2[6](vec2(0,1), vec2(0,0), vec2(1,0), vec2(0,1), vec2(1,0), vec2(1,1));\n"
+                            "v_uv = c[gl_VertexID]; gl_Position = vec4(2.0 * v_uv - 1.0, 0.0, 1.0); }\n");
+    GLuint fragment =
+        compile(GL_FRAGMENT_SHADER, "#version 330\nin vec2 v_uv;\nuniform sampler2D u_map;\nout vec4 o_color;\n"
+                                    "void main() { o_color = texture(u_map, 4.0 * v_uv); }\n");
+    gl.AttachShader(program, vertex);
+    gl.AttachShader(program, fragment);
+    gl.LinkProgram(program);
+    GLuint texture, framebuffer, array;
+    gl.GenTextures(1, &texture);
+    gl.BindTexture(GL_TEXTURE_2D, texture);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width, height, 0, GL_RGBA, GL_FLOAT, NULL);
+    gl.GenFramebuffers(1, &framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    gl.GenVertexArrays(1, &array);
+    gl.BindVertexArray(array);
+    gl.Viewport(0, 0, width, height);
+    gl.UseProgram(program);
+    gl.BindTexture(GL_TEXTURE_2D, glssao_map(effect, GLSSAO_MAP_RANDOM_VECTOR, NULL, NULL));
+    gl.DrawArrays(GL_TRIANGLES, 0, 6);
+    float *vectors = fixture_read_texture(texture, width, height, 3);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    gl.UseProgram(0);
+    gl.BindVertexArray(0);
+    gl.DeleteFramebuffers(1, &framebuffer);
+    gl.DeleteTextures(1, &texture);
+    gl.DeleteVertexArrays(1, &array);
+    gl.DeleteShader(vertex);
+    gl.DeleteShader(fragment);
+    gl.DeleteProgram(program);
+    return vectors;
+}
+
+typedef struct setup {
+    glssao_effect *effect;
+    glssao_frame frame;
+    glssao_settings settings;
+    model_input input;
+    float *depth, *normals, *random_vectors;
+} setup;
+
+typedef struct setup_options {
+    analytic_projection projection;
+    GLenum depth_format;
+    int width, height;
+    double scale;
+    bool half;
+} setup_options;
+
+static void set_up(setup *s, fixture *f, const setup_options *o)
+{
+    memset(s, 0, sizeof *s);
+    analytic_shape room[ANALYTIC_ROOM_SHAPES];
+    analytic_room(room, o->scale);
+    analytic_view view = analytic_make_view(o->projection, (double)o->width / o->height, 0.5, 40.0, o->scale);
+    float *depth;
+    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, o->width, o->height, &depth, &s->normals);
+    s->effect = fixture_effect(f, o->width, o->height);
+    s->frame.depth_texture = fixture_depth_texture(o->depth_format, o->width, o->height, depth);
+    s->frame.normal_texture = fixture_normal_texture(o->width, o->height, s->normals);
+    memcpy(s->frame.projection, view.projection, sizeof view.projection);
+    s->frame.clip_zero_to_one = view.clip_zero_to_one;
+    free(depth);
+    s->depth = fixture_read_depth(s->frame.depth_texture, o->width, o->height); /* as the format rounds it */
+
+    s->settings = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_HIGH);
+    float scale = (float)o->scale;
+    s->settings.radius *= scale;
+    s->settings.fade_start *= scale;
+    s->settings.fade_end *= scale;
+    s->settings.surface_epsilon *= scale;
+    s->settings.blur_depth_threshold *= scale;
+    s->settings.half_resolution = o->half;
+    s->input = (model_input){
+        .width = o->width,
+        .height = o->height,
+        .ambient_width = o->half ? (o->width + 1) / 2 : o->width,
+        .ambient_height = o->half ? (o->height + 1) / 2 : o->height,
+        .depth = s->depth,
+        .normals = s->normals,
+        .frame = &s->frame,
+        .settings = &s->settings,
+        .constants = glssao_get_constants(s->effect),
+    };
+    s->random_vectors = sampled_random_vectors(s->effect, s->input.ambient_width, s->input.ambient_height);
+    s->input.random_vectors = s->random_vectors;
+}
+
+static void tear_down(setup *s)
+{
+    gl.DeleteTextures(1, &s->frame.depth_texture);
+    gl.DeleteTextures(1, &s->frame.normal_texture);
+    glssao_destroy(s->effect);
+    free(s->depth);
+    free(s->normals);
+    free(s->random_vectors);
+}
+
+static void check_estimate(setup *s, const char *what)
+{
+    s->settings.blur = GLSSAO_BLUR_NONE;
+    int width, height;
+    float *got = fixture_compute(s->effect, &s->frame, &s->settings, &width, &height);
+    assert_int_equal(width, s->input.ambient_width);
+    assert_int_equal(height, s->input.ambient_height);
+    double tolerance = 1.5 * R16_STEP + 2e-5 * fmax(1.0, (double)s->settings.power);
+    double worst = 0.0, mean = 0.0;
+    int wide = 0, occluded = 0, wrong = 0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            double low, high, value = (double)got[y * width + x];
+            model_classic(&s->input, x, y, &low, &high);
+            double outside = fmax(low - value, value - high);
+            worst = fmax(worst, outside);
+            if (!(outside <= tolerance) && wrong++ == 0)
+                print_error("%s: pixel %d, %d: got %.6f, model %.6f to %.6f\n", what, x, y, value, low, high);
+            mean += value / (width * height);
+            wide += high - low > 0.01;
+            occluded += high < 0.9;
+        }
+    print_message("%s: worst outside interval %.2e, mean %.4f, occluded %.1f %%, wide %.2f %%\n", what, worst, mean,
+                  100.0 * occluded / (width * height), 100.0 * wide / (width * height));
+    free(got);
+    assert_int_equal(wrong, 0);
+    assert_true(wide * 20 < width * height);      /* under 5 % of pixels undecided */
+    assert_true(occluded * 200 > width * height); /* over 0.5 % of pixels have something to say */
+}
+
+static void check_blur(setup *s, const char *what)
+{
+    s->settings.blur_rounds = 0;
+    int width, height;
+    float *raw = fixture_compute(s->effect, &s->frame, &s->settings, &width, &height);
+    s->settings.blur_rounds = 1;
+    float *blurred = fixture_compute(s->effect, &s->frame, &s->settings, &width, &height);
+    uint32_t other = glssao_map(s->effect, GLSSAO_MAP_AMBIENT_OTHER, NULL, NULL);
+    float *horizontal = fixture_read_texture(other, width, height, 1);
+    int wrong = 0, undecided = 0;
+    double changed = 0.0;
+    for (int pass = 0; pass < 2; ++pass)
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                double want, value = (double)(pass == 0 ? horizontal : blurred)[y * width + x];
+                bool decided = model_blur(&s->input, pass == 0 ? raw : horizontal, pass == 0, x, y, &want);
+                undecided += !decided;
+                changed = fmax(changed, fabs(value - (double)raw[y * width + x]));
+                if (decided && !(fabs(value - want) <= 1.5 * R16_STEP) && wrong++ == 0)
+                    print_error("%s: pass %d, pixel %d, %d: got %.6f, model %.6f\n", what, pass, x, y, value, want);
+            }
+    free(raw);
+    free(blurred);
+    free(horizontal);
+    assert_int_equal(wrong, 0);
+    assert_true(undecided * 100 < 2 * width * height); /* under 1 % of pixels of both passes */
+    assert_true(changed > 0.05);                       /* it did blur */
+}
+
+static void estimate_agrees_for_every_projection(void **state)
+{
+    static const char *const names[PROJECTION_COUNT] = {
+        "perspective",  "off-centre",           "infinite", "reversed", "infinite reversed",
+        "orthographic", "reversed orthographic"};
+    for (int p = 0; p < PROJECTION_COUNT; ++p) {
+        setup s;
+        set_up(&s, *state, &(setup_options){(analytic_projection)p, GL_DEPTH_COMPONENT32F, 200, 120, 1.0, false});
+        check_estimate(&s, names[p]);
+        tear_down(&s);
+    }
+}
+
+static void estimate_agrees_at_half_size_and_odd_sizes(void **state)
+{
+    static const int sizes[][2] = {{200, 120}, {201, 121}, {67, 254}};
+    for (int i = 0; i < 3; ++i) {
+        setup s;
+        set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, sizes[i][0], sizes[i][1], 1.0, true});
+        check_estimate(&s, "half size");
+        tear_down(&s);
+    }
+}
+
+static void estimate_agrees_for_24_bit_depth(void **state)
+{
+    setup s;
+    set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH24_STENCIL8, 200, 120, 1.0, true});
+    check_estimate(&s, "24 bits");
+    tear_down(&s);
+}
+
+static void estimate_agrees_at_other_settings(void **state)
+{
+    setup s;
+    set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 200, 120, 1.0, false});
+    s.settings.power = 1.0f;
+    s.settings.sample_count = 5;
+    check_estimate(&s, "5 samples, power 1");
+    s.settings.sample_count = 14;
+    s.settings.radius = 1.5f;
+    s.settings.fade_start = s.settings.fade_end = 0.7f;
+    s.settings.surface_epsilon = 0.0f;
+    check_estimate(&s, "equal fade bounds, no epsilon");
+    tear_down(&s);
+}
+
+static void estimate_agrees_for_unnormalised_and_unsigned_normals(void **state)
+{
+    setup s;
+    set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 100, 80, 1.0, false});
+    size_t count = (size_t)3 * 100 * 80;
+    float *stored = malloc(count * sizeof *stored);
+    for (int kind = 0; kind < 2; ++kind) {
+        for (size_t i = 0; i < count; ++i)
+            stored[i] = kind == 0 ? 37.5f * s.normals[i] : 0.5f * s.normals[i] + 0.5f;
+        GLuint original = s.frame.normal_texture;
+        s.frame.normal_texture = fixture_normal_texture(100, 80, stored);
+        s.frame.normal_kind = kind == 0 ? GLSSAO_NORMAL_SIGNED : GLSSAO_NORMAL_UNSIGNED;
+        check_estimate(&s, kind == 0 ? "long normals" : "unsigned normals");
+        gl.DeleteTextures(1, &s.frame.normal_texture);
+        s.frame.normal_texture = original;
+    }
+    free(stored);
+    tear_down(&s);
+}
+
+static void blur_agrees(void **state)
+{
+    static const glssao_blur kinds[] = {GLSSAO_BLUR_BILATERAL, GLSSAO_BLUR_GAUSSIAN};
+    for (int kind = 0; kind < 2; ++kind)
+        for (int half = 0; half < 2; ++half) {
+            setup s;
+            set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 201, 120, 1.0, half == 1});
+            s.settings.blur = kinds[kind];
+            check_blur(&s, kind == 0 ? "bilateral" : "gaussian");
+            s.settings.blur_sigma = 1.2f;
+            check_blur(&s, "narrow");
+            tear_down(&s);
+        }
+}
+
+int main(void)
+{
+#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
+    const struct CMUnitTest tests[] = {
+        GL_TEST(estimate_agrees_for_every_projection),
+        GL_TEST(estimate_agrees_at_half_size_and_odd_sizes),
+        GL_TEST(estimate_agrees_for_24_bit_depth),
+        GL_TEST(estimate_agrees_at_other_settings),
+        GL_TEST(estimate_agrees_for_unnormalised_and_unsigned_normals),
+        GL_TEST(blur_agrees),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+}

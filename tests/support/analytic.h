@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Depth and normal maps computed, not drawn: spheres, boxes and planes hit by the ray of each pixel, in double
+ * precision, for any supported projection. So tests know every input exactly and need no renderer.
+ */
+#ifndef GLSSAO_TESTS_ANALYTIC_H
+#define GLSSAO_TESTS_ANALYTIC_H
+
+#include <stdbool.h>
+
+typedef enum analytic_kind { ANALYTIC_SPHERE, ANALYTIC_BOX, ANALYTIC_PLANE } analytic_kind;
+
+/* View space. Sphere: center, radius size[0]. Box: center, half sizes. Plane: through center, unit normal in size. */
+typedef struct analytic_shape {
+    analytic_kind kind;
+    double center[3], size[3];
+} analytic_shape;
+
+typedef enum analytic_projection {
+    PERSPECTIVE,
+    PERSPECTIVE_OFF_CENTRE,
+    PERSPECTIVE_INFINITE,
+    PERSPECTIVE_REVERSED_ZERO_TO_ONE,
+    PERSPECTIVE_INFINITE_REVERSED_ZERO_TO_ONE,
+    ORTHOGRAPHIC,
+    ORTHOGRAPHIC_REVERSED,
+    PROJECTION_COUNT
+} analytic_projection;
+
+typedef struct analytic_view {
+    float projection[16]; /* column-major */
+    bool clip_zero_to_one;
+    float sky_depth;
+} analytic_view;
+
+/* `scale` multiplies every length: near, far, and the orthographic extent. */
+analytic_view analytic_make_view(analytic_projection kind, double aspect, double near_plane, double far_plane,
+                                 double scale);
+
+/* Window depth (sky where nothing is hit) and normals (xyz; 0, 0, 1 on sky); the caller frees both. */
+void analytic_render(const analytic_view *view, const analytic_shape *shapes, int shape_count, int width, int height,
+                     float **out_depth, float **out_normals);
+
+/* A floor, a wall, two spheres and two boxes some 3 to 9 units away, all lengths times `scale`. */
+enum { ANALYTIC_ROOM_SHAPES = 6 };
+void analytic_room(analytic_shape shapes[ANALYTIC_ROOM_SHAPES], double scale);
+
+#endif

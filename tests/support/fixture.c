@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: MIT */
+#include "fixture.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+int fixture_setup(void **state)
+{
+    fixture *f = calloc(1, sizeof *f);
+    const char *wanted = getenv("GLSSAO_TEST_CONTEXT");
+    context_options options = {.kind = wanted && strcmp(wanted, "osmesa") == 0 ? CONTEXT_OSMESA : CONTEXT_EGL};
+    char error[512] = "";
+    f->context = context_create(&options, error, sizeof error);
+    if (!f->context || !gl_load(context_load, f->context, error, sizeof error)) {
+        fprintf(stderr, "no GL context: %s\n", error);
+        context_destroy(f->context);
+        free(f);
+        return 1;
+    }
+    printf("%s\n", context_description(f->context));
+    *state = f;
+    return 0;
+}
+
+int fixture_teardown(void **state)
+{
+    fixture *f = *state;
+    context_destroy(f->context);
+    free(f);
+    return 0;
+}
+
+int fixture_no_gl_error(void **state)
+{
+    (void)state;
+    GLenum error = gl.GetError();
+    if (error)
+        fprintf(stderr, "OpenGL holds error 0x%04X\n", error);
+    return error ? 1 : 0;
+}
+
+void fixture_clear_log(fixture *f)
+{
+    f->log[0] = '\0';
+}
+
+void fixture_log(glssao_log_level level, const char *message, void *user)
+{
+    fixture *f = user;
+    (void)level;
+    size_t used = strlen(f->log);
+    snprintf(f->log + used, sizeof f->log - used, "%s\n", message);
+}
+
+glssao_config fixture_config(fixture *f, int width, int height)
+{
+    return (glssao_config){
+        .load = context_load,
+        .load_user = f->context,
+        .log = fixture_log,
+        .log_user = f,
+        .width = width,
+        .height = height,
+        .seed = 1,
+    };
+}
+
+glssao_effect *fixture_effect(fixture *f, int width, int height)
+{
+    fixture_clear_log(f);
+    glssao_config config = fixture_config(f, width, height);
+    glssao_effect *effect = NULL;
+    glssao_result result = glssao_create(&config, &effect);
+    if (result != GLSSAO_OK)
+        fail_msg("glssao_create: %s: %s", glssao_result_string(result), f->log);
+    return effect;
+}
+
+static GLuint make_texture(GLenum internal_format, GLenum format, GLenum type, int width, int height, const void *data)
+{
+    GLuint texture = 0;
+    gl.GenTextures(1, &texture);
+    gl.BindTexture(GL_TEXTURE_2D, texture);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)internal_format, width, height, 0, format, type, data);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    return texture;
+}
+
+GLuint fixture_depth_texture(GLenum internal_format, int width, int height, const float *depth)
+{
+    if (internal_format != GL_DEPTH24_STENCIL8)
+        return make_texture(internal_format, GL_DEPTH_COMPONENT, GL_FLOAT, width, height, depth);
+    size_t count = (size_t)width * (size_t)height;
+    uint32_t *packed = calloc(count, sizeof *packed);
+    for (size_t i = 0; i < count; ++i)
+        packed[i] = (uint32_t)((double)depth[i] * 16777215.0 + 0.5) << 8;
+    GLuint texture = make_texture(GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, width, height, packed);
+    free(packed);
+    return texture;
+}
+
+GLuint fixture_normal_texture(int width, int height, const float *normals)
+{
+    return make_texture(GL_RGB32F, GL_RGB, GL_FLOAT, width, height, normals);
+}
+
+static float *read_texture(GLuint texture, int width, int height, GLenum format, int channels)
+{
+    float *data = malloc((size_t)width * (size_t)height * (size_t)channels * sizeof *data);
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
+    gl.BindTexture(GL_TEXTURE_2D, texture);
+    gl.GetTexImage(GL_TEXTURE_2D, 0, format, GL_FLOAT, data);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    return data;
+}
+
+float *fixture_read_texture(GLuint texture, int width, int height, int channels)
+{
+    return read_texture(texture, width, height, channels == 1 ? GL_RED : channels == 3 ? GL_RGB : GL_RGBA, channels);
+}
+
+float *fixture_read_depth(GLuint texture, int width, int height)
+{
+    return read_texture(texture, width, height, GL_DEPTH_COMPONENT, 1);
+}
+
+float *fixture_compute(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
+                       int *out_width, int *out_height)
+{
+    assert_int_equal(glssao_compute(effect, frame, settings), GLSSAO_OK);
+    uint32_t map = glssao_map(effect, GLSSAO_MAP_AMBIENT, out_width, out_height);
+    assert_int_not_equal(map, 0);
+    return fixture_read_texture(map, *out_width, *out_height, 1);
+}

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What the GL tests share: a context of the kind that GLSSAO_TEST_CONTEXT names, effects whose log is kept, textures
+ * from arrays and arrays from textures. Arrays hold rows bottom to top.
+ */
+#ifndef GLSSAO_TESTS_FIXTURE_H
+#define GLSSAO_TESTS_FIXTURE_H
+
+#include "context.h"
+#include "gl.h"
+
+#include <glssao/glssao.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+typedef struct fixture {
+    context *context;
+    char log[4096]; /* lines since fixture_clear_log */
+} fixture;
+
+/* cmocka group functions: no context is a failure, not a skip. The fixture is the test's *state. */
+int fixture_setup(void **state);
+int fixture_teardown(void **state);
+/* cmocka test teardown: fails where GL holds an error. */
+int fixture_no_gl_error(void **state);
+
+void fixture_clear_log(fixture *f);
+void fixture_log(glssao_log_level level, const char *message, void *user);
+
+/* A config for the fixture's context, log kept. */
+glssao_config fixture_config(fixture *f, int width, int height);
+glssao_effect *fixture_effect(fixture *f, int width, int height);
+
+GLuint fixture_depth_texture(GLenum internal_format, int width, int height, const float *depth);
+/* xyz a pixel; RGBA32F, so that the model is fed the same numbers. */
+GLuint fixture_normal_texture(int width, int height, const float *normals);
+/* `channels` floats a texel: 1 red, 3 rgb, 4 rgba. The caller frees. */
+float *fixture_read_texture(GLuint texture, int width, int height, int channels);
+float *fixture_read_depth(GLuint texture, int width, int height);
+
+/* Runs glssao_compute and reads the ambient map back; asserts success. The caller frees. */
+float *fixture_compute(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
+                       int *out_width, int *out_height);
+
+#endif

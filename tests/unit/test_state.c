@@ -1,0 +1,533 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Every listed piece of the host's GL state is scrambled, each public function is called, and everything must read
+ * back as it was, with the picture unharmed by what the host had set. Runs in core and compatibility contexts.
+ */
+#include "analytic.h"
+#include "fixture.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { W = 64, H = 48, UNITS = 5 };
+
+/* ---- a snapshot: rows of name and values, so that a difference can be named ---- */
+
+enum { SNAPSHOT_CAPACITY = 160 };
+typedef struct snapshot {
+    int count;
+    struct {
+        char name[48];
+        double values[4];
+    } rows[SNAPSHOT_CAPACITY];
+} snapshot;
+
+static double *row(snapshot *s, const char *name)
+{
+    assert_true(s->count < SNAPSHOT_CAPACITY);
+    snprintf(s->rows[s->count].name, sizeof s->rows[0].name, "%s", name);
+    return s->rows[s->count++].values;
+}
+
+static const struct {
+    const char *name;
+    GLenum value;
+} integers[] = {
+    {"program", GL_CURRENT_PROGRAM},
+    {"vertex array", GL_VERTEX_ARRAY_BINDING},
+    {"draw framebuffer", GL_DRAW_FRAMEBUFFER_BINDING},
+    {"read framebuffer", GL_READ_FRAMEBUFFER_BINDING},
+    {"active texture", GL_ACTIVE_TEXTURE},
+    {"uniform buffer", GL_UNIFORM_BUFFER_BINDING},
+    {"array buffer", GL_ARRAY_BUFFER_BINDING},
+    {"unpack buffer", GL_PIXEL_UNPACK_BUFFER_BINDING},
+    {"pack buffer", GL_PIXEL_PACK_BUFFER_BINDING},
+    {"unpack alignment", GL_UNPACK_ALIGNMENT},
+    {"unpack row length", GL_UNPACK_ROW_LENGTH},
+    {"unpack skip rows", GL_UNPACK_SKIP_ROWS},
+    {"unpack skip pixels", GL_UNPACK_SKIP_PIXELS},
+    {"unpack swap bytes", GL_UNPACK_SWAP_BYTES},
+    {"pack alignment", GL_PACK_ALIGNMENT},
+    {"pack row length", GL_PACK_ROW_LENGTH},
+    {"polygon mode", GL_POLYGON_MODE},
+    {"depth mask", GL_DEPTH_WRITEMASK},
+    {"depth func", GL_DEPTH_FUNC},
+    {"viewport", GL_VIEWPORT},
+    {"scissor box", GL_SCISSOR_BOX},
+    {"blend source rgb", GL_BLEND_SRC_RGB},
+    {"blend destination rgb", GL_BLEND_DST_RGB},
+    {"blend source alpha", GL_BLEND_SRC_ALPHA},
+    {"blend destination alpha", GL_BLEND_DST_ALPHA},
+    {"blend equation rgb", GL_BLEND_EQUATION_RGB},
+    {"blend equation alpha", GL_BLEND_EQUATION_ALPHA},
+    {"colour mask", GL_COLOR_WRITEMASK},
+    {"clear depth", GL_DEPTH_CLEAR_VALUE},
+    {"clear colour", GL_COLOR_CLEAR_VALUE},
+    {"logic op", GL_LOGIC_OP_MODE},
+    {"restart index", GL_PRIMITIVE_RESTART_INDEX},
+    {"clip origin", GL_CLIP_ORIGIN},
+    {"clip depth", GL_CLIP_DEPTH_MODE},
+};
+
+static const struct {
+    const char *name;
+    GLenum cap;
+    bool compatibility_only;
+} toggles[] = {
+    {"cull face", GL_CULL_FACE, false},
+    {"depth test", GL_DEPTH_TEST, false},
+    {"stencil test", GL_STENCIL_TEST, false},
+    {"scissor test", GL_SCISSOR_TEST, false},
+    {"sRGB", GL_FRAMEBUFFER_SRGB, false},
+    {"logic op", GL_COLOR_LOGIC_OP, false},
+    {"rasterizer discard", GL_RASTERIZER_DISCARD, false},
+    {"sample mask", GL_SAMPLE_MASK, false},
+    {"sample coverage", GL_SAMPLE_COVERAGE, false},
+    {"alpha to coverage", GL_SAMPLE_ALPHA_TO_COVERAGE, false},
+    {"primitive restart", GL_PRIMITIVE_RESTART, false},
+    {"polygon smooth", GL_POLYGON_SMOOTH, false},
+    {"clip distance 0", GL_CLIP_DISTANCE0, false},
+    {"clip distance 3", GL_CLIP_DISTANCE3, false},
+    {"clip distance 7", GL_CLIP_DISTANCE7, false},
+    {"alpha test", 0x0BC0, true},      /* GL_ALPHA_TEST */
+    {"polygon stipple", 0x0B42, true}, /* GL_POLYGON_STIPPLE */
+};
+
+static bool is_compatibility(void)
+{
+    GLint mask = 0;
+    gl.GetIntegerv(GL_CONTEXT_PROFILE_MASK, &mask);
+    return (mask & GL_CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0;
+}
+
+static void take(snapshot *s)
+{
+    memset(s, 0, sizeof *s);
+    for (size_t i = 0; i < sizeof integers / sizeof *integers; ++i)
+        gl.GetDoublev(integers[i].value, row(s, integers[i].name));
+    bool compatibility = is_compatibility();
+    for (size_t i = 0; i < sizeof toggles / sizeof *toggles; ++i)
+        if (compatibility || !toggles[i].compatibility_only)
+            row(s, toggles[i].name)[0] = gl.IsEnabled(toggles[i].cap);
+    for (GLuint i = 0; i < 4; ++i) {
+        GLboolean mask[4];
+        gl.GetBooleani_v(GL_COLOR_WRITEMASK, i, mask);
+        double *values = row(s, "colour mask of a draw buffer");
+        for (int k = 0; k < 4; ++k)
+            values[k] = mask[k];
+        row(s, "blend of a draw buffer")[0] = gl.IsEnabledi(GL_BLEND, i);
+    }
+    for (GLuint i = 0; i < 3; ++i) {
+        GLint buffer;
+        GLint64 offset, size;
+        gl.GetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, i, &buffer);
+        gl.GetInteger64i_v(GL_UNIFORM_BUFFER_START, i, &offset);
+        gl.GetInteger64i_v(GL_UNIFORM_BUFFER_SIZE, i, &size);
+        double *values = row(s, "indexed uniform buffer");
+        values[0] = buffer;
+        values[1] = (double)offset;
+        values[2] = (double)size;
+    }
+    GLint active;
+    gl.GetIntegerv(GL_ACTIVE_TEXTURE, &active);
+    for (GLuint unit = 0; unit < UNITS; ++unit) {
+        GLint texture, sampler;
+        gl.ActiveTexture(GL_TEXTURE0 + unit);
+        gl.GetIntegerv(GL_TEXTURE_BINDING_2D, &texture);
+        gl.GetIntegerv(GL_SAMPLER_BINDING, &sampler);
+        double *values = row(s, "texture and sampler of a unit");
+        values[0] = texture;
+        values[1] = sampler;
+    }
+    gl.ActiveTexture((GLenum)active);
+}
+
+static void compare(const snapshot *before, const snapshot *after, const char *call)
+{
+    assert_int_equal(before->count, after->count);
+    for (int i = 0; i < before->count; ++i)
+        for (int k = 0; k < 4; ++k)
+            if (before->rows[i].values[k] != after->rows[i].values[k])
+                fail_msg("after %s, %s is %g where it was %g", call, before->rows[i].name, after->rows[i].values[k],
+                         before->rows[i].values[k]);
+}
+
+/* ---- the host ---- */
+
+typedef struct host {
+    GLuint program, vertex_array, framebuffers[3], color[3], renderbuffers[3], textures[UNITS], samplers[UNITS],
+        buffers[4];
+} host;
+
+static PFNGLCLIPCONTROLPROC clip_control;
+static PFNGLBLENDFUNCIPROC blend_func_i;
+static PFNGLVIEWPORTINDEXEDFPROC viewport_indexed;
+
+/* Fixed-function state that would stop every fragment, where the context has it. */
+static void(APIENTRY *alpha_func)(GLenum function, GLfloat reference);
+static void(APIENTRY *polygon_stipple)(const GLubyte *mask);
+
+static void load_newer(fixture *f)
+{
+    void *address = context_load("glAlphaFunc", f->context);
+    memcpy(&alpha_func, &address, sizeof address);
+    address = context_load("glPolygonStipple", f->context);
+    memcpy(&polygon_stipple, &address, sizeof address);
+    address = context_load("glClipControl", f->context);
+    memcpy(&clip_control, &address, sizeof address);
+    address = context_load("glBlendFunci", f->context);
+    memcpy(&blend_func_i, &address, sizeof address);
+    address = context_load("glViewportIndexedf", f->context);
+    memcpy(&viewport_indexed, &address, sizeof address);
+    assert_true(clip_control && blend_func_i && viewport_indexed); /* Mesa has them; without them less is tested */
+}
+
+static void make_host(host *h)
+{
+    if (is_compatibility()) {
+        static const GLubyte nothing[128];
+        alpha_func(GL_NEVER, 0.0f);
+        polygon_stipple(nothing);
+    }
+    static const char *const sources[2] = {"#version 330\nvoid main() { gl_Position = vec4(0.0); }\n",
+                                           "#version 330\nout vec4 o_color;\nvoid main() { o_color = vec4(1.0); }\n"};
+    h->program = gl.CreateProgram();
+    for (int i = 0; i < 2; ++i) {
+        GLuint shader = gl.CreateShader(i == 0 ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER);
+        gl.ShaderSource(shader, 1, &sources[i], NULL);
+        gl.CompileShader(shader);
+        gl.AttachShader(h->program, shader);
+        gl.DeleteShader(shader);
+    }
+    gl.LinkProgram(h->program);
+    gl.GenVertexArrays(1, &h->vertex_array);
+    gl.GenFramebuffers(3, h->framebuffers);
+    gl.GenRenderbuffers(3, h->renderbuffers);
+    gl.GenTextures(3, h->color);
+    gl.GenTextures(UNITS, h->textures);
+    gl.GenSamplers(UNITS, h->samplers);
+    gl.GenBuffers(4, h->buffers);
+    for (int i = 0; i < 3; ++i) {
+        gl.BindTexture(GL_TEXTURE_2D, h->color[i]);
+        gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, W, H, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    }
+    for (int i = 0; i < 2; ++i) {
+        gl.BindFramebuffer(GL_FRAMEBUFFER, h->framebuffers[i]);
+        gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, h->color[i], 0);
+    }
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, h->color[2], 0);
+    gl.DrawBuffers(2, (const GLenum[]){GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1});
+    gl.BindRenderbuffer(GL_RENDERBUFFER, h->renderbuffers[0]);
+    gl.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, W, H);
+    gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, h->renderbuffers[0]);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, h->framebuffers[2]); /* multisampled */
+    for (int i = 1; i < 3; ++i) {
+        gl.BindRenderbuffer(GL_RENDERBUFFER, h->renderbuffers[i]);
+        gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, 4, i == 1 ? GL_RGBA8 : GL_DEPTH24_STENCIL8, W, H);
+        gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, i == 1 ? GL_COLOR_ATTACHMENT0 : GL_DEPTH_STENCIL_ATTACHMENT,
+                                   GL_RENDERBUFFER, h->renderbuffers[i]);
+    }
+    gl.BindRenderbuffer(GL_RENDERBUFFER, 0);
+    for (int i = 0; i < 4; ++i) {
+        gl.BindBuffer(GL_UNIFORM_BUFFER, h->buffers[i]);
+        gl.BufferData(GL_UNIFORM_BUFFER, 4096, NULL, GL_STATIC_DRAW);
+    }
+}
+
+static void scramble(const host *h)
+{
+    gl.UseProgram(h->program);
+    gl.BindVertexArray(h->vertex_array);
+    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, h->framebuffers[0]);
+    gl.BindFramebuffer(GL_READ_FRAMEBUFFER, h->framebuffers[1]);
+    for (GLuint unit = 0; unit < UNITS; ++unit) {
+        gl.ActiveTexture(GL_TEXTURE0 + unit);
+        gl.BindTexture(GL_TEXTURE_2D, h->textures[unit]);
+        gl.BindSampler(unit, h->samplers[unit]);
+    }
+    gl.ActiveTexture(GL_TEXTURE0 + 2);
+    gl.BindBufferRange(GL_UNIFORM_BUFFER, 0, h->buffers[0], 256, 512);
+    gl.BindBufferBase(GL_UNIFORM_BUFFER, 1, h->buffers[1]);
+    gl.BindBufferRange(GL_UNIFORM_BUFFER, 2, h->buffers[0], 1024, 16);
+    gl.BindBuffer(GL_UNIFORM_BUFFER, h->buffers[2]);
+    gl.BindBuffer(GL_ARRAY_BUFFER, h->buffers[1]);
+    gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, h->buffers[3]);
+    gl.BindBuffer(GL_PIXEL_PACK_BUFFER, h->buffers[2]);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 8);
+    gl.PixelStorei(GL_UNPACK_ROW_LENGTH, 7);
+    gl.PixelStorei(GL_UNPACK_SKIP_ROWS, 3);
+    gl.PixelStorei(GL_UNPACK_SKIP_PIXELS, 2);
+    gl.PixelStorei(GL_UNPACK_SWAP_BYTES, 1);
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 2);
+    gl.PixelStorei(GL_PACK_ROW_LENGTH, 100);
+    gl.PolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    gl.DepthMask(GL_FALSE);
+    gl.DepthFunc(GL_NEVER);
+    gl.Viewport(3, 5, 17, 19);
+    viewport_indexed(1, 1.0f, 2.0f, 3.5f, 4.5f);
+    gl.Scissor(1, 1, 2, 2);
+    gl.BlendFuncSeparate(GL_ONE_MINUS_DST_ALPHA, GL_DST_COLOR, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    blend_func_i(1, GL_ONE, GL_ONE_MINUS_SRC_COLOR);
+    gl.BlendEquationSeparate(GL_FUNC_REVERSE_SUBTRACT, GL_MAX);
+    gl.Enablei(GL_BLEND, 0);
+    gl.Enablei(GL_BLEND, 2);
+    gl.ColorMaski(0, GL_TRUE, GL_FALSE, GL_TRUE, GL_FALSE);
+    gl.ColorMaski(1, GL_FALSE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl.ClearColor(0.1f, 0.2f, 0.3f, 0.4f);
+    gl.StencilFunc(GL_NEVER, 1, 0xFF);
+    gl.LogicOp(GL_XOR);
+    gl.PrimitiveRestartIndex(3);
+    gl.SampleMaski(0, 0);
+    gl.SampleCoverage(0.0f, GL_FALSE);
+    gl.CullFace(GL_FRONT_AND_BACK);
+    clip_control(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
+    bool compatibility = is_compatibility();
+    for (size_t i = 0; i < sizeof toggles / sizeof *toggles; ++i)
+        if (compatibility || !toggles[i].compatibility_only)
+            gl.Enable(toggles[i].cap);
+}
+
+/* Back to defaults, so that the test's own drawing and reading work. */
+static void calm(void)
+{
+    for (size_t i = 0; i < sizeof toggles / sizeof *toggles; ++i)
+        if (!toggles[i].compatibility_only || is_compatibility())
+            gl.Disable(toggles[i].cap);
+    gl.UseProgram(0);
+    gl.BindVertexArray(0);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    for (GLuint unit = 0; unit < UNITS; ++unit) {
+        gl.ActiveTexture(GL_TEXTURE0 + unit);
+        gl.BindTexture(GL_TEXTURE_2D, 0);
+        gl.BindSampler(unit, 0);
+    }
+    gl.ActiveTexture(GL_TEXTURE0);
+    gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+    gl.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    static const GLenum zeros[] = {GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS,
+                                   GL_UNPACK_SWAP_BYTES, GL_PACK_ROW_LENGTH};
+    for (int i = 0; i < 5; ++i)
+        gl.PixelStorei(zeros[i], 0);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    gl.DepthMask(GL_TRUE);
+    gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl.Disable(GL_BLEND);
+    clip_control(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+}
+
+typedef struct inputs {
+    glssao_frame frame;
+    GLuint spare_depth;
+} inputs;
+
+static inputs make_inputs(void)
+{
+    analytic_shape room[ANALYTIC_ROOM_SHAPES];
+    analytic_room(room, 1.0);
+    analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
+    float *depth, *normals;
+    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, W, H, &depth, &normals);
+    inputs in = {.frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT24, W, H, depth),
+                           .normal_texture = fixture_normal_texture(W, H, normals)},
+                 .spare_depth = fixture_depth_texture(GL_DEPTH24_STENCIL8, W, H, depth)};
+    memcpy(in.frame.projection, view.projection, sizeof in.frame.projection);
+    free(depth);
+    free(normals);
+    return in;
+}
+
+/* One walk through the API; with a host, its state is scrambled before and compared after every call. */
+static float *walk(fixture *f, const inputs *in, const host *h)
+{
+    snapshot before, after;
+#define CALL(expression)                                                                                               \
+    do {                                                                                                               \
+        if (h) {                                                                                                       \
+            scramble(h);                                                                                               \
+            take(&before);                                                                                             \
+        }                                                                                                              \
+        assert_int_equal(expression, GLSSAO_OK);                                                                       \
+        if (h) {                                                                                                       \
+            take(&after);                                                                                              \
+            compare(&before, &after, #expression);                                                                     \
+        }                                                                                                              \
+    } while (0)
+    glssao_effect *effect = NULL;
+    glssao_config config = fixture_config(f, W / 2, H);
+    glssao_settings settings = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_HIGH);
+    glssao_frame rebuilt = in->frame;
+    rebuilt.normal_texture = 0;
+    CALL(glssao_create(&config, &effect));
+    CALL(glssao_resize(effect, W, H));
+    settings.half_resolution = false; /* the ambient maps are made anew */
+    CALL(glssao_compute(effect, &rebuilt, &settings));
+    if (h) {
+        scramble(h);
+        take(&before);
+    }
+    assert_int_equal(glssao_begin_normals(effect, in->spare_depth), GLSSAO_OK);
+    assert_int_equal(glssao_end_normals(effect), GLSSAO_OK);
+    if (h) {
+        take(&after);
+        compare(&before, &after, "glssao_begin_normals and glssao_end_normals");
+    }
+    CALL(glssao_compute(effect, &in->frame, &settings));
+    if (h) {
+        scramble(h);
+        CALL(glssao_apply(effect, h->framebuffers[1]));
+        scramble(h);
+        take(&before);
+        (void)glssao_get_stats(effect);
+        (void)glssao_plan_frame(effect, &in->frame, &settings);
+        (void)glssao_get_constants(effect);
+        take(&after);
+        compare(&before, &after, "the calls that only tell");
+    }
+#undef CALL
+    if (h)
+        calm();
+    float *picture = fixture_read_texture(glssao_map(effect, GLSSAO_MAP_AMBIENT, NULL, NULL), W, H, 1);
+    /* Rebuilt normals and the cleared spare depth must have come out of the scrambled state as well. */
+    float *depth = fixture_read_depth(in->spare_depth, W, H);
+    for (int i = 0; i < W * H; ++i)
+        assert_true(depth[i] == 1.0f);
+    free(depth);
+    if (h) {
+        scramble(h);
+        take(&before);
+    }
+    glssao_destroy(effect);
+    if (h) {
+        take(&after);
+        compare(&before, &after, "glssao_destroy");
+        calm();
+    }
+    return picture;
+}
+
+static void delete_host(host *h)
+{
+    gl.DeleteProgram(h->program);
+    gl.DeleteVertexArrays(1, &h->vertex_array);
+    gl.DeleteFramebuffers(3, h->framebuffers);
+    gl.DeleteRenderbuffers(3, h->renderbuffers);
+    gl.DeleteTextures(3, h->color);
+    gl.DeleteTextures(UNITS, h->textures);
+    gl.DeleteSamplers(UNITS, h->samplers);
+    gl.DeleteBuffers(4, h->buffers);
+}
+
+/* Whatever the host had set, glssao_apply reaches every pixel of framebuffers with depth, stencil and samples. */
+static void check_apply(fixture *f, const inputs *in, const host *h, const float *accessibility)
+{
+    glssao_effect *effect = fixture_effect(f, W, H);
+    glssao_settings settings = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_HIGH);
+    settings.half_resolution = false;
+    assert_int_equal(glssao_compute(effect, &in->frame, &settings), GLSSAO_OK);
+    for (int i = 1; i < 3; ++i) {
+        calm();
+        gl.BindFramebuffer(GL_FRAMEBUFFER, h->framebuffers[i]);
+        gl.ClearBufferfv(GL_COLOR, 0, (const float[4]){1.0f, 1.0f, 1.0f, 1.0f});
+        scramble(h);
+        assert_int_equal(glssao_apply(effect, h->framebuffers[i]), GLSSAO_OK);
+        calm();
+        gl.BindFramebuffer(GL_READ_FRAMEBUFFER, h->framebuffers[i]);
+        gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, h->framebuffers[0]);
+        gl.BlitFramebuffer(0, 0, W, H, 0, 0, W, H, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+        float *got = fixture_read_texture(h->color[0], W, H, 1);
+        for (int k = 0; k < W * H; ++k)
+            assert_float_equal(got[k], accessibility[k], 0.004f);
+        free(got);
+    }
+    glssao_destroy(effect);
+}
+
+static void check_all(fixture *f)
+{
+    load_newer(f);
+    inputs in = make_inputs();
+    float *calm_picture = walk(f, &in, NULL);
+    host h;
+    make_host(&h);
+    float *picture = walk(f, &in, &h);
+    assert_memory_equal(calm_picture, picture, W * H * sizeof *picture);
+    check_apply(f, &in, &h, calm_picture);
+    delete_host(&h);
+    gl.DeleteTextures(1, &in.frame.depth_texture);
+    gl.DeleteTextures(1, &in.frame.normal_texture);
+    gl.DeleteTextures(1, &in.spare_depth);
+    free(calm_picture);
+    free(picture);
+}
+
+static void host_state_comes_back_and_does_no_harm(void **state)
+{
+    check_all(*state);
+}
+
+static void host_state_comes_back_in_a_compatibility_context(void **state)
+{
+    fixture *f = *state, other = *f;
+    const char *wanted = getenv("GLSSAO_TEST_CONTEXT");
+    context_options options = {.kind = wanted && strcmp(wanted, "osmesa") == 0 ? CONTEXT_OSMESA : CONTEXT_EGL,
+                               .compatibility = true};
+    char error[512];
+    other.context = context_create(&options, error, sizeof error);
+    if (!other.context)
+        fail_msg("%s", error);
+    assert_true(gl_load(context_load, other.context, error, sizeof error));
+    assert_true(is_compatibility());
+    check_all(&other);
+    assert_int_equal(gl.GetError(), 0);
+    context_destroy(other.context);
+    assert_true(context_make_current(f->context));
+    assert_true(gl_load(context_load, f->context, error, sizeof error));
+}
+
+/* Other draw buffers of the host's framebuffer get no undefined colours from glssao_apply. */
+static void apply_writes_the_first_draw_buffer_alone(void **state)
+{
+    fixture *f = *state;
+    load_newer(f);
+    inputs in = make_inputs();
+    host h;
+    make_host(&h);
+    calm();
+    gl.BindFramebuffer(GL_FRAMEBUFFER, h.framebuffers[1]);
+    gl.ClearBufferfv(GL_COLOR, 0, (const float[4]){1.0f, 1.0f, 1.0f, 1.0f});
+    gl.ClearBufferfv(GL_COLOR, 1, (const float[4]){0.2f, 0.4f, 0.6f, 0.8f});
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    glssao_effect *effect = fixture_effect(f, W, H);
+    glssao_settings settings = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_HIGH);
+    assert_int_equal(glssao_compute(effect, &in.frame, &settings), GLSSAO_OK);
+    assert_int_equal(glssao_apply(effect, h.framebuffers[1]), GLSSAO_OK);
+    float *first = fixture_read_texture(h.color[1], W, H, 4), *second = fixture_read_texture(h.color[2], W, H, 4);
+    int darkened = 0;
+    for (int i = 0; i < W * H; ++i) {
+        darkened += first[4 * i] < 0.9f;
+        for (int k = 0; k < 4; ++k)
+            assert_float_equal(second[4 * i + k], 0.2f * (float)(k + 1), 0.003f);
+    }
+    assert_true(darkened > 0);
+    free(first);
+    free(second);
+    glssao_destroy(effect);
+    delete_host(&h);
+    gl.DeleteTextures(1, &in.frame.depth_texture);
+    gl.DeleteTextures(1, &in.frame.normal_texture);
+    gl.DeleteTextures(1, &in.spare_depth);
+}
+
+int main(void)
+{
+#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
+    const struct CMUnitTest tests[] = {
+        GL_TEST(host_state_comes_back_and_does_no_harm),
+        GL_TEST(host_state_comes_back_in_a_compatibility_context),
+        GL_TEST(apply_writes_the_first_draw_buffer_alone),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+}
