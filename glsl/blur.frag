@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One direction of the separable blur: 11 taps of cbSsao's weights. With EDGE_AWARE 1, a tap counts only where its
-// normal and view distance agree with the centre's, and the weights that are left are scaled to sum to 1.
+// One direction of the separable blur: 11 taps of cbSsao's weights, or with BOX 1 the 4 taps that cover one period of
+// a 4x4 tile. With EDGE_AWARE 1, a tap counts only where its normal and view distance agree with the centre's, and the
+// weights that are left are scaled to sum to 1.
 // in  v_uv           0..1
 // in  u_ambient_map  accessibility, point sampled
 // in  u_normal_map, u_depth_map  as for the estimate (EDGE_AWARE 1)
@@ -11,7 +12,13 @@ uniform sampler2D u_ambient_map;
 uniform bool gHorizontalBlur;
 out float o_accessibility;
 
-const int RADIUS = 5;
+#if BOX
+const int FIRST = -2;
+const int LAST = 1;
+#else
+const int FIRST = -5;
+const int LAST = 5;
+#endif
 
 void main()
 {
@@ -19,18 +26,22 @@ void main()
 #if EDGE_AWARE
     vec2 center_uv = texel_center_uv(v_uv);
     vec3 center_normal = normal_view_from_map(center_uv);
-    float center_distance = distance_from_depth(texture(u_depth_map, center_uv).r);
+    float center_distance = distance_from_depth(stored_depth(center_uv));
 #endif
     float sum = 0.0;
     float weights = 0.0;
-    for (int i = -RADIUS; i <= RADIUS; ++i) {
-        int slot = i + RADIUS;
+    for (int i = FIRST; i <= LAST; ++i) {
+#if BOX
+        float weight = 0.25;
+#else
+        int slot = i - FIRST;
         float weight = gBlurWeights[slot / 4][slot % 4];
+#endif
         vec2 uv = v_uv + float(i) * step_uv;
 #if EDGE_AWARE
         vec2 tap_uv = texel_center_uv(uv);
         float cosine = dot(normal_view_from_map(tap_uv), center_normal);
-        float distance = distance_from_depth(texture(u_depth_map, tap_uv).r);
+        float distance = distance_from_depth(stored_depth(tap_uv));
         // The centre always counts, so the sum of weights is never 0, whatever the maps hold.
         bool keep = i == 0 || (cosine >= gBlurNormalThreshold && abs(distance - center_distance) <= gBlurDepthThreshold);
         weight = keep ? weight : 0.0;

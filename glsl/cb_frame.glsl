@@ -3,7 +3,7 @@
 vec4 gDistanceFromDepth;    // numerator at depth 0 and at 1, denominator at depth 0 and at 1
 vec4 gRayOrigin;            // view xy at view distance 0: uv * xy + zw
 vec4 gRayDirection;         // view xy gained per unit of view distance: uv * xy + zw
-float gSkyDepth;            // the stored depth that means nothing was drawn
+float gSkyDepth;            // the window depth, or the least view distance, that means nothing was drawn
 float gPower;               // accessibility is raised to this
 float gBlurNormalThreshold; // cosine
 float gBlurDepthThreshold;  // scene units of view distance

@@ -6,6 +6,8 @@
 // in  u_depth_map       stored depth, linearly sampled, border: sky
 // in  u_random_vector_map  RGBA8, each channel uniform in 0..1, repeated 4 times across the target
 // out o_accessibility   0..1, R16
+// NO_ANGLE_WEIGHT 1: an occluder counts fully at any angle to the normal, which shows the self-occlusion of flat
+// surfaces that the weight prevents.
 
 in vec2 v_uv;
 uniform sampler2D u_random_vector_map;
@@ -26,9 +28,9 @@ void main()
     o_accessibility = 1.0;
     vec2 center_uv = texel_center_uv(v_uv);
     vec3 normal_view = normal_view_from_map(center_uv);
-    float depth = texture(u_depth_map, center_uv).r;
+    float depth = stored_depth(center_uv);
     // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
-    if (depth == gSkyDepth || normal_view == vec3(0.0))
+    if (is_sky(depth) || normal_view == vec3(0.0))
         return;
     vec3 position_view = position_view_from_uv(center_uv, distance_from_depth(depth));
     // Not normalised, as in the reference; a vector of length 0 leaves every offset as it is.
@@ -45,10 +47,14 @@ void main()
             continue;
         // Near the camera's plane uv overflows; beyond the border all of it reads the same sky.
         vec2 uv = clamp(sample_uvw.xy / sample_uvw.w, -1.0, 2.0);
-        vec3 occluder_view = position_view_from_uv(uv, distance_from_depth(texture(u_depth_map, uv).r));
+        vec3 occluder_view = position_view_from_uv(uv, distance_from_depth(stored_depth(uv)));
         vec3 to_occluder = occluder_view - position_view;
+#if NO_ANGLE_WEIGHT
+        float facing = 1.0;
+#else
         // r = p: the direction is 0 / 0 without the floor; its weight is 0 in any case.
         float facing = max(dot(normal_view, to_occluder) * inversesqrt(max(dot(to_occluder, to_occluder), 1e-30)), 0.0);
+#endif
         occlusion += weight_from_distance(to_occluder.z) * facing;
     }
     float accessibility = 1.0 - occlusion / float(gSampleCount);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads the normal map. UNSIGNED_NORMALS 1: stored as 0..1.
+// Reads the normal map. UNSIGNED_NORMALS 1: stored as 0..1. OCTAHEDRAL_NORMALS 1: two channels, -1..1, the octahedral
+// encoding of Q. Meyer et al., "On Floating-Point Normal Vectors" (2010).
 
 uniform sampler2D u_normal_map; // view space, any length
 
@@ -8,7 +9,12 @@ uniform sampler2D u_normal_map; // view space, any length
 vec3 normal_view_from_map(vec2 uv)
 {
     vec3 normal = texture(u_normal_map, uv).xyz;
-#if UNSIGNED_NORMALS
+#if OCTAHEDRAL_NORMALS
+    normal.z = 1.0 - abs(normal.x) - abs(normal.y);
+    // The lower half is folded over the square's edges; a coordinate of 0 belongs to the positive side.
+    vec2 side = vec2(normal.x >= 0.0 ? 1.0 : -1.0, normal.y >= 0.0 ? 1.0 : -1.0);
+    normal.xy = normal.z >= 0.0 ? normal.xy : (1.0 - abs(normal.yx)) * side;
+#elif UNSIGNED_NORMALS
     normal = normal * 2.0 - 1.0;
 #endif
     float length_squared = dot(normal, normal);

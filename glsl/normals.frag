@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // View-space normals rebuilt from depth, for hosts that have none. Along each axis the side is taken whose two
-// nearest depths best predict the pixel's own (window depth is linear across a plane, so a plane predicts exactly
-// and a silhouette's other side does not).
+// nearest depths best predict the pixel's own (window depth is linear across a plane, as is 1 / distance in
+// perspective, so a plane predicts exactly and a silhouette's other side does not).
 // in  u_depth_map  stored depth, full size, fetched
 // out o_normal     view space, unit length, RGBA16F; (0, 0, 1) on sky
 
@@ -9,7 +9,20 @@ out vec4 o_normal;
 
 float depth_at(ivec2 pixel, ivec2 size)
 {
-    return texelFetch(u_depth_map, clamp(pixel, ivec2(0), size - 1), 0).r;
+    return depth_component(texelFetch(u_depth_map, clamp(pixel, ivec2(0), size - 1), 0));
+}
+
+// A function of depth that is linear across the picture of a plane.
+float linear_depth_at(ivec2 pixel, ivec2 size)
+{
+    float depth = depth_at(pixel, size);
+#if DEPTH_IS_DISTANCE
+    bool orthographic = gRayDirection.x == 0.0;
+    depth = distance_from_depth(depth);
+    return orthographic ? depth : 1.0 / depth;
+#else
+    return depth;
+#endif
 }
 
 vec3 position_view_at(ivec2 pixel, ivec2 size)
@@ -19,10 +32,11 @@ vec3 position_view_at(ivec2 pixel, ivec2 size)
 }
 
 // Change of position from the pixel to its neighbour along `axis`, from the better side.
-vec3 step_view(ivec2 pixel, ivec2 axis, ivec2 size, float depth, vec3 position_view)
+vec3 step_view(ivec2 pixel, ivec2 axis, ivec2 size, vec3 position_view)
 {
-    float before = abs(2.0 * depth_at(pixel - axis, size) - depth_at(pixel - 2 * axis, size) - depth);
-    float after = abs(2.0 * depth_at(pixel + axis, size) - depth_at(pixel + 2 * axis, size) - depth);
+    float depth = linear_depth_at(pixel, size);
+    float before = abs(2.0 * linear_depth_at(pixel - axis, size) - linear_depth_at(pixel - 2 * axis, size) - depth);
+    float after = abs(2.0 * linear_depth_at(pixel + axis, size) - linear_depth_at(pixel + 2 * axis, size) - depth);
     ivec2 low = pixel - 2 * axis;
     ivec2 high = pixel + 2 * axis;
     // A side that lies outside the map was clamped and predicts by chance.
@@ -49,11 +63,11 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float depth = depth_at(pixel, size);
     vec3 position_view = position_view_at(pixel, size);
-    vec3 across = step_view(pixel, ivec2(1, 0), size, depth, position_view);
-    vec3 up = step_view(pixel, ivec2(0, 1), size, depth, position_view);
+    vec3 across = step_view(pixel, ivec2(1, 0), size, position_view);
+    vec3 up = step_view(pixel, ivec2(0, 1), size, position_view);
     vec3 normal = cross(scaled_to_one(across), scaled_to_one(up));
     float length_squared = dot(normal, normal);
     // Where a map is one pixel wide there is no second direction; the view's own axis is the one neutral answer.
-    bool known = depth != gSkyDepth && length_squared > 0.0;
+    bool known = !is_sky(depth) && length_squared > 0.0;
     o_normal = vec4(known ? normal * inversesqrt(length_squared) : vec3(0.0, 0.0, 1.0), 0.0);
 }

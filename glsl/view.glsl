@@ -1,19 +1,50 @@
 // SPDX-License-Identifier: MIT
 // From stored depth to view space, for any perspective or orthographic projection. Included by passes that read depth.
 
-uniform sampler2D u_depth_map; // as the host stores it, red channel
+// DEPTH_IS_DISTANCE 1: the host stores view distance, not window depth. DEPTH_IN_ALPHA 1: in the alpha of its normal map.
+uniform sampler2D u_depth_map; // as the host stores it
 
 // Farther than any surface: stands for sky and for depths that are no number. Its square still fits a float.
 const float FAR_AWAY = 1e15;
+
+float depth_component(vec4 texel)
+{
+#if DEPTH_IN_ALPHA
+    return texel.a;
+#else
+    return texel.r;
+#endif
+}
+
+// What the host stores at uv, filtered by the depth sampler.
+float stored_depth(vec2 uv)
+{
+    return depth_component(texture(u_depth_map, uv));
+}
 
 // View distance (scene units) of a stored depth. Both ends of the depth range are exact constants and are blended
 // as (1 - d) a + d b, because a + d (b - a) cancels where far is much larger than near.
 float distance_from_depth(float depth)
 {
+#if DEPTH_IS_DISTANCE
+    float distance = depth;
+#else
     vec4 k = gDistanceFromDepth;
     float distance = ((1.0 - depth) * k.x + depth * k.y) / ((1.0 - depth) * k.z + depth * k.w);
-    // An infinite far plane divides by 0 at the sky, and 0 / 0 is possible beyond it: neither may reach a sum.
+#endif
+    // An infinite far plane divides by 0 at the sky, 0 / 0 is possible beyond it, and hosts may store infinity or what
+    // is no number (a comparison with it is false): none of them may reach a sum.
     return abs(distance) < FAR_AWAY ? distance : FAR_AWAY;
+}
+
+// Whether a stored depth means that nothing was drawn.
+bool is_sky(float depth)
+{
+#if DEPTH_IS_DISTANCE
+    return !(abs(depth) < gSkyDepth) || depth == 0.0;
+#else
+    return depth == gSkyDepth;
+#endif
 }
 
 // The centre of the full-size texel that stands for a pixel of the ambient map. At half size and even sizes, uv falls

@@ -18,6 +18,10 @@ struct block_frame {
 #include "cb_frame.glsl"
 };
 
+struct block_hemisphere {
+#include "cb_hemisphere.glsl"
+};
+
 #define SAME(block, type, member)                                                                                      \
     _Static_assert(offsetof(struct block, member) == offsetof(type, member), #member " lies elsewhere in the shader")
 SAME(block_ssao, glssao_constants, gProj);
@@ -38,8 +42,22 @@ SAME(block_frame, glssao__frame_constants, gPower);
 SAME(block_frame, glssao__frame_constants, gBlurNormalThreshold);
 SAME(block_frame, glssao__frame_constants, gBlurDepthThreshold);
 SAME(block_frame, glssao__frame_constants, gSampleCount);
+SAME(block_hemisphere, glssao__hemisphere_constants, gKernel);
+SAME(block_hemisphere, glssao__hemisphere_constants, gRotations);
 _Static_assert(sizeof(struct block_ssao) == 488 && sizeof(glssao_constants) == 496, "cbSsao has another size");
 _Static_assert(sizeof(glssao__frame_constants) % 16 == 0, "std140 rounds a block up to a vec4");
+
+static const double PI = 3.14159265358979323846;
+
+/* 0 .. count - 1 in random order (Fisher and Yates). */
+static void shuffle(int *order, int count, glssao__random random)
+{
+    for (int i = 0; i < count; ++i) {
+        int k = (int)(glssao__random_next(&random) % (uint32_t)(i + 1));
+        order[i] = order[k];
+        order[k] = i;
+    }
+}
 
 void glssao__constants_init(glssao_constants *c, uint32_t seed)
 {
@@ -56,6 +74,37 @@ void glssao__constants_init(glssao_constants *c, uint32_t seed)
         float scale = (0.25f + 0.75f * glssao__random_unit(&random)) / length;
         for (int axis = 0; axis < 3; ++axis)
             c->gOffsetVectors[i][axis] = scale * d[axis];
+    }
+}
+
+/* The tile's rotation angles: evenly spaced, in an order that the seed shuffles, so that a box of the tile's size
+ * averages over all of them. */
+void glssao__constants_init_hemisphere(glssao__hemisphere_constants *c, uint32_t seed)
+{
+    memset(c, 0, sizeof *c);
+    enum { COUNT = ROTATION_TILE * ROTATION_TILE };
+    int order[COUNT];
+    shuffle(order, COUNT, glssao__random_seed(seed, 2));
+    for (int i = 0; i < COUNT; ++i) {
+        double angle_rad = 2.0 * PI * (order[i] + 0.5) / COUNT;
+        c->gRotations[i][0] = (float)cos(angle_rad);
+        c->gRotations[i][1] = (float)sin(angle_rad);
+    }
+}
+
+/* Directions uniform over the hemisphere (heights in shuffled strata, azimuths by the golden angle), lengths denser
+ * towards the point: the i-th of n is 0.1 + 0.9 (i / n)^2 long. */
+void glssao__constants_fill_kernel(glssao__hemisphere_constants *c, uint32_t seed, int sample_count)
+{
+    int order[HEMISPHERE_CAPACITY];
+    shuffle(order, sample_count, glssao__random_seed(seed, 3));
+    for (int i = 0; i < sample_count; ++i) {
+        double height = (order[i] + 0.5) / sample_count, across = sqrt(1.0 - height * height);
+        double azimuth_rad = PI * (3.0 - sqrt(5.0)) * order[i];
+        double fraction = (double)i / sample_count, length = 0.1 + 0.9 * fraction * fraction;
+        c->gKernel[i][0] = (float)(length * across * cos(azimuth_rad));
+        c->gKernel[i][1] = (float)(length * across * sin(azimuth_rad));
+        c->gKernel[i][2] = (float)(length * height);
     }
 }
 
@@ -94,14 +143,14 @@ void glssao__constants_fill(glssao_constants *c, const glssao_frame *frame, cons
     c->gSurfaceEpsilon = settings->surface_epsilon;
 }
 
-void glssao__constants_fill_frame(glssao__frame_constants *c, const glssao_settings *settings,
-                                  const glssao__projection *projection)
+void glssao__constants_fill_frame(glssao__frame_constants *c, const glssao_frame *frame,
+                                  const glssao_settings *settings, const glssao__projection *projection)
 {
     memset(c, 0, sizeof *c);
     memcpy(c->gDistanceFromDepth, projection->distance_from_depth, sizeof c->gDistanceFromDepth);
     memcpy(c->gRayOrigin, projection->ray_origin, sizeof c->gRayOrigin);
     memcpy(c->gRayDirection, projection->ray_direction, sizeof c->gRayDirection);
-    c->gSkyDepth = projection->sky_depth;
+    c->gSkyDepth = frame->depth_kind == GLSSAO_DEPTH_WINDOW ? projection->sky_depth : FAR_AWAY;
     c->gPower = settings->power;
     c->gBlurNormalThreshold = settings->blur_normal_threshold;
     c->gBlurDepthThreshold = settings->blur_depth_threshold;

@@ -29,9 +29,9 @@ static glssao_result make_sized(glssao_effect *effect, int width, int height, gl
 static glssao_result make_objects(glssao_effect *effect)
 {
     const glssao__gl *gl = &effect->gl;
-    /* The estimate reads both blocks: compiling it checks the driver's layout of them. */
+    /* Compiling a pass checks the driver's layout of the blocks that it reads. */
     const glssao__program_object *program;
-    glssao_result result = glssao__program_get(effect, PROGRAM_CLASSIC, &program);
+    glssao_result result = glssao__program_get(effect, SHADER_CLASSIC, 0, &program);
     if (result == GLSSAO_OK)
         result = glssao__maps_make_random_vector(effect);
     if (result == GLSSAO_OK)
@@ -43,7 +43,8 @@ static glssao_result make_objects(glssao_effect *effect)
     glssao__stats_make_timers(effect);
     gl->GenVertexArrays(1, &effect->vertex_array);
     gl->GenBuffers(BLOCK_COUNT, effect->uniform_buffers);
-    const gl_sizeiptr sizes[BLOCK_COUNT] = {sizeof effect->constants, sizeof effect->frame_constants};
+    const gl_sizeiptr sizes[BLOCK_COUNT] = {sizeof effect->constants, sizeof effect->frame_constants,
+                                            sizeof effect->hemisphere_constants};
     for (int i = 0; i < BLOCK_COUNT; ++i) {
         gl->BindBuffer(GL_UNIFORM_BUFFER, effect->uniform_buffers[i]);
         gl->BufferData(GL_UNIFORM_BUFFER, sizes[i], NULL, GL_STREAM_DRAW);
@@ -84,6 +85,7 @@ glssao_result glssao_create(const glssao_config *config, glssao_effect **out_eff
         return GLSSAO_INVALID_ARGUMENT;
     }
     glssao__constants_init(&effect->constants, effect->seed);
+    glssao__constants_init_hemisphere(&effect->hemisphere_constants, effect->seed);
 
     glssao__host_state host;
     glssao__state_save(&effect->gl, &host);
@@ -104,9 +106,11 @@ void glssao_destroy(glssao_effect *effect)
     const glssao__gl *gl = &effect->gl;
     if (effect->between_normals)
         (void)glssao_end_normals(effect); /* the host's framebuffer comes back; deleting a bound one would bind 0 */
-    for (int i = 0; i < PROGRAM_COUNT; ++i)
-        gl->DeleteProgram(effect->programs[i].name); /* names of 0 are ignored, here and below */
-    glssao__maps_delete_normal(gl, &effect->normal_map);
+    for (int shader = 0; shader < SHADER_COUNT; ++shader)
+        for (int variant = 0; variant < VARIANT_COUNT; ++variant)
+            if (effect->programs[shader][variant].name)
+                gl->DeleteProgram(effect->programs[shader][variant].name);
+    glssao__maps_delete_normal(gl, &effect->normal_map); /* names of 0 are ignored, here and below */
     glssao__maps_delete_ambient(gl, &effect->ambient);
     gl->DeleteTextures(1, &effect->random_vector_map);
     gl->DeleteSamplers(SAMPLER_COUNT, effect->samplers);

@@ -28,26 +28,46 @@ enum glssao__sampler {
     SAMPLER_COUNT
 };
 
-enum glssao__block { BLOCK_SSAO = 0, BLOCK_FRAME, BLOCK_COUNT }; /* also the uniform buffer binding points used */
+enum glssao__block {
+    BLOCK_SSAO = 0,
+    BLOCK_FRAME,
+    BLOCK_HEMISPHERE,
+    BLOCK_COUNT
+}; /* also the uniform buffer binding points used */
 
-/* One shader variant each; the table in program.c says what they are compiled from. */
-enum glssao__program {
-    PROGRAM_NORMALS = 0,
-    PROGRAM_CLASSIC,
-    PROGRAM_CLASSIC_UNSIGNED, /* normals stored as 0..1 */
-    PROGRAM_BLUR_GAUSSIAN,
-    PROGRAM_BLUR_BILATERAL,
-    PROGRAM_BLUR_BILATERAL_UNSIGNED,
-    PROGRAM_APPLY,
-    PROGRAM_COUNT
+/* What is drawn; with the flags below it names one program. program.c holds the tables of both. */
+enum glssao__shader { SHADER_NORMALS = 0, SHADER_CLASSIC, SHADER_HEMISPHERE, SHADER_BLUR, SHADER_APPLY, SHADER_COUNT };
+
+/* Variants: each flag is a macro that is 0 or 1 in the shaders that test it. */
+enum glssao__variant {
+    VARIANT_UNSIGNED_NORMALS = 1,
+    VARIANT_OCTAHEDRAL_NORMALS = 2,
+    VARIANT_DEPTH_IS_DISTANCE = 4,
+    VARIANT_DEPTH_IN_ALPHA = 8, /* of the normal map, as view distance; comes with DEPTH_IS_DISTANCE */
+    VARIANT_NO_ANGLE_WEIGHT = 16,
+    VARIANT_BOX = 32,
+    VARIANT_EDGE_AWARE = 64,
+    VARIANT_FLAGS = 7, /* how many there are */
+    VARIANT_COUNT = 1 << VARIANT_FLAGS
 };
 
-enum { RANDOM_VECTOR_MAP_SIZE = 256, TIMER_FRAMES = 4, MAX_DRAW_BUFFERS = 8, TOGGLE_CAPACITY = 32 };
+enum {
+    RANDOM_VECTOR_MAP_SIZE = 256,
+    HEMISPHERE_CAPACITY = 64,
+    ROTATION_TILE = 4,
+    TIMER_FRAMES = 4,
+    MAX_DRAW_BUFFERS = 8,
+    TOGGLE_CAPACITY = 32
+};
 
 typedef struct glssao__log_sink {
     glssao_log_fn write; /* may be NULL */
     void *user;
 } glssao__log_sink;
+
+/* Border of maps that hold view distance, as the D3D11 demo has it: beyond it nothing occludes. */
+#define SKY_DISTANCE 1e5f
+#define FAR_AWAY 1e15f /* as in glsl/view.glsl */
 
 /* glsl/cb_frame.glsl in C. */
 typedef struct glssao__frame_constants {
@@ -61,6 +81,12 @@ typedef struct glssao__frame_constants {
     int gSampleCount;
     float padding[3]; /* std140 rounds the block up to 80 bytes */
 } glssao__frame_constants;
+
+/* glsl/cb_hemisphere.glsl in C. */
+typedef struct glssao__hemisphere_constants {
+    float gKernel[HEMISPHERE_CAPACITY][4];
+    float gRotations[ROTATION_TILE * ROTATION_TILE][4];
+} glssao__hemisphere_constants;
 
 /* What a projection says about depth, worked out in double precision. */
 typedef struct glssao__projection {
@@ -125,10 +151,11 @@ struct glssao_effect {
     gl_uint samplers[SAMPLER_COUNT];
     gl_uint vertex_array;
     gl_uint uniform_buffers[BLOCK_COUNT];
-    glssao__program_object programs[PROGRAM_COUNT];
+    glssao__program_object programs[SHADER_COUNT][VARIANT_COUNT];
 
     glssao_constants constants;
     glssao__frame_constants frame_constants;
+    glssao__hemisphere_constants hemisphere_constants;
 
     bool between_normals; /* glssao_begin_normals was called, glssao_end_normals not yet */
     gl_int host_framebuffer;
@@ -149,10 +176,12 @@ bool glssao__projection_analyse(const float projection[16], bool clip_zero_to_on
 
 /* constants.c */
 void glssao__constants_init(glssao_constants *c, uint32_t seed);
+void glssao__constants_init_hemisphere(glssao__hemisphere_constants *c, uint32_t seed);
+void glssao__constants_fill_kernel(glssao__hemisphere_constants *c, uint32_t seed, int sample_count);
 void glssao__constants_fill(glssao_constants *c, const glssao_frame *frame, const glssao_settings *settings,
                             const glssao__projection *projection, int ambient_width, int ambient_height);
-void glssao__constants_fill_frame(glssao__frame_constants *c, const glssao_settings *settings,
-                                  const glssao__projection *projection);
+void glssao__constants_fill_frame(glssao__frame_constants *c, const glssao_frame *frame,
+                                  const glssao_settings *settings, const glssao__projection *projection);
 void glssao__constants_gauss_weights(float sigma, float out_weights[3][4]);
 
 /* random.c: PCG32 (O'Neill 2014); the same seed gives the same numbers on every machine. */
@@ -190,13 +219,16 @@ void glssao__maps_make_samplers(glssao_effect *effect);
 glssao_result glssao__maps_check_texture(glssao_effect *effect, gl_uint texture, bool needs_depth, const char *field);
 
 /* program.c */
-enum { GLSSAO__PROGRAM_MAX_SOURCES = 12 };
+enum { GLSSAO__PROGRAM_MAX_SOURCES = 3 * VARIANT_FLAGS + 11 }; /* three a macro, eight about blocks, three files */
 /* Pieces of a shader stage of a variant, in the order that the driver gets them; returns how many. */
-int glssao__program_sources(enum glssao__program id, gl_enum stage,
+int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enum stage,
                             const char *out_sources[GLSSAO__PROGRAM_MAX_SOURCES]);
-const char *glssao__program_name(enum glssao__program id);
-/* The variant, compiled on first use. */
-glssao_result glssao__program_get(glssao_effect *effect, enum glssao__program id, const glssao__program_object **out);
+/* False where the shader does not test one of the flags, or they exclude each other. */
+bool glssao__program_exists(enum glssao__shader shader, unsigned variant);
+const char *glssao__program_shader_name(enum glssao__shader shader);
+/* The program, compiled on first use; flags that the shader does not test are dropped. */
+glssao_result glssao__program_get(glssao_effect *effect, enum glssao__shader shader, unsigned variant,
+                                  const glssao__program_object **out);
 
 /* stats.c */
 void glssao__stats_begin_frame(glssao_effect *effect);

@@ -126,22 +126,45 @@ typedef struct frame_programs {
     const glssao__program_object *normals, *estimate, *blur;
 } frame_programs;
 
+/* How the host stores what the passes read. */
+static unsigned input_variant(const glssao_frame *frame)
+{
+    unsigned variant = 0;
+    if (frame->normal_texture && frame->normal_kind == GLSSAO_NORMAL_UNSIGNED)
+        variant |= VARIANT_UNSIGNED_NORMALS;
+    if (frame->normal_texture && frame->normal_kind == GLSSAO_NORMAL_OCTAHEDRAL)
+        variant |= VARIANT_OCTAHEDRAL_NORMALS;
+    if (frame->depth_kind != GLSSAO_DEPTH_WINDOW)
+        variant |= VARIANT_DEPTH_IS_DISTANCE;
+    if (frame->depth_kind == GLSSAO_DEPTH_NORMAL_ALPHA)
+        variant |= VARIANT_DEPTH_IN_ALPHA;
+    return variant;
+}
+
+/* The texture that holds depth. */
+static gl_uint depth_source(const glssao_frame *frame)
+{
+    return frame->depth_kind == GLSSAO_DEPTH_NORMAL_ALPHA ? frame->normal_texture : frame->depth_texture;
+}
+
 /* Compiles what the plan needs, before anything changes. */
 static glssao_result get_programs(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
                                   const glssao_plan *plan, frame_programs *out)
 {
-    bool is_unsigned = frame->normal_texture && frame->normal_kind == GLSSAO_NORMAL_UNSIGNED;
+    unsigned inputs = input_variant(frame);
     glssao_result result = GLSSAO_OK;
     if (plan->passes[GLSSAO_PASS_NORMALS].run)
-        result = glssao__program_get(effect, PROGRAM_NORMALS, &out->normals);
-    if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_ESTIMATE].run)
-        result = glssao__program_get(effect, is_unsigned ? PROGRAM_CLASSIC_UNSIGNED : PROGRAM_CLASSIC, &out->estimate);
-    if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_BLUR].run)
-        result = glssao__program_get(effect,
-                                     settings->blur == GLSSAO_BLUR_GAUSSIAN ? PROGRAM_BLUR_GAUSSIAN
-                                     : is_unsigned                          ? PROGRAM_BLUR_BILATERAL_UNSIGNED
-                                                                            : PROGRAM_BLUR_BILATERAL,
-                                     &out->blur);
+        result = glssao__program_get(effect, SHADER_NORMALS, inputs, &out->normals);
+    if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_ESTIMATE].run) {
+        bool classic = settings->technique == GLSSAO_CLASSIC;
+        unsigned variant = inputs | (settings->no_angle_weight ? VARIANT_NO_ANGLE_WEIGHT : 0u);
+        result = glssao__program_get(effect, classic ? SHADER_CLASSIC : SHADER_HEMISPHERE, variant, &out->estimate);
+    }
+    if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_BLUR].run) {
+        unsigned variant = inputs | (settings->blur == GLSSAO_BLUR_BILATERAL ? VARIANT_EDGE_AWARE : 0u) |
+                           (settings->blur == GLSSAO_BLUR_BOX ? VARIANT_BOX : 0u);
+        result = glssao__program_get(effect, SHADER_BLUR, variant, &out->blur);
+    }
     return result;
 }
 
@@ -161,12 +184,14 @@ static glssao_result fit_ambient(glssao_effect *effect, const glssao_settings *s
     return GLSSAO_OK;
 }
 
-static void upload_constants(glssao_effect *effect)
+/* `block_count`: how many blocks the frame reads; only the hemisphere technique needs the last. */
+static void upload_constants(glssao_effect *effect, gl_uint block_count)
 {
     const glssao__gl *gl = &effect->gl;
-    const void *data[BLOCK_COUNT] = {&effect->constants, &effect->frame_constants};
-    const gl_sizeiptr sizes[BLOCK_COUNT] = {sizeof effect->constants, sizeof effect->frame_constants};
-    for (gl_uint i = 0; i < BLOCK_COUNT; ++i) {
+    const void *data[BLOCK_COUNT] = {&effect->constants, &effect->frame_constants, &effect->hemisphere_constants};
+    const gl_sizeiptr sizes[BLOCK_COUNT] = {sizeof effect->constants, sizeof effect->frame_constants,
+                                            sizeof effect->hemisphere_constants};
+    for (gl_uint i = 0; i < block_count; ++i) {
         gl->BindBufferBase(GL_UNIFORM_BUFFER, i, effect->uniform_buffers[i]);
         gl->BufferSubData(GL_UNIFORM_BUFFER, 0, sizes[i], data[i]);
     }
@@ -199,7 +224,9 @@ static void blur(glssao_effect *effect, const glssao__program_object *program, i
 static glssao_result compute(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
                              const glssao__projection *projection)
 {
-    glssao_result result = glssao__maps_check_texture(effect, frame->depth_texture, false, "frame.depth_texture");
+    glssao_result result = GLSSAO_OK;
+    if (frame->depth_kind != GLSSAO_DEPTH_NORMAL_ALPHA)
+        result = glssao__maps_check_texture(effect, frame->depth_texture, false, "frame.depth_texture");
     if (result == GLSSAO_OK && frame->normal_texture)
         result = glssao__maps_check_texture(effect, frame->normal_texture, false, "frame.normal_texture");
     const glssao_plan plan = glssao_plan_frame(effect, frame, settings);
@@ -211,21 +238,23 @@ static glssao_result compute(glssao_effect *effect, const glssao_frame *frame, c
     if (result != GLSSAO_OK)
         return result;
 
-    effect->depth_texture = frame->depth_texture;
+    effect->depth_texture = depth_source(frame);
     glssao__constants_fill(&effect->constants, frame, settings, projection, effect->ambient.width,
                            effect->ambient.height);
-    glssao__constants_fill_frame(&effect->frame_constants, settings, projection);
-    upload_constants(effect);
+    glssao__constants_fill_frame(&effect->frame_constants, frame, settings, projection);
+    if (settings->technique == GLSSAO_HEMISPHERE)
+        glssao__constants_fill_kernel(&effect->hemisphere_constants, effect->seed, settings->sample_count);
+    upload_constants(effect, settings->technique == GLSSAO_HEMISPHERE ? BLOCK_COUNT : BLOCK_HEMISPHERE);
     glssao__stats_begin_frame(effect);
     if (!plan.passes[GLSSAO_PASS_ESTIMATE].run) {
         glssao__maps_clear_ambient(effect);
         return GLSSAO_OK;
     }
     effect->ambient_is_one = false;
-    gl_float sky = projection->sky_depth;
+    gl_float sky = frame->depth_kind == GLSSAO_DEPTH_WINDOW ? projection->sky_depth : SKY_DISTANCE;
     effect->gl.SamplerParameterfv(effect->samplers[SAMPLER_DEPTH], GL_TEXTURE_BORDER_COLOR,
                                   (const gl_float[4]){sky, sky, sky, sky});
-    bind_input(effect, UNIT_DEPTH, frame->depth_texture, SAMPLER_DEPTH);
+    bind_input(effect, UNIT_DEPTH, depth_source(frame), SAMPLER_DEPTH);
     if (plan.passes[GLSSAO_PASS_NORMALS].run) {
         glssao__stats_begin_pass(effect, GLSSAO_PASS_NORMALS);
         rebuild_normals(effect, programs.normals);
@@ -265,7 +294,7 @@ static glssao_result apply(glssao_effect *effect, gl_uint framebuffer)
 {
     const glssao__gl *gl = &effect->gl;
     const glssao__program_object *program;
-    glssao_result result = glssao__program_get(effect, PROGRAM_APPLY, &program);
+    glssao_result result = glssao__program_get(effect, SHADER_APPLY, 0, &program);
     if (result != GLSSAO_OK)
         return result;
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);

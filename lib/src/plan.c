@@ -18,7 +18,7 @@ static const char *nothing_to_occlude(const glssao_settings *s)
         return "radius is 0: no occluder is in reach";
     if (s->power <= 0.0f)
         return "power is 0: every accessibility becomes 1";
-    if (s->fade_end <= s->surface_epsilon)
+    if (s->technique == GLSSAO_CLASSIC && s->fade_end <= s->surface_epsilon)
         return "fade_end is not above surface_epsilon: no occluder counts";
     return NULL;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * The shader variants: one table of what each is compiled from; compiled when first needed; the uniform blocks'
- * layout checked against the C structs by asking the driver.
+ * The shaders and their variants, in one table each; compiled when first needed; the uniform blocks' layout checked
+ * against the C structs by asking the driver.
  */
 #include "effect.h"
 #include "shaders.h"
@@ -9,35 +9,50 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Every macro that a file tests is defined in each variant of it, as 0 or 1. */
-static const struct variant {
-    const char *name;
-    const char *macros;
-    const char *files[3]; /* after the blocks, in order; the last is the pass itself */
-} variants[PROGRAM_COUNT] = {
-    [PROGRAM_NORMALS] = {"normals", "", {shader_view_glsl, shader_normals_frag}},
-    [PROGRAM_CLASSIC] = {"classic",
-                         "#define UNSIGNED_NORMALS 0\n",
-                         {shader_view_glsl, shader_normal_map_glsl, shader_classic_frag}},
-    [PROGRAM_CLASSIC_UNSIGNED] = {"classic-unsigned",
-                                  "#define UNSIGNED_NORMALS 1\n",
-                                  {shader_view_glsl, shader_normal_map_glsl, shader_classic_frag}},
-    [PROGRAM_BLUR_GAUSSIAN] = {"blur-gaussian", "#define EDGE_AWARE 0\n", {shader_blur_frag}},
-    [PROGRAM_BLUR_BILATERAL] = {"blur-bilateral",
-                                "#define EDGE_AWARE 1\n#define UNSIGNED_NORMALS 0\n",
-                                {shader_view_glsl, shader_normal_map_glsl, shader_blur_frag}},
-    [PROGRAM_BLUR_BILATERAL_UNSIGNED] = {"blur-bilateral-unsigned",
-                                         "#define EDGE_AWARE 1\n#define UNSIGNED_NORMALS 1\n",
-                                         {shader_view_glsl, shader_normal_map_glsl, shader_blur_frag}},
-    [PROGRAM_APPLY] = {"apply", "", {shader_apply_frag}},
+static const char *const macros[VARIANT_FLAGS] = {
+    "UNSIGNED_NORMALS", "OCTAHEDRAL_NORMALS", "DEPTH_IS_DISTANCE", "DEPTH_IN_ALPHA", "NO_ANGLE_WEIGHT", "BOX",
+    "EDGE_AWARE",
 };
 
-const char *glssao__program_name(enum glssao__program id)
+enum {
+    NORMAL_FLAGS = VARIANT_UNSIGNED_NORMALS | VARIANT_OCTAHEDRAL_NORMALS,
+    DEPTH_FLAGS = VARIANT_DEPTH_IS_DISTANCE | VARIANT_DEPTH_IN_ALPHA
+};
+
+/* What each shader is compiled from, and which flags it tests: every one of those is defined, as 0 or 1. */
+static const struct shader {
+    const char *name;
+    unsigned flags;
+    const char *files[3]; /* after the blocks, in order; the last is the pass itself */
+} shaders[SHADER_COUNT] = {
+    [SHADER_NORMALS] = {"normals", DEPTH_FLAGS, {shader_view_glsl, shader_normals_frag}},
+    [SHADER_CLASSIC] = {"classic",
+                        NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_NO_ANGLE_WEIGHT,
+                        {shader_view_glsl, shader_normal_map_glsl, shader_classic_frag}},
+    [SHADER_HEMISPHERE] = {"hemisphere",
+                           NORMAL_FLAGS | DEPTH_FLAGS,
+                           {shader_view_glsl, shader_normal_map_glsl, shader_hemisphere_frag}},
+    [SHADER_BLUR] = {"blur",
+                     NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_BOX | VARIANT_EDGE_AWARE,
+                     {shader_view_glsl, shader_normal_map_glsl, shader_blur_frag}},
+    [SHADER_APPLY] = {"apply", 0, {shader_apply_frag}},
+};
+
+const char *glssao__program_shader_name(enum glssao__shader shader)
 {
-    return variants[id].name;
+    return shaders[shader].name;
 }
 
-int glssao__program_sources(enum glssao__program id, gl_enum stage,
+bool glssao__program_exists(enum glssao__shader shader, unsigned variant)
+{
+    bool both_encodings = (variant & NORMAL_FLAGS) == NORMAL_FLAGS;
+    bool alpha_alone = (variant & VARIANT_DEPTH_IN_ALPHA) && !(variant & VARIANT_DEPTH_IS_DISTANCE);
+    bool edges_needed = (variant & (NORMAL_FLAGS | DEPTH_FLAGS)) == 0 || (variant & VARIANT_EDGE_AWARE);
+    return (variant & ~shaders[shader].flags) == 0 && !both_encodings && !alpha_alone &&
+           (shader != SHADER_BLUR || edges_needed);
+}
+
+int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enum stage,
                             const char *out_sources[GLSSAO__PROGRAM_MAX_SOURCES])
 {
     int n = 0;
@@ -46,14 +61,23 @@ int glssao__program_sources(enum glssao__program id, gl_enum stage,
         out_sources[n++] = shader_fullscreen_vert;
         return n;
     }
-    out_sources[n++] = variants[id].macros;
+    for (int i = 0; i < VARIANT_FLAGS; ++i)
+        if (shaders[shader].flags & 1u << i) {
+            out_sources[n++] = "#define ";
+            out_sources[n++] = macros[i];
+            out_sources[n++] = variant & 1u << i ? " 1\n" : " 0\n";
+        }
     out_sources[n++] = "layout(std140) uniform cbSsao {\n";
     out_sources[n++] = shader_cb_ssao_glsl;
     out_sources[n++] = "};\nlayout(std140) uniform cbFrame {\n";
     out_sources[n++] = shader_cb_frame_glsl;
+    if (shader == SHADER_HEMISPHERE) {
+        out_sources[n++] = "};\nlayout(std140) uniform cbHemisphere {\n";
+        out_sources[n++] = shader_cb_hemisphere_glsl;
+    }
     out_sources[n++] = "};\n";
-    for (int i = 0; i < 3 && variants[id].files[i]; ++i)
-        out_sources[n++] = variants[id].files[i];
+    for (int i = 0; i < 3 && shaders[shader].files[i]; ++i)
+        out_sources[n++] = shaders[shader].files[i];
     return n;
 }
 
@@ -76,11 +100,11 @@ static void log_source(const glssao_effect *effect, const char *const *sources, 
         }
 }
 
-static gl_uint compile(const glssao_effect *effect, enum glssao__program id, gl_enum stage)
+static gl_uint compile(const glssao_effect *effect, enum glssao__shader id, unsigned variant, gl_enum stage)
 {
     const glssao__gl *gl = &effect->gl;
     const char *sources[GLSSAO__PROGRAM_MAX_SOURCES];
-    int count = glssao__program_sources(id, stage, sources);
+    int count = glssao__program_sources(id, variant, stage, sources);
     gl_uint shader = gl->CreateShader(stage);
     gl->ShaderSource(shader, count, sources, NULL);
     gl->CompileShader(shader);
@@ -90,8 +114,8 @@ static gl_uint compile(const glssao_effect *effect, enum glssao__program id, gl_
         return shader;
     char text[400] = "";
     gl->GetShaderInfoLog(shader, sizeof text, NULL, text);
-    glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "%s shader of %s: %s",
-                      stage == GL_VERTEX_SHADER ? "vertex" : "fragment", variants[id].name, text);
+    glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "%s shader of %s, variant %u: %s",
+                      stage == GL_VERTEX_SHADER ? "vertex" : "fragment", shaders[id].name, variant, text);
     log_source(effect, sources, count);
     gl->DeleteShader(shader);
     return 0;
@@ -131,12 +155,16 @@ static const struct member {
     FRAME(gBlurDepthThreshold),
     FRAME(gSampleCount),
 #undef FRAME
+    {BLOCK_HEMISPHERE, "gKernel", offsetof(glssao__hemisphere_constants, gKernel)},
+    {BLOCK_HEMISPHERE, "gRotations", offsetof(glssao__hemisphere_constants, gRotations)},
 };
 
 static const struct block {
     const char *name;
     size_t size;
-} blocks[BLOCK_COUNT] = {{"cbSsao", sizeof(glssao_constants)}, {"cbFrame", sizeof(glssao__frame_constants)}};
+} blocks[BLOCK_COUNT] = {{"cbSsao", sizeof(glssao_constants)},
+                         {"cbFrame", sizeof(glssao__frame_constants)},
+                         {"cbHemisphere", sizeof(glssao__hemisphere_constants)}};
 
 /* Ties the blocks that the program has to their binding points; false where the driver lays one out otherwise. */
 static bool bind_blocks(const glssao_effect *effect, gl_uint program)
@@ -174,7 +202,7 @@ static bool bind_blocks(const glssao_effect *effect, gl_uint program)
     return true;
 }
 
-static gl_uint link(const glssao_effect *effect, enum glssao__program id, gl_uint vertex, gl_uint fragment)
+static gl_uint link(const glssao_effect *effect, enum glssao__shader id, gl_uint vertex, gl_uint fragment)
 {
     const glssao__gl *gl = &effect->gl;
     gl_uint program = gl->CreateProgram();
@@ -186,7 +214,7 @@ static gl_uint link(const glssao_effect *effect, enum glssao__program id, gl_uin
     if (!ok) {
         char text[400] = "";
         gl->GetProgramInfoLog(program, sizeof text, NULL, text);
-        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "program %s does not link: %s", variants[id].name, text);
+        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "program %s does not link: %s", shaders[id].name, text);
     }
     if (ok && bind_blocks(effect, program))
         return program;
@@ -210,17 +238,21 @@ static void tie_samplers(const glssao__gl *gl, gl_uint program)
         gl->Uniform1i(gl->GetUniformLocation(program, samplers[i].name), (gl_int)samplers[i].unit); /* -1 is ignored */
 }
 
-glssao_result glssao__program_get(glssao_effect *effect, enum glssao__program id, const glssao__program_object **out)
+glssao_result glssao__program_get(glssao_effect *effect, enum glssao__shader shader, unsigned variant,
+                                  const glssao__program_object **out)
 {
-    glssao__program_object *object = &effect->programs[id];
+    variant &= shaders[shader].flags;
+    if (shader == SHADER_BLUR && !(variant & VARIANT_EDGE_AWARE))
+        variant &= VARIANT_BOX; /* it reads neither normals nor depth */
+    glssao__program_object *object = &effect->programs[shader][variant];
     *out = object;
     if (object->name)
         return GLSSAO_OK;
     const glssao__gl *gl = &effect->gl;
-    gl_uint vertex = compile(effect, id, GL_VERTEX_SHADER);
-    gl_uint fragment = vertex ? compile(effect, id, GL_FRAGMENT_SHADER) : 0;
+    gl_uint vertex = compile(effect, shader, variant, GL_VERTEX_SHADER);
+    gl_uint fragment = vertex ? compile(effect, shader, variant, GL_FRAGMENT_SHADER) : 0;
     if (fragment)
-        object->name = link(effect, id, vertex, fragment);
+        object->name = link(effect, shader, vertex, fragment);
     gl->DeleteShader(vertex); /* names of 0 are ignored; an attached shader lives as long as its program */
     gl->DeleteShader(fragment);
     if (!object->name)

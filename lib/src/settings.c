@@ -7,6 +7,19 @@
 #include <math.h>
 #include <stddef.h>
 
+/* As in Learn OpenGL: 64 samples at full size, a box over the noise's tile, no contrast. */
+static glssao_settings hemisphere_settings(glssao_settings s, glssao_quality quality)
+{
+    s.technique = GLSSAO_HEMISPHERE;
+    s.surface_epsilon = 0.025f;
+    s.power = 1.0f;
+    s.sample_count = quality == GLSSAO_LOW ? 8 : quality == GLSSAO_MEDIUM ? 16 : quality == GLSSAO_ULTRA ? 64 : 32;
+    s.half_resolution = false;
+    s.blur = GLSSAO_BLUR_BOX;
+    s.blur_rounds = 1;
+    return s;
+}
+
 glssao_settings glssao_default_settings(glssao_technique technique, glssao_quality quality)
 {
     /* Luna's first edition of the effect; HIGH is what the book ships. */
@@ -25,7 +38,9 @@ glssao_settings glssao_default_settings(glssao_technique technique, glssao_quali
         .blur_normal_threshold = 0.8f,
         .blur_depth_threshold = 0.2f,
     };
-    if (technique == GLSSAO_HEMISPHERE || technique == GLSSAO_HORIZON)
+    if (technique == GLSSAO_HEMISPHERE)
+        return hemisphere_settings(s, quality);
+    if (technique == GLSSAO_HORIZON)
         s.technique = technique;
     switch (quality) {
     case GLSSAO_LOW:
@@ -57,7 +72,7 @@ static const struct number {
     {"fade_end", offsetof(glssao_settings, fade_end), false, 0.0, 1e12},
     {"surface_epsilon", offsetof(glssao_settings, surface_epsilon), false, 0.0, 1e12},
     {"power", offsetof(glssao_settings, power), false, 0.0, 64.0},
-    {"sample_count", offsetof(glssao_settings, sample_count), true, 1.0, 14.0},
+    {"sample_count", offsetof(glssao_settings, sample_count), true, 1.0, HEMISPHERE_CAPACITY},
     {"blur_rounds", offsetof(glssao_settings, blur_rounds), true, 0.0, 16.0},
     {"blur_sigma", offsetof(glssao_settings, blur_sigma), false, 0.1, 2.5},
     {"blur_normal_threshold", offsetof(glssao_settings, blur_normal_threshold), false, -1.0, 1.0},
@@ -72,9 +87,9 @@ static bool refuse(const glssao__log_sink *log, const char *field, long long val
 
 bool glssao__settings_check(const glssao_settings *settings, const glssao__log_sink *log)
 {
-    if (settings->technique == GLSSAO_HEMISPHERE || settings->technique == GLSSAO_HORIZON)
+    if (settings->technique == GLSSAO_HORIZON)
         return refuse(log, "settings.technique", settings->technique, "not there yet; take GLSSAO_CLASSIC");
-    if (settings->technique != GLSSAO_CLASSIC)
+    if (settings->technique != GLSSAO_CLASSIC && settings->technique != GLSSAO_HEMISPHERE)
         return refuse(log, "settings.technique", settings->technique, "unknown");
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; ++i) {
         const struct number *n = &numbers[i];
@@ -86,6 +101,8 @@ bool glssao__settings_check(const glssao_settings *settings, const glssao__log_s
             return false;
         }
     }
+    if (settings->technique == GLSSAO_CLASSIC && settings->sample_count > 14)
+        return refuse(log, "settings.sample_count", settings->sample_count, "classic has 14 offset vectors");
     if (settings->fade_end < settings->fade_start) {
         glssao__log_write(log, GLSSAO_LOG_ERROR, "settings.fade_end = %g: less than fade_start = %g",
                           (double)settings->fade_end, (double)settings->fade_start);
@@ -95,9 +112,8 @@ bool glssao__settings_check(const glssao_settings *settings, const glssao__log_s
     case GLSSAO_BLUR_NONE:
     case GLSSAO_BLUR_GAUSSIAN:
     case GLSSAO_BLUR_BILATERAL:
-        return true;
     case GLSSAO_BLUR_BOX:
-        return refuse(log, "settings.blur", settings->blur, "GLSSAO_BLUR_BOX is not there yet");
+        return true;
     }
     return refuse(log, "settings.blur", settings->blur, "unknown");
 }
@@ -105,12 +121,15 @@ bool glssao__settings_check(const glssao_settings *settings, const glssao__log_s
 static bool check_frame(const glssao_effect *effect, const glssao_frame *frame, const glssao__log_sink *log,
                         glssao__projection *out_projection)
 {
-    if (frame->depth_texture == 0)
+    if ((unsigned)frame->depth_kind > GLSSAO_DEPTH_NORMAL_ALPHA)
+        return refuse(log, "frame.depth_kind", frame->depth_kind, "unknown");
+    if ((unsigned)frame->normal_kind > GLSSAO_NORMAL_OCTAHEDRAL)
+        return refuse(log, "frame.normal_kind", frame->normal_kind, "unknown");
+    bool in_alpha = frame->depth_kind == GLSSAO_DEPTH_NORMAL_ALPHA;
+    if (in_alpha && frame->normal_texture == 0)
+        return refuse(log, "frame.normal_texture", 0, "no texture, and GLSSAO_DEPTH_NORMAL_ALPHA reads depth from it");
+    if (!in_alpha && frame->depth_texture == 0)
         return refuse(log, "frame.depth_texture", 0, "no texture");
-    if (frame->depth_kind != GLSSAO_DEPTH_WINDOW)
-        return refuse(log, "frame.depth_kind", frame->depth_kind, "only GLSSAO_DEPTH_WINDOW is there yet");
-    if (frame->normal_kind != GLSSAO_NORMAL_SIGNED && frame->normal_kind != GLSSAO_NORMAL_UNSIGNED)
-        return refuse(log, "frame.normal_kind", frame->normal_kind, "only _SIGNED and _UNSIGNED are there yet");
     for (int i = 0; i < 2; ++i)
         if (frame->depth_texture == effect->ambient.texture[i] || frame->normal_texture == effect->ambient.texture[i])
             return refuse(log, "frame texture", effect->ambient.texture[i], "an ambient map can't be its own input");

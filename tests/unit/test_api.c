@@ -245,10 +245,12 @@ static void compute_refuses_bad_settings(void **state)
     REFUSED(blur_depth_threshold, -1.0f);
     REFUSED(technique, (glssao_technique)7);
     REFUSED(technique, GLSSAO_HORIZON);
-    REFUSED(technique, GLSSAO_HEMISPHERE);
     REFUSED(blur, (glssao_blur)9);
-    REFUSED(blur, GLSSAO_BLUR_BOX);
 #undef REFUSED
+    s = in.settings;
+    s.technique = GLSSAO_HEMISPHERE;
+    s.sample_count = 65;
+    check_refused(f, &in, &in.frame, &s, "settings.sample_count");
     check_refused(f, &in, &in.frame, NULL, "settings is NULL");
     check_refused(f, &in, NULL, &in.settings, "frame is NULL");
     assert_int_equal(glssao_compute(in.effect, &in.frame, &in.settings), GLSSAO_OK); /* still usable */
@@ -279,6 +281,9 @@ static void compute_refuses_bad_frames(void **state)
     REFUSED(projection[1], 0.5f, "frame.projection[1]");
     REFUSED(projection[14], 0.0f, "frame.projection is singular");
 #undef REFUSED
+    frame = in.frame;
+    frame.depth_kind = GLSSAO_DEPTH_NORMAL_ALPHA; /* and no normal map */
+    check_refused(f, &in, &frame, &in.settings, "frame.normal_texture");
     frame = in.frame;
     memset(frame.projection, 0, sizeof frame.projection);
     check_refused(f, &in, &frame, &in.settings, "frame.projection");

@@ -9,12 +9,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool check_stage(const char *validator, const char *folder, enum glssao__program id, gl_enum stage)
+static bool check_stage(const char *validator, const char *folder, enum glssao__shader id, unsigned variant,
+                        gl_enum stage)
 {
     const char *sources[GLSSAO__PROGRAM_MAX_SOURCES];
-    int count = glssao__program_sources(id, stage, sources);
+    int count = glssao__program_sources(id, variant, stage, sources);
     char path[1024], command[2400];
-    snprintf(path, sizeof path, "%s/%s.%s", folder, glssao__program_name(id),
+    snprintf(path, sizeof path, "%s/%s-%u.%s", folder, glssao__program_shader_name(id), variant,
              stage == GL_VERTEX_SHADER ? "vert" : "frag");
     FILE *file = fopen(path, "wb");
     if (!file) {
@@ -29,7 +30,7 @@ static bool check_stage(const char *validator, const char *folder, enum glssao__
         return false;
     }
     snprintf(command, sizeof command, "\"%s\" \"%s\"", validator, path);
-    return system(command) == 0;
+    return system(command) == 0; /* it prints the file's name, and errors */
 }
 
 int main(int argc, char **argv)
@@ -38,11 +39,15 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: test_shaders VALIDATOR FOLDER\n");
         return 2;
     }
-    int bad = 0;
-    for (int id = 0; id < PROGRAM_COUNT; ++id) {
-        bad += !check_stage(argv[1], argv[2], (enum glssao__program)id, GL_VERTEX_SHADER);
-        bad += !check_stage(argv[1], argv[2], (enum glssao__program)id, GL_FRAGMENT_SHADER);
-    }
-    printf("%d variants, %d bad stages\n", (int)PROGRAM_COUNT, bad);
+    int bad = 0, programs = 0;
+    for (int id = 0; id < SHADER_COUNT; ++id)
+        for (unsigned variant = 0; variant < VARIANT_COUNT; ++variant) {
+            if (!glssao__program_exists((enum glssao__shader)id, variant))
+                continue;
+            ++programs;
+            bad += !check_stage(argv[1], argv[2], (enum glssao__shader)id, variant, GL_FRAGMENT_SHADER);
+        }
+    bad += !check_stage(argv[1], argv[2], SHADER_APPLY, 0, GL_VERTEX_SHADER); /* shared by all */
+    printf("%d programs, %d bad stages\n", programs, bad);
     return bad ? 1 : 0;
 }

@@ -81,7 +81,7 @@ typedef struct glssao_config {
 
 typedef enum glssao_technique {
     GLSSAO_CLASSIC = 0, /* 14 offsets about the point, distance fade, bilateral blur (Luna, D3D12 book, ch. 21) */
-    GLSSAO_HEMISPHERE,  /* hemisphere kernel with tiled rotations; not there yet: GLSSAO_INVALID_ARGUMENT */
+    GLSSAO_HEMISPHERE,  /* samples in the half ball about the normal, 4x4 tile of rotations (Chapman 2013) */
     GLSSAO_HORIZON      /* cosine-weighted visibility by slices; not there yet: GLSSAO_INVALID_ARGUMENT */
 } glssao_technique;
 
@@ -91,7 +91,7 @@ typedef enum glssao_blur {
     GLSSAO_BLUR_NONE = 0,
     GLSSAO_BLUR_GAUSSIAN,  /* separable, 11 taps, crosses edges */
     GLSSAO_BLUR_BILATERAL, /* the same taps, kept only where normal and view distance agree */
-    GLSSAO_BLUR_BOX        /* not there yet: GLSSAO_INVALID_ARGUMENT */
+    GLSSAO_BLUR_BOX        /* separable, 4 x 4: one period of the hemisphere technique's tile; crosses edges */
 } glssao_blur;
 
 typedef struct glssao_settings {   /* fill with glssao_default_settings() first, then change what you like */
@@ -99,29 +99,31 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     float radius;                  /* scene units, >= 0: how far away an occluder can be. 0 occludes nothing */
     float fade_start, fade_end;    /* scene units of view distance, 0 <= start <= end: an occluder this much nearer
                                       than the point counts fully, or no longer (classic) */
-    float surface_epsilon;         /* scene units, >= 0: an occluder less than this nearer does not count (classic) */
+    float surface_epsilon;         /* scene units, >= 0: an occluder less than this nearer does not count: than the
+                                      point (classic), than the sample (hemisphere) */
     float power;                   /* 0 to 64: accessibility is raised to this; more is darker */
-    int sample_count;              /* classic: 1 to 14 offset vectors, the 8 cube corners first */
+    int sample_count;              /* classic: 1 to 14 offset vectors, the 8 cube corners first; hemisphere: 1 to 64 */
     bool half_resolution;          /* estimate at half the size, (w + 1) / 2 by (h + 1) / 2 */
     glssao_blur blur;
     int blur_rounds;               /* 0 to 16: each is one horizontal and one vertical pass */
     float blur_sigma;              /* pixels of the ambient map, above 0 to 2.5 */
     float blur_normal_threshold;   /* cosine, -1 to 1: taps whose normals' dot product is below are dropped */
     float blur_depth_threshold;    /* scene units, >= 0: taps farther off in view distance are dropped */
+    bool no_angle_weight;          /* classic, for teaching: occluders count at any angle, so flat surfaces darken */
 } glssao_settings;
 
 /* ---- frame: what the host hands over each time ---------------------------------------------------------- */
 
 typedef enum glssao_depth {
     GLSSAO_DEPTH_WINDOW = 0,    /* what the depth buffer stores; depth or depth-stencil format */
-    GLSSAO_DEPTH_VIEW_DISTANCE, /* view distance in the red channel; not there yet: GLSSAO_INVALID_ARGUMENT */
-    GLSSAO_DEPTH_NORMAL_ALPHA   /* view distance in the normal map's alpha; not there yet: GLSSAO_INVALID_ARGUMENT */
+    GLSSAO_DEPTH_VIEW_DISTANCE, /* view distance in the red channel of a float format; sky: 0, infinite or no number */
+    GLSSAO_DEPTH_NORMAL_ALPHA   /* the same in the alpha of normal_texture; depth_texture is not used */
 } glssao_depth;
 
 typedef enum glssao_normal {
     GLSSAO_NORMAL_SIGNED = 0, /* xyz in -1..1, any length but 0 */
     GLSSAO_NORMAL_UNSIGNED,   /* xyz stored as 0..1 */
-    GLSSAO_NORMAL_OCTAHEDRAL  /* two channels; not there yet: GLSSAO_INVALID_ARGUMENT */
+    GLSSAO_NORMAL_OCTAHEDRAL  /* red and green, -1..1 (Meyer et al. 2010) */
 } glssao_normal;
 
 typedef struct glssao_frame {

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// The hemisphere estimate (J. Chapman, "SSAO Tutorial", 2013; J. de Vries, "Learn OpenGL", 2020, SSAO): samples in the
+// half ball about the normal, of which those count as occluded that lie behind the surface seen at their pixel.
+// in  v_uv             0..1
+// in  u_normal_map     view space, point sampled
+// in  u_depth_map      stored depth, linearly sampled, border: sky
+// out o_accessibility  0..1, R16
+
+in vec2 v_uv;
+out float o_accessibility;
+
+// Two unit vectors that span the plane across the normal, turned by the pixel's place in the 4x4 tile.
+mat3 view_from_tangent(vec3 normal_view)
+{
+    ivec2 tile = ivec2(gl_FragCoord.xy) & 3;
+    vec3 turned = vec3(gRotations[tile.y * 4 + tile.x].xy, 0.0);
+    // A rotation vector along the normal leaves nothing after Gram-Schmidt; the z axis is then across.
+    vec3 tangent = turned - normal_view * dot(turned, normal_view);
+    if (dot(tangent, tangent) < 1e-6)
+        tangent = vec3(0.0, 0.0, 1.0) - normal_view * normal_view.z;
+    tangent = normalize(tangent);
+    return mat3(tangent, cross(normal_view, tangent), normal_view);
+}
+
+void main()
+{
+    o_accessibility = 1.0;
+    vec2 center_uv = texel_center_uv(v_uv);
+    vec3 normal_view = normal_view_from_map(center_uv);
+    float depth = stored_depth(center_uv);
+    // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
+    if (is_sky(depth) || normal_view == vec3(0.0))
+        return;
+    float center_distance = distance_from_depth(depth);
+    vec3 position_view = position_view_from_uv(center_uv, center_distance);
+    mat3 basis = view_from_tangent(normal_view);
+
+    float occlusion = 0.0;
+    float counted = 0.0;
+    for (int i = 0; i < gSampleCount; ++i) {
+        vec3 sample_view = position_view + gOcclusionRadius * (basis * gKernel[i].xyz);
+        vec4 sample_uvw = gProjTex * vec4(sample_view, 1.0);
+        // At or behind the camera nothing can be seen through the sample.
+        if (sample_uvw.w <= 0.0)
+            continue;
+        vec2 uv = sample_uvw.xy / sample_uvw.w;
+        // What lies off the screen is not known; the rest of the samples stand for it. False for nan as well.
+        if (!(uv.x >= 0.0 && uv.y >= 0.0 && uv.x <= 1.0 && uv.y <= 1.0))
+            continue;
+        float surface_distance = distance_from_depth(stored_depth(uv));
+        bool hidden = surface_distance < -sample_view.z - gSurfaceEpsilon;
+        bool in_reach = abs(surface_distance - center_distance) <= gOcclusionRadius;
+        occlusion += hidden && in_reach ? 1.0 : 0.0;
+        counted += 1.0;
+    }
+    float accessibility = 1.0 - occlusion / max(counted, 1.0);
+    // pow() is undefined for a base of 0 with power 0.
+    o_accessibility = clamp(pow(max(accessibility, 1e-6), gPower), 0.0, 1.0);
+}
