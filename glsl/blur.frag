@@ -4,7 +4,7 @@
 // weights that are left are scaled to sum to 1.
 // in  v_uv           0..1
 // in  u_ambient_map  accessibility, point sampled
-// in  u_normal_map, u_depth_map  as for the estimate (EDGE_AWARE 1)
+// in  u_normal_map, u_depth_map  as for the estimate, fetched (EDGE_AWARE 1)
 // out o_accessibility  0..1, R16
 
 in vec2 v_uv;
@@ -24,9 +24,10 @@ void main()
 {
     vec2 step_uv = gHorizontalBlur ? vec2(gInvRenderTargetSize.x, 0.0) : vec2(0.0, gInvRenderTargetSize.y);
 #if EDGE_AWARE
-    vec2 center_uv = texel_center_uv(v_uv);
-    vec3 center_normal = normal_view_from_map(center_uv);
-    float center_distance = distance_from_depth(stored_depth(center_uv));
+    ivec2 last = textureSize(u_depth_map, 0) - 1;
+    ivec2 center = texel_from_uv(v_uv);
+    vec3 center_normal = normal_view_from_map(center);
+    float center_distance = distance_from_depth(fetched_depth(center));
 #endif
     float sum = 0.0;
     float weights = 0.0;
@@ -39,11 +40,13 @@ void main()
 #endif
         vec2 uv = v_uv + float(i) * step_uv;
 #if EDGE_AWARE
-        vec2 tap_uv = texel_center_uv(uv);
-        float cosine = dot(normal_view_from_map(tap_uv), center_normal);
-        float distance = distance_from_depth(stored_depth(tap_uv));
+        ivec2 tap = texel_from_uv(uv);
+        ivec2 inside = clamp(tap, ivec2(0), last);
+        float cosine = dot(normal_view_from_map(inside), center_normal);
+        float distance = distance_from_depth(fetched_depth(inside));
         // The centre always counts, so the sum of weights is never 0, whatever the maps hold.
-        bool keep = i == 0 || (cosine >= gBlurNormalThreshold && abs(distance - center_distance) <= gBlurDepthThreshold);
+        bool keep = i == 0 || (inside == tap && cosine >= gBlurNormalThreshold &&
+                               abs(distance - center_distance) <= gBlurDepthThreshold);
         weight = keep ? weight : 0.0;
 #endif
         sum += weight * texture(u_ambient_map, uv).r;

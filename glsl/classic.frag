@@ -2,8 +2,8 @@
 // The classic estimate (Luna, Introduction to 3D Game Programming with DirectX 12, chapter 21): 14 offset vectors,
 // reflected about a random vector, flipped to the normal's side; what is seen through each is a possible occluder.
 // in  v_uv              0..1
-// in  u_normal_map      view space, point sampled
-// in  u_depth_map       stored depth, linearly sampled, border: sky
+// in  u_normal_map      view space, fetched
+// in  u_depth_map       stored depth, fetched for the pixel; for occluders linearly sampled, border: sky
 // in  u_random_vector_map  RGBA8, each channel uniform in 0..1, repeated 4 times across the target
 // out o_accessibility   0..1, R16
 // NO_ANGLE_WEIGHT 1: an occluder counts fully at any angle to the normal, which shows the self-occlusion of flat
@@ -26,13 +26,13 @@ float weight_from_distance(float nearer)
 void main()
 {
     o_accessibility = 1.0;
-    vec2 center_uv = texel_center_uv(v_uv);
-    vec3 normal_view = normal_view_from_map(center_uv);
-    float depth = stored_depth(center_uv);
+    ivec2 texel = texel_from_uv(v_uv);
+    vec3 normal_view = normal_view_from_map(texel);
+    float depth = fetched_depth(texel);
     // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
     if (is_sky(depth) || normal_view == vec3(0.0))
         return;
-    vec3 position_view = position_view_from_uv(center_uv, distance_from_depth(depth));
+    vec3 position_view = position_view_from_uv(uv_from_texel(texel), distance_from_depth(depth));
     // Not normalised, as in the reference; a vector of length 0 leaves every offset as it is.
     vec3 random_vector = 2.0 * texture(u_random_vector_map, 4.0 * v_uv).rgb - 1.0;
 

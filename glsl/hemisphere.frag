@@ -2,8 +2,8 @@
 // The hemisphere estimate (J. Chapman, "SSAO Tutorial", 2013; J. de Vries, "Learn OpenGL", 2020, SSAO): samples in the
 // half ball about the normal, of which those count as occluded that lie behind the surface seen at their pixel.
 // in  v_uv             0..1
-// in  u_normal_map     view space, point sampled
-// in  u_depth_map      stored depth, linearly sampled, border: sky
+// in  u_normal_map     view space, fetched
+// in  u_depth_map      stored depth, fetched for the pixel; for occluders linearly sampled, border: sky
 // out o_accessibility  0..1, R16
 
 in vec2 v_uv;
@@ -25,14 +25,14 @@ mat3 view_from_tangent(vec3 normal_view)
 void main()
 {
     o_accessibility = 1.0;
-    vec2 center_uv = texel_center_uv(v_uv);
-    vec3 normal_view = normal_view_from_map(center_uv);
-    float depth = stored_depth(center_uv);
+    ivec2 texel = texel_from_uv(v_uv);
+    vec3 normal_view = normal_view_from_map(texel);
+    float depth = fetched_depth(texel);
     // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
     if (is_sky(depth) || normal_view == vec3(0.0))
         return;
     float center_distance = distance_from_depth(depth);
-    vec3 position_view = position_view_from_uv(center_uv, center_distance);
+    vec3 position_view = position_view_from_uv(uv_from_texel(texel), center_distance);
     mat3 basis = view_from_tangent(normal_view);
 
     float occlusion = 0.0;

@@ -6,9 +6,9 @@ uniform sampler2D u_normal_map; // view space, any length
 
 // View-space unit normal, or 0 where the map holds none (length 0, infinite, not a number): a comparison with
 // something that is no number is false, so all three take the same way out, and normalize() never divides by 0.
-vec3 normal_view_from_map(vec2 uv)
+vec3 normal_view_from_map(ivec2 texel)
 {
-    vec3 normal = texture(u_normal_map, uv).xyz;
+    vec3 normal = texelFetch(u_normal_map, texel, 0).xyz;
 #if OCTAHEDRAL_NORMALS
     normal.z = 1.0 - abs(normal.x) - abs(normal.y);
     // The lower half is folded over the square's edges; a coordinate of 0 belongs to the positive side.

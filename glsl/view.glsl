@@ -47,13 +47,24 @@ bool is_sky(float depth)
 #endif
 }
 
-// The centre of the full-size texel that stands for a pixel of the ambient map. At half size and even sizes, uv falls
-// on the corner of four texels, where rounding would pick one at random and filtering would mix a silhouette's two
-// sides; a quarter texel back, the lower left of the four is always meant. At full size uv is a centre already.
-vec2 texel_center_uv(vec2 uv)
+// The full-size texel that stands for a pixel of the ambient map. At half size and even sizes, uv falls on the corner of
+// four texels, where rounding would pick one at random and filtering would mix a silhouette's two sides (and let an
+// infinite neighbour in, since 0 times infinity is no number); a quarter texel back, the lower left of the four is
+// always meant. At full size uv is a centre already. May lie outside the map where uv does.
+ivec2 texel_from_uv(vec2 uv)
 {
-    vec2 size = vec2(textureSize(u_depth_map, 0));
-    return (floor(uv * size - 0.25) + 0.5) / size;
+    return ivec2(floor(uv * vec2(textureSize(u_depth_map, 0)) - 0.25));
+}
+
+vec2 uv_from_texel(ivec2 texel)
+{
+    return (vec2(texel) + 0.5) / vec2(textureSize(u_depth_map, 0));
+}
+
+// What the host stores at a texel of the map.
+float fetched_depth(ivec2 texel)
+{
+    return depth_component(texelFetch(u_depth_map, texel, 0));
 }
 
 // The point that is seen at uv at a view distance (scene units).

@@ -13,7 +13,7 @@
 typedef struct context context;
 
 typedef enum context_kind {
-    CONTEXT_AUTO = 0, /* a hardware EGL device first, then EGL surfaceless, then OSMesa */
+    CONTEXT_AUTO = 0, /* a hardware EGL device first, then EGL surfaceless, OSMesa, a software EGL device */
     CONTEXT_EGL,      /* a hardware EGL device first, then surfaceless, then a software EGL device */
     CONTEXT_OSMESA
 } context_kind;
@@ -28,10 +28,11 @@ typedef struct context_options {
  * was tried and why each way failed. */
 context *context_create(const context_options *options, char *error, size_t error_size);
 
-/* Releases and deletes it. NULL is fine. */
+/* Releases and deletes it; it must not be current on another thread. NULL is fine. */
 void context_destroy(context *c);
 
-/* Makes it current on the calling thread. */
+/* Makes it current on the calling thread, in place of whatever context of this interface was. It must not be
+ * current on another thread. */
 bool context_make_current(context *c);
 
 /* What was taken, for a person: "EGL surfaceless: llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa ...". */

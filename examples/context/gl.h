@@ -109,6 +109,8 @@
     X(READBUFFER, ReadBuffer) \
     X(READPIXELS, ReadPixels) \
     X(RENDERBUFFERSTORAGE, RenderbufferStorage) \
+    X(RENDERBUFFERSTORAGEMULTISAMPLE, RenderbufferStorageMultisample) \
+    X(SAMPLECOVERAGE, SampleCoverage) \
     X(SAMPLEMASKI, SampleMaski) \
     X(SAMPLERPARAMETERF, SamplerParameterf) \
     X(SAMPLERPARAMETERI, SamplerParameteri) \

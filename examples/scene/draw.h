@@ -3,7 +3,11 @@
  * Draws a scene the way the D3D12 demo does: a pre-pass that writes view-space normals and depth, then a main pass
  * with depth EQUAL and no depth write that scales ambient light by accessibility and adds one directional light.
  * Both passes compute positions by one shared expression marked invariant. Blended materials come last, over the
- * opaque picture, and get no occlusion of their own.
+ * opaque picture, and get no occlusion of their own. Unlit materials show their base colour: no light, no occlusion.
+ *
+ * GL state: each draw function sets what it needs (viewport, program, vertex array, texture units 0 and 1, depth,
+ * culling, blending, masks, sRGB) and leaves GL's defaults behind, the viewport aside. Scissor, stencil and polygon
+ * state it leaves alone; they are expected off.
  */
 #ifndef GLSSAO_EXAMPLES_DRAW_H
 #define GLSSAO_EXAMPLES_DRAW_H
@@ -45,11 +49,13 @@ void scene_draw_normals(scene_renderer *r, const scene_view *view);
 void scene_draw_main(scene_renderer *r, const scene_view *view, const scene_lighting *lighting, unsigned ambient_map);
 
 /* Draws texture `map` over the whole bound framebuffer of width x height, through one channel transform:
- * out = scale * texel + bias, with only red spread to rgb if `red_only`. For debug views and read-back at full size. */
+ * out = scale * texel + bias, with only red spread to rgb if `red_only`; alpha 1, sampled linearly, stored without
+ * sRGB encoding. For debug views and read-back at full size. */
 void scene_draw_map(scene_renderer *r, unsigned map, int width, int height, bool red_only, float scale, float bias);
 
-/* View distance of each pixel (positive; 0 where nothing was drawn) from a window-depth texture, to output 0 of
- * the bound framebuffer. */
+/* View distance of each pixel (0 where nothing was drawn: depth at its far value) from a window-depth texture, to
+ * output 0 of the bound framebuffer. Exact for perspective (off-centre, infinite, reversed too) and orthographic
+ * projections; depth runs over -1..1 in clip space. */
 void scene_draw_view_distance(scene_renderer *r, const scene_view *view, unsigned depth_texture);
 
 #endif

@@ -5,8 +5,8 @@
 #ifndef GLSSAO_EFFECT_H
 #define GLSSAO_EFFECT_H
 
-#include "gl.h"
 #include "glssao/glssao.h"
+#include "opengl.h"
 
 #include <stdarg.h>
 

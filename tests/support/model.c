@@ -31,6 +31,8 @@ static double ndc_from_depth(const model_input *in, double depth)
 /* View distance t of a depth: ndc = (P14 - P10 t) / (P15 - P11 t). */
 static double distance_from_depth(const model_input *in, double depth)
 {
+    if (in->frame->depth_kind != GLSSAO_DEPTH_WINDOW)
+        return isfinite(depth) && fabs(depth) < 1e15 ? depth : 1e15;
     double ndc = ndc_from_depth(in, depth);
     double distance = (entry(in, 14) - ndc * entry(in, 15)) / (entry(in, 10) - ndc * entry(in, 11));
     return isfinite(distance) && fabs(distance) < 1e15 ? distance : 1e15;
@@ -50,9 +52,11 @@ static double depth_texel(const model_input *in, int x, int y, double border)
     return (double)in->depth[(size_t)y * (size_t)in->width + (size_t)x];
 }
 
-/* The farther end of the depth range. */
+/* The farther end of the depth range, or the border that the D3D11 demo gives to distances. */
 static double sky_depth(const model_input *in)
 {
+    if (in->frame->depth_kind != GLSSAO_DEPTH_WINDOW)
+        return 1e5;
     double at_0 = distance_from_depth(in, 0.0), at_1 = distance_from_depth(in, 1.0);
     return at_1 > at_0 ? 1.0 : 0.0;
 }
@@ -69,23 +73,38 @@ static double depth_at(const model_input *in, double u, double v)
     return (1.0 - fy) * low + fy * high;
 }
 
-/* How much linear filtering can be off per texel of uv error: the steepest step among the four texels. */
-static double depth_slope(const model_input *in, double u, double v)
+static bool is_sky(const model_input *in, double depth)
 {
-    double border = sky_depth(in), low = HUGE_VAL, high = -HUGE_VAL;
-    int ix = (int)floor(u * in->width - 0.5), iy = (int)floor(v * in->height - 0.5);
-    for (int i = 0; i < 4; ++i) {
-        double d = depth_texel(in, ix + i % 2, iy + i / 2, border);
-        low = fmin(low, d);
-        high = fmax(high, d);
-    }
-    return high - low;
+    if (in->frame->depth_kind == GLSSAO_DEPTH_WINDOW)
+        return depth == sky_depth(in);
+    return depth == 0.0 || !(fabs(depth) < 1e15);
 }
 
 /* The full-size texel that stands for an ambient pixel: the lower left one where four meet. */
 static int texel_of(int pixel, int ambient_size, int full_size)
 {
     return (int)floor((pixel + 0.5) / ambient_size * full_size - 0.25);
+}
+
+/* How much nearer and how much farther a distance read at uv may come out in float arithmetic, where uv is off by 2^-22
+ * of the map, depth by 3 steps of 2^-24, and distance by 4. */
+static void distance_errors(const model_input *in, double u, double v, double *out_nearer, double *out_farther)
+{
+    double distance = distance_from_depth(in, depth_at(in, u, v)), low = distance, high = distance;
+    for (int i = 0; i < 4; ++i) {
+        double du = i % 2 ? 0x1p-22 : -0x1p-22, dv = i / 2 ? 0x1p-22 : -0x1p-22;
+        double seen = depth_at(in, u + du, v + dv), step = 3.0 * 0x1p-24 * fmax(1.0, fabs(seen));
+        for (int k = -1; k <= 1; k += 2) {
+            double depth = seen + k * step;
+            if (in->frame->depth_kind == GLSSAO_DEPTH_WINDOW)
+                depth = fmin(fmax(depth, 0.0), 1.0);
+            double other = distance_from_depth(in, depth);
+            low = fmin(low, other);
+            high = fmax(high, other);
+        }
+    }
+    *out_nearer = distance - (low - 4.0 * 0x1p-24 * fabs(low));
+    *out_farther = high + 4.0 * 0x1p-24 * fabs(high) - distance;
 }
 
 static vec3 normal_texel(const model_input *in, int x, int y)
@@ -117,7 +136,7 @@ void model_classic(const model_input *in, int x, int y, double *out_low, double 
     int fx = texel_of(x, in->ambient_width, in->width), fy = texel_of(y, in->ambient_height, in->height);
     vec3 n = normal_texel(in, fx, fy);
     double depth = depth_texel(in, fx, fy, 0.0);
-    if (depth == sky_depth(in) || dot(n, n) == 0.0)
+    if (is_sky(in, depth) || dot(n, n) == 0.0)
         return;
     vec3 p = position_view(in, (fx + 0.5) / in->width, (fy + 0.5) / in->height, distance_from_depth(in, depth));
     const float *random = in->random_vectors + 3 * ((size_t)y * (size_t)in->ambient_width + (size_t)x);
@@ -137,23 +156,22 @@ void model_classic(const model_input *in, int x, int y, double *out_low, double 
         double t = 0.5 + 0.5 * (entry(in, 5) * q.y + entry(in, 9) * q.z + entry(in, 13)) / w;
         u = fmin(fmax(u, -1.0), 2.0);
         t = fmin(fmax(t, -1.0), 2.0);
-        double seen = depth_at(in, u, t);
-        double distance = distance_from_depth(in, seen);
+        double distance = distance_from_depth(in, depth_at(in, u, t));
         vec3 r = position_view(in, u, t, distance);
         vec3 to = add_scaled(r, -1.0, p);
         double length = sqrt(dot(to, to));
         double facing = length > 0.0 ? fmax(dot(n, to) / length, 0.0) : 0.0;
 
-        /* What float arithmetic can't tell apart: depth to 3 steps of 2^-24 and a uv error of 2^-22 of the map, both
-         * carried to view distance by the slope of distance over depth. */
-        double uv_error = 0x1p-22 * fmax(in->width, in->height);
-        double depth_error = 3.0 * 0x1p-24 + uv_error * depth_slope(in, u, t);
-        double per_depth = fabs(distance_from_depth(in, seen + 1e-7) - distance_from_depth(in, seen - 1e-7)) / 2e-7;
-        double error = depth_error * per_depth + 4.0 * 0x1p-24 * distance;
-        double facing_error = length > 0.0 ? fmin(2.0 * error / length, 1.0) : 1.0;
-        double a = distance_weight(s, to.z - error), b = distance_weight(s, to.z + error);
-        double c =
-            distance_weight(s, fmin(fmax((double)s->surface_epsilon * (1.0 + 1e-12), to.z - error), to.z + error));
+        if (s->no_angle_weight)
+            facing = 1.0;
+        double nearer, farther;
+        distance_errors(in, u, t, &nearer, &farther);
+        double facing_error = length > 0.0 ? fmin(2.0 * fmax(nearer, farther) / length, 1.0) : 1.0;
+        if (s->no_angle_weight)
+            facing_error = 0.0;
+        double a = distance_weight(s, to.z - farther), b = distance_weight(s, to.z + nearer);
+        double at_epsilon = (double)s->surface_epsilon * (1.0 + 1e-12);
+        double c = distance_weight(s, fmin(fmax(at_epsilon, to.z - farther), to.z + nearer));
         double weight_low = fmin(a, b), weight_high = fmax(fmax(a, b), c);
         if (fabs(side) < 1e-6) { /* flipped or not: another sample altogether */
             weight_low = 0.0;
@@ -167,6 +185,65 @@ void model_classic(const model_input *in, int x, int y, double *out_low, double 
     *out_low = pow(fmax(1.0 - high / s->sample_count, 1e-6), (double)s->power);
 }
 
+static void unit_length(vec3 *v)
+{
+    double length = sqrt(dot(*v, *v));
+    *v = (vec3){v->x / length, v->y / length, v->z / length};
+}
+
+void model_hemisphere(const model_input *in, int x, int y, double *out_low, double *out_high)
+{
+    *out_low = *out_high = 1.0;
+    const glssao_settings *s = in->settings;
+    int fx = texel_of(x, in->ambient_width, in->width), fy = texel_of(y, in->ambient_height, in->height);
+    vec3 n = normal_texel(in, fx, fy);
+    double depth = depth_texel(in, fx, fy, 0.0);
+    if (is_sky(in, depth) || dot(n, n) == 0.0)
+        return;
+    double center = distance_from_depth(in, depth), radius = (double)s->radius;
+    vec3 p = position_view(in, (fx + 0.5) / in->width, (fy + 0.5) / in->height, center);
+    const float *rotation = in->rotations[(y % 4) * 4 + x % 4];
+    vec3 turned = {(double)rotation[0], (double)rotation[1], 0.0};
+    vec3 tangent = add_scaled(turned, -dot(turned, n), n);
+    if (dot(tangent, tangent) < 1e-6)
+        tangent = add_scaled((vec3){0.0, 0.0, 1.0}, -n.z, n);
+    unit_length(&tangent);
+    vec3 bitangent = {n.y * tangent.z - n.z * tangent.y, n.z * tangent.x - n.x * tangent.z,
+                      n.x * tangent.y - n.y * tangent.x};
+
+    double low = 0.0, high = 0.0, counted = 0.0, perhaps_counted = 0.0;
+    for (int i = 0; i < s->sample_count; ++i) {
+        const float *k = in->kernel[i];
+        vec3 q = add_scaled(p, radius * (double)k[0], tangent);
+        q = add_scaled(q, radius * (double)k[1], bitangent);
+        q = add_scaled(q, radius * (double)k[2], n);
+        double w = entry(in, 15) + entry(in, 11) * q.z;
+        if (w <= 0.0)
+            continue;
+        double u = 0.5 + 0.5 * (entry(in, 0) * q.x + entry(in, 8) * q.z + entry(in, 12)) / w;
+        double v = 0.5 + 0.5 * (entry(in, 5) * q.y + entry(in, 9) * q.z + entry(in, 13)) / w;
+        double inside = fmin(fmin(u, v), fmin(1.0 - u, 1.0 - v));
+        if (fabs(inside) < 1e-6) { /* on the screen's very edge: counted, or not */
+            perhaps_counted += 1.0;
+            continue;
+        }
+        if (inside < 0.0)
+            continue;
+        double distance = distance_from_depth(in, depth_at(in, u, v));
+        double nearer, farther;
+        distance_errors(in, u, v, &nearer, &farther);
+        double error = fmax(nearer, farther) + 4.0 * 0x1p-24 * (center + radius);
+        double behind = -q.z - (double)s->surface_epsilon - distance, reach = radius - fabs(distance - center);
+        low += behind > error && reach > error ? 1.0 : 0.0;
+        high += behind > -error && reach > -error ? 1.0 : 0.0;
+        counted += 1.0;
+    }
+    double occlusion_low = low / fmax(counted + perhaps_counted, 1.0);
+    double occlusion_high = fmin((high + perhaps_counted) / fmax(counted, 1.0), 1.0);
+    *out_high = pow(fmax(1.0 - occlusion_low, 1e-6), (double)s->power);
+    *out_low = pow(fmax(1.0 - occlusion_high, 1e-6), (double)s->power);
+}
+
 bool model_blur(const model_input *in, const float *ambient, bool horizontal, int x, int y, double *out_value)
 {
     const glssao_settings *s = in->settings;
@@ -175,15 +252,18 @@ bool model_blur(const model_input *in, const float *ambient, bool horizontal, in
     double center_distance = distance_from_depth(in, depth_texel(in, cx, cy, sky_depth(in)));
     double sum = 0.0, weights = 0.0;
     bool decided = true;
-    for (int i = -5; i <= 5; ++i) {
-        double weight = (double)in->constants->gBlurWeights[(i + 5) / 4][(i + 5) % 4];
+    bool box = s->blur == GLSSAO_BLUR_BOX;
+    for (int i = box ? -2 : -5; i <= (box ? 1 : 5); ++i) {
+        double weight = box ? 0.25 : (double)in->constants->gBlurWeights[(i + 5) / 4][(i + 5) % 4];
         int tx = horizontal ? x + i : x, ty = horizontal ? y : y + i;
         if (s->blur == GLSSAO_BLUR_BILATERAL && i != 0) {
             int fx = texel_of(tx, in->ambient_width, in->width), fy = texel_of(ty, in->ambient_height, in->height);
             double cosine = dot(normal_texel(in, fx, fy), center_normal);
             double distance = distance_from_depth(in, depth_texel(in, fx, fy, sky_depth(in)));
             double apart = fabs(distance - center_distance);
-            double slack = 1e-5 * fabs(center_distance) + 1e-6 * center_distance * center_distance / (double)s->radius;
+            bool sky = is_sky(in, depth_texel(in, cx, cy, sky_depth(in)));
+            double slack =
+                sky ? 0.0 : 1e-5 * fabs(center_distance) + 1e-6 * center_distance * center_distance / (double)s->radius;
             if (fabs(cosine - (double)s->blur_normal_threshold) < 1e-5 ||
                 fabs(apart - (double)s->blur_depth_threshold) < slack)
                 decided = false;

@@ -2,7 +2,7 @@
  *
  * Fills the table of GL functions from the host's loader and looks at what the context is.
  */
-#include "gl.h"
+#include "opengl.h"
 
 #include <string.h>
 

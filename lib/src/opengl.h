@@ -3,8 +3,8 @@
  * The part of OpenGL 3.3 that the library uses: types, constants, and a table of functions that the host's loader
  * fills, one per effect. No GL header is needed. Functions of later versions are optional and may be NULL.
  */
-#ifndef GLSSAO_GL_H
-#define GLSSAO_GL_H
+#ifndef GLSSAO_OPENGL_H
+#define GLSSAO_OPENGL_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The command line of glssao-render, parsed and checked: after options_parse every value is in its range.
+ */
+#ifndef GLSSAO_EXAMPLES_OPTIONS_H
+#define GLSSAO_EXAMPLES_OPTIONS_H
+
+#include "context.h"
+
+#include <glssao/glssao.h>
+
+typedef struct options_number {
+    bool given;
+    float value;
+} options_number;
+
+typedef struct options_vector {
+    bool given;
+    float value[3];
+} options_vector;
+
+typedef struct options {
+    const char *scene_path;                            /* NULL: the built-in scene */
+    const char *scene_name;                            /* of the built-in scene; NULL where a file is given */
+    const char *output, *ao, *normals, *depth, *stats; /* NULL: not wanted */
+    int width, height;
+    int quality, technique, context; /* glssao_quality, glssao_technique, context_kind */
+    options_number radius, power, fov_deg, near_plane, far_plane;
+    options_vector eye, target, up;
+    int sample_count;  /* 0: the quality's own */
+    int blur_rounds;   /* -1: the quality's own */
+    int camera;        /* the scene's N-th, counted from 1; 0: not given */
+    int frames, bench; /* 0: not given */
+    uint32_t seed;
+    bool plan, no_ao, help, version;
+} options;
+
+typedef enum options_result { OPTIONS_RUN, OPTIONS_DONE, OPTIONS_WRONG } options_result;
+
+/* OPTIONS_DONE: help or version was asked for and printed to stdout. OPTIONS_WRONG: one line in `error` names the
+ * option and the value. The strings live as long as argv. */
+options_result options_parse(int argc, char **argv, options *out, char *error, size_t error_size);
+
+#endif

@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * From drawn frame to files.
+ */
+#define _POSIX_C_SOURCE 200809L
+#include "outputs.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { PATH_LENGTH = 4096 };
+
+/* "name.png" becomes "name-0012.png". */
+static bool number_path(const char *path, int number, char *out, size_t out_size)
+{
+    const char *dot = strrchr(path, '.');
+    const int stem = dot ? (int)(dot - path) : (int)strlen(path);
+    const int length = number ? snprintf(out, out_size, "%.*s-%04d%s", stem, path, number, path + stem)
+                              : snprintf(out, out_size, "%s", path);
+    return length >= 0 && (size_t)length < out_size;
+}
+
+/* 0, or the errno that writing would run into. Leaves no file behind. */
+static int writing_error(const char *path)
+{
+    struct stat info;
+    if (stat(path, &info) == 0) {
+        if (S_ISDIR(info.st_mode)) {
+            return EISDIR;
+        }
+        return access(path, W_OK) == 0 ? 0 : errno;
+    }
+    char folder[PATH_LENGTH];
+    const char *slash = strrchr(path, '/');
+    const size_t length = slash ? (size_t)(slash - path) : 0;
+    memcpy(folder, path, length);
+    folder[length] = '\0';
+    const char *name = length ? folder : slash ? "/" : ".";
+    if (stat(name, &info) != 0) {
+        return errno;
+    }
+    if (!S_ISDIR(info.st_mode)) {
+        return ENOTDIR;
+    }
+    return access(name, W_OK | X_OK) == 0 ? 0 : errno;
+}
+
+bool outputs_check(const options *o, char *error, size_t error_size)
+{
+    const char *const files[] = {o->output, o->ao, o->normals, o->depth, o->stats};
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+        if (!files[i]) {
+            continue;
+        }
+        char path[PATH_LENGTH];
+        const bool numbered = o->frames && files[i] != o->stats;
+        const int code =
+            number_path(files[i], numbered ? 1 : 0, path, sizeof path) ? writing_error(path) : ENAMETOOLONG;
+        if (code) {
+            snprintf(error, error_size, "%s: can't be written: %s", files[i], strerror(code));
+            return false;
+        }
+    }
+    return true;
+}
+
+bool outputs_take(const options *o, pipeline *p, const scene_view *view, int number, writer *w, char *error,
+                  size_t error_size)
+{
+    const pixel_kind ao_kind = o->ao && strcmp(strrchr(o->ao, '.'), ".pfm") == 0 ? PIXELS_FLOAT : PIXELS_GREY8;
+    const struct {
+        const char *file;
+        pixel_kind kind;
+    } outputs[] = {{o->output, PIXELS_RGBA8}, {o->ao, ao_kind}, {o->normals, PIXELS_RGBA8}, {o->depth, PIXELS_FLOAT}};
+    for (size_t i = 0; i < sizeof outputs / sizeof outputs[0]; i++) {
+        const char *file = outputs[i].file;
+        if (!file) {
+            continue;
+        }
+        void *pixels = file == o->output    ? pipeline_read_picture(p)
+                       : file == o->ao      ? pipeline_read_ao(p, ao_kind)
+                       : file == o->normals ? pipeline_read_normals(p)
+                                            : pipeline_read_view_distance(p, view);
+        char path[PATH_LENGTH];
+        if (!pixels) {
+            snprintf(error, error_size, "%s: out of memory for %dx%d pixels", file, o->width, o->height);
+            return false;
+        }
+        const GLenum gl_error = gl.GetError();
+        if (gl_error != GL_NO_ERROR) {
+            free(pixels);
+            snprintf(error, error_size, "%s: not written: OpenGL error 0x%04x while drawing", file, gl_error);
+            return false;
+        }
+        number_path(file, number, path, sizeof path); /* outputs_check saw that it fits */
+        if (!writer_submit(w, path, o->width, o->height, outputs[i].kind, pixels, error, error_size)) {
+            return false;
+        }
+    }
+    return true;
+}

@@ -1,0 +1,303 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Targets, passes and read-back of one frame.
+ */
+#include "pipeline.h"
+
+#include "camera.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The effect's lengths belong together: a radius other than the default's scales the others along. */
+static glssao_settings choose_settings(const options *o, const scene *s)
+{
+    glssao_settings settings = glssao_default_settings((glssao_technique)o->technique, (glssao_quality)o->quality);
+    float radius = settings.radius;
+    if (o->radius.given) {
+        radius = o->radius.value;
+    } else if (o->scene_path) {
+        radius = camera_suggest_radius(s);
+    }
+    if (radius > 0) {
+        const float scale = radius / settings.radius;
+        settings.fade_start *= scale;
+        settings.fade_end *= scale;
+        settings.surface_epsilon *= scale;
+        settings.blur_depth_threshold *= scale;
+    }
+    settings.radius = radius;
+    if (o->power.given) {
+        settings.power = o->power.value;
+    }
+    if (o->sample_count) {
+        settings.sample_count = o->sample_count;
+    }
+    if (o->blur_rounds >= 0) {
+        settings.blur_rounds = o->blur_rounds;
+    }
+    return settings;
+}
+
+static GLuint make_texture(GLenum internal_format, GLenum format, GLenum type, int width, int height)
+{
+    GLuint texture;
+    gl.GenTextures(1, &texture);
+    gl.BindTexture(GL_TEXTURE_2D, texture);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)internal_format, width, height, 0, format, type, NULL);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* the default wants mipmaps */
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return texture;
+}
+
+/* Leaves it bound. Either texture may be 0. */
+static bool make_framebuffer(GLuint color, GLuint depth, GLuint *out)
+{
+    gl.GenFramebuffers(1, out);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, *out);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
+    if (!color) {
+        gl.DrawBuffer(GL_NONE);
+        gl.ReadBuffer(GL_NONE);
+    }
+    return gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+}
+
+static bool check_size(int width, int height, char *error, size_t error_size)
+{
+    GLint max_size = 0;
+    GLint max_viewport[2] = {0, 0};
+    gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &max_size);
+    gl.GetIntegerv(GL_MAX_VIEWPORT_DIMS, max_viewport);
+    const int max_width = max_size < max_viewport[0] ? max_size : max_viewport[0];
+    const int max_height = max_size < max_viewport[1] ? max_size : max_viewport[1];
+    if (width > max_width || height > max_height) {
+        snprintf(error, error_size, "--size %dx%d: this context draws up to %dx%d", width, height, max_width,
+                 max_height);
+        return false;
+    }
+    return true;
+}
+
+bool pipeline_create(pipeline *p, const scene *s, context *c, const options *o, pipeline_wants wants, char *error,
+                     size_t error_size)
+{
+    *p = (pipeline){.wants = wants, .width = o->width, .height = o->height};
+    if (!check_size(o->width, o->height, error, error_size)) {
+        return false;
+    }
+    p->settings = choose_settings(o, s);
+    p->lighting = scene_default_lighting();
+    p->renderer = scene_renderer_create(s, error, error_size);
+    if (!p->renderer) {
+        return false;
+    }
+    p->depth = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, p->width, p->height);
+    bool complete = true;
+    if (wants.ao || wants.normals) {
+        const glssao_config config = {.load = context_load,
+                                      .load_user = c,
+                                      .log = glssao_log_to_stderr,
+                                      .width = o->width,
+                                      .height = o->height,
+                                      .seed = o->seed,
+                                      .no_timers = !o->stats && !o->bench};
+        const glssao_result result = glssao_create(&config, &p->effect);
+        if (result != GLSSAO_OK) {
+            snprintf(error, error_size, "the effect can't be made: %s", glssao_result_string(result));
+            return false;
+        }
+    } else {
+        complete = make_framebuffer(0, p->depth, &p->depth_framebuffer);
+    }
+    if (wants.picture) {
+        p->color = make_texture(GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, p->width, p->height);
+        complete = make_framebuffer(p->color, p->depth, &p->color_framebuffer) && complete;
+    }
+    const GLenum gl_error = gl.GetError();
+    if (!complete || gl_error != GL_NO_ERROR) {
+        snprintf(error, error_size, "--size %dx%d: no framebuffer of that size (OpenGL error 0x%04x)", p->width,
+                 p->height, gl_error);
+        return false;
+    }
+    return true;
+}
+
+void pipeline_destroy(pipeline *p)
+{
+    glssao_destroy(p->effect);
+    if (p->renderer) {
+        scene_renderer_destroy(p->renderer);
+        gl.DeleteFramebuffers(1, &p->depth_framebuffer);
+        gl.DeleteFramebuffers(1, &p->color_framebuffer);
+        gl.DeleteTextures(1, &p->depth);
+        gl.DeleteTextures(1, &p->color);
+    }
+    *p = (pipeline){0};
+}
+
+static bool check(glssao_result result, const char *what, char *error, size_t error_size)
+{
+    if (result != GLSSAO_OK) {
+        snprintf(error, error_size, "%s failed: %s", what, glssao_result_string(result));
+    }
+    return result == GLSSAO_OK;
+}
+
+static bool draw_prepass(pipeline *p, const scene_view *view, char *error, size_t error_size)
+{
+    if (p->effect) {
+        if (!check(glssao_begin_normals(p->effect, p->depth), "glssao_begin_normals", error, error_size)) {
+            return false;
+        }
+        scene_draw_normals(p->renderer, view);
+        return check(glssao_end_normals(p->effect), "glssao_end_normals", error, error_size);
+    }
+    gl.BindFramebuffer(GL_FRAMEBUFFER, p->depth_framebuffer);
+    gl.Viewport(0, 0, p->width, p->height);
+    gl.DepthMask(GL_TRUE);
+    gl.Clear(GL_DEPTH_BUFFER_BIT);
+    scene_draw_normals(p->renderer, view);
+    return true;
+}
+
+static glssao_frame make_frame(const pipeline *p, const scene_view *view)
+{
+    glssao_frame frame = {.depth_texture = p->depth,
+                          .normal_texture = glssao_map(p->effect, GLSSAO_MAP_NORMAL, NULL, NULL)};
+    memcpy(frame.projection, view->clip_from_view, sizeof frame.projection);
+    return frame;
+}
+
+bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, char *error, size_t error_size)
+{
+    if (!draw_prepass(p, view, error, error_size)) {
+        return false;
+    }
+    stopwatch_lap(times, PHASE_PREPASS);
+    if (p->wants.ao) {
+        const glssao_frame frame = make_frame(p, view);
+        if (!check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", error, error_size)) {
+            return false;
+        }
+        stopwatch_lap(times, PHASE_AO);
+    }
+    if (p->wants.picture) {
+        gl.BindFramebuffer(GL_FRAMEBUFFER, p->color_framebuffer);
+        gl.Viewport(0, 0, p->width, p->height);
+        const GLuint ambient = p->wants.ao ? glssao_map(p->effect, GLSSAO_MAP_AMBIENT, NULL, NULL) : 0;
+        scene_draw_main(p->renderer, view, &p->lighting, ambient);
+        stopwatch_lap(times, PHASE_MAIN);
+    }
+    return true;
+}
+
+static void *read_framebuffer(GLuint framebuffer, int width, int height, pixel_kind kind)
+{
+    static const struct {
+        GLenum format, type;
+        size_t size;
+    } layouts[] = {[PIXELS_RGBA8] = {GL_RGBA, GL_UNSIGNED_BYTE, 4},
+                   [PIXELS_GREY8] = {GL_RED, GL_UNSIGNED_BYTE, 1},
+                   [PIXELS_FLOAT] = {GL_RED, GL_FLOAT, 4}};
+    void *pixels = malloc((size_t)width * (size_t)height * layouts[kind].size);
+    if (pixels) {
+        gl.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+        gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+        gl.ReadPixels(0, 0, width, height, layouts[kind].format, layouts[kind].type, pixels);
+    }
+    return pixels;
+}
+
+void *pipeline_read_picture(pipeline *p)
+{
+    return read_framebuffer(p->color_framebuffer, p->width, p->height, PIXELS_RGBA8);
+}
+
+/* How to draw a map over a target that is read back at full size. */
+typedef struct map_drawing {
+    GLuint texture;
+    bool red_only;
+    float scale, bias;
+    const scene_view *view; /* not NULL: view distances of the depth texture instead */
+} map_drawing;
+
+static void *read_map(pipeline *p, const map_drawing *drawing, pixel_kind kind)
+{
+    static const struct {
+        GLenum internal_format, format, type;
+    } layouts[] = {[PIXELS_RGBA8] = {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE},
+                   [PIXELS_GREY8] = {GL_R8, GL_RED, GL_UNSIGNED_BYTE},
+                   [PIXELS_FLOAT] = {GL_R32F, GL_RED, GL_FLOAT}};
+    void *pixels = NULL;
+    GLuint framebuffer;
+    const GLuint texture =
+        make_texture(layouts[kind].internal_format, layouts[kind].format, layouts[kind].type, p->width, p->height);
+    if (make_framebuffer(texture, 0, &framebuffer)) {
+        gl.Viewport(0, 0, p->width, p->height);
+        if (drawing->view) {
+            scene_draw_view_distance(p->renderer, drawing->view, drawing->texture);
+        } else {
+            scene_draw_map(p->renderer, drawing->texture, p->width, p->height, drawing->red_only, drawing->scale,
+                           drawing->bias);
+        }
+        pixels = read_framebuffer(framebuffer, p->width, p->height, kind);
+    }
+    gl.DeleteFramebuffers(1, &framebuffer);
+    gl.DeleteTextures(1, &texture);
+    return pixels;
+}
+
+void *pipeline_read_ao(pipeline *p, pixel_kind kind)
+{
+    const GLuint map = glssao_map(p->effect, GLSSAO_MAP_AMBIENT, NULL, NULL);
+    return read_map(p, &(map_drawing){.texture = map, .red_only = true, .scale = 1}, kind);
+}
+
+void *pipeline_read_normals(pipeline *p)
+{
+    const GLuint map = glssao_map(p->effect, GLSSAO_MAP_NORMAL, NULL, NULL);
+    return read_map(p, &(map_drawing){.texture = map, .scale = 0.5f, .bias = 0.5f}, PIXELS_RGBA8);
+}
+
+void *pipeline_read_view_distance(pipeline *p, const scene_view *view)
+{
+    return read_map(p, &(map_drawing){.texture = p->depth, .view = view}, PIXELS_FLOAT);
+}
+
+static void print_row(const char *name, bool run, int draws, int width, int height, const char *reason)
+{
+    char draw_text[16] = "-", size_text[32] = "-";
+    if (run && draws >= 0) {
+        snprintf(draw_text, sizeof draw_text, "%d", draws);
+    }
+    if (run) {
+        snprintf(size_text, sizeof size_text, "%dx%d", width, height);
+    }
+    printf("%-12s %-5s %5s  %-12s %s\n", name, run ? "run" : "skip", draw_text, size_text, reason);
+}
+
+void pipeline_print_plan(const pipeline *p, const scene_view *view)
+{
+    printf("%-12s %-5s %5s  %-12s %s\n", "pass", "", "draws", "size", "reason");
+    print_row("pre-pass", true, -1, p->width, p->height,
+              p->effect ? "depth and view-space normals" : "depth alone: nothing reads normals");
+    if (p->wants.ao) {
+        const glssao_frame frame = make_frame(p, view);
+        const glssao_plan plan = glssao_plan_frame(p->effect, &frame, &p->settings);
+        for (int i = 0; i < GLSSAO_PASS_COUNT; i++) {
+            if (i != GLSSAO_PASS_APPLY) { /* the main pass reads the map itself */
+                print_row(plan.passes[i].name, plan.passes[i].run, plan.passes[i].draw_calls, plan.passes[i].width,
+                          plan.passes[i].height, plan.passes[i].reason);
+            }
+        }
+    } else {
+        print_row("occlusion", false, 0, 0, 0, "no output reads it");
+    }
+    print_row("main", p->wants.picture, -1, p->width, p->height,
+              !p->wants.picture ? "no shaded picture is wanted"
+              : p->wants.ao     ? "shades, ambient light scaled by accessibility"
+                                : "shades, ambient light in full");
+}

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * One frame of glssao-render: pre-pass, occlusion, main pass, and reading back what is wanted of them. Passes whose
+ * result nobody wants have neither targets nor shaders. The context is current throughout.
+ */
+#ifndef GLSSAO_EXAMPLES_PIPELINE_H
+#define GLSSAO_EXAMPLES_PIPELINE_H
+
+#include "draw.h"
+#include "gl.h"
+#include "options.h"
+#include "report.h"
+#include "scene.h"
+#include "writer.h"
+
+/* What the command line makes necessary. */
+typedef struct pipeline_wants {
+    bool picture; /* the main pass */
+    bool ao;      /* the occlusion passes */
+    bool normals; /* a normal map, for --normals or the occlusion */
+} pipeline_wants;
+
+typedef struct pipeline {
+    pipeline_wants wants;
+    int width, height;
+    scene_renderer *renderer;
+    glssao_effect *effect; /* NULL where neither occlusion nor normals are wanted */
+    glssao_settings settings;
+    scene_lighting lighting;
+    GLuint depth, depth_framebuffer, color, color_framebuffer;
+} pipeline;
+
+/* False, with one line in `error`; pipeline_destroy is due in either case. */
+bool pipeline_create(pipeline *p, const scene *s, context *c, const options *o, pipeline_wants wants, char *error,
+                     size_t error_size);
+void pipeline_destroy(pipeline *p);
+
+/* Draws all that is wanted, and ends the phases of `times` as it goes. */
+bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, char *error, size_t error_size);
+
+/* Pixels of malloc, bottom to top; NULL where memory is short. */
+void *pipeline_read_picture(pipeline *p);                               /* PIXELS_RGBA8, sRGB */
+void *pipeline_read_ao(pipeline *p, pixel_kind kind);                   /* PIXELS_GREY8 or PIXELS_FLOAT */
+void *pipeline_read_normals(pipeline *p);                               /* PIXELS_RGBA8, n * 0.5 + 0.5 */
+void *pipeline_read_view_distance(pipeline *p, const scene_view *view); /* PIXELS_FLOAT */
+
+/* Prints what a frame runs and skips, as a table, to stdout. */
+void pipeline_print_plan(const pipeline *p, const scene_view *view);
+
+#endif

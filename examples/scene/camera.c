@@ -1,0 +1,252 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Cameras for the examples. Everything is relative to the scene's own size, so that a scene of any scale looks the
+ * same; differences of large coordinates are taken in double precision.
+ */
+#define CGLM_ALL_UNALIGNED /* the matrices are plain float[16] */
+#include "camera.h"
+
+#include <cglm/cglm.h>
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+
+static const float default_fov_y_rad = 45.0f * GLM_PIf / 180.0f;
+static const double frame_azimuth_rad = 0.30, frame_elevation_rad = 0.35; /* by eye: shows depth without looking down */
+static const double frame_fill = 0.95;           /* share of the half picture that the bounds may take */
+static const double largest_plane_ratio = 20000; /* far / near: a 24-bit depth buffer still tells 1/800 of far apart */
+
+typedef struct basis {
+    double right[3], up[3], back[3]; /* world space, unit; zero where the camera is degenerate */
+} basis;
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(const double a[3], const double b[3], double out[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+/* Returns the length that v had. */
+static double normalize(double v[3])
+{
+    double length = sqrt(dot(v, v));
+    for (int i = 0; i < 3; i++)
+        v[i] = length > 0.0 ? v[i] / length : 0.0;
+    return length;
+}
+
+static basis camera_basis(const camera *c)
+{
+    basis b;
+    double up[3];
+    for (int i = 0; i < 3; i++) {
+        b.back[i] = (double)c->eye[i] - c->target[i];
+        up[i] = c->up[i];
+    }
+    normalize(b.back);
+    cross(up, b.back, b.right);
+    normalize(b.right);
+    cross(b.back, b.right, b.up);
+    return b;
+}
+
+static void bounds_corner(const scene *s, int index, double out[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = (index >> i) & 1 ? s->bounds_max[i] : s->bounds_min[i];
+}
+
+static double bounds_diagonal(const scene *s)
+{
+    double size[3];
+    for (int i = 0; i < 3; i++)
+        size[i] = (double)s->bounds_max[i] - s->bounds_min[i];
+    return sqrt(dot(size, size));
+}
+
+/* View distances of the nearest and the farthest corner of the bounds. */
+static void bounds_distances(const camera *c, const scene *s, double *out_nearest, double *out_farthest)
+{
+    basis b = camera_basis(c);
+    *out_nearest = INFINITY;
+    *out_farthest = -INFINITY;
+    for (int k = 0; k < 8; k++) {
+        double corner[3];
+        bounds_corner(s, k, corner);
+        for (int i = 0; i < 3; i++)
+            corner[i] -= c->eye[i];
+        double distance = -dot(corner, b.back);
+        *out_nearest = fmin(*out_nearest, distance);
+        *out_farthest = fmax(*out_farthest, distance);
+    }
+}
+
+void camera_fit_planes(camera *c, const scene *s)
+{
+    double nearest, farthest;
+    bounds_distances(c, s, &nearest, &farthest);
+    if (!(farthest > 0.0)) {
+        /* All behind: nothing is seen, whatever the planes. */
+        nearest = 0.0;
+        farthest = bounds_diagonal(s) > 0.0 ? bounds_diagonal(s) : 1.0;
+    }
+    /* Room for bounds that are flat, and for rounding in the matrices. */
+    double margin = 0.01 * (farthest - fmax(nearest, 0.0)) + 0.001 * farthest;
+    double far_plane = farthest + margin;
+    c->near_plane = (float)fmax(nearest - margin, far_plane / largest_plane_ratio);
+    c->far_plane = (float)far_plane;
+}
+
+camera camera_frame_scene(const scene *s, float aspect)
+{
+    camera c = {.eye = {0.0f, 0.0f, 1.0f}, .up = {0.0f, 1.0f, 0.0f}, .fov_y_rad = default_fov_y_rad};
+    double diagonal = bounds_diagonal(s);
+    if (!s->instance_count || !(diagonal > 0.0)) {
+        /* Nothing to frame, or a single point, which is seen from anywhere. */
+        for (int i = 0; i < 3; i++) {
+            c.target[i] = s->bounds_min[i];
+            c.eye[i] += s->bounds_min[i];
+        }
+        camera_fit_planes(&c, s);
+        return c;
+    }
+
+    double sin_elevation = sin(frame_elevation_rad), cos_elevation = cos(frame_elevation_rad);
+    camera direction = {.eye = {(float)(sin(frame_azimuth_rad) * cos_elevation), (float)sin_elevation,
+                                (float)(cos(frame_azimuth_rad) * cos_elevation)},
+                        .up = {0.0f, 1.0f, 0.0f}};
+    basis b = camera_basis(&direction);
+    double centre[3];
+    for (int i = 0; i < 3; i++)
+        centre[i] = 0.5 * ((double)s->bounds_min[i] + s->bounds_max[i]);
+
+    /* Seen along this basis, with the origin at the centre, the eye is at (0, eye_y, eye_z). A corner (x, y, z) is in
+     * the picture where |x| <= tan_x (eye_z - z) and |y - eye_y| <= tan_y (eye_z - z). */
+    double tan_y = frame_fill * tan(0.5 * (double)c.fov_y_rad);
+    double tan_x = tan_y * (aspect > 0.0f ? (double)aspect : 1.0);
+    double above = -INFINITY, below = -INFINITY, eye_z = 0.0;
+    for (int k = 0; k < 8; k++) {
+        double corner[3];
+        bounds_corner(s, k, corner);
+        for (int i = 0; i < 3; i++)
+            corner[i] -= centre[i];
+        double x = dot(corner, b.right), y = dot(corner, b.up), z = dot(corner, b.back);
+        /* A scene that is a line towards the eye still gets some distance. */
+        eye_z = fmax(eye_z, z + fmax(fabs(x) / tan_x, 0.05 * diagonal));
+        above = fmax(above, y + tan_y * z);
+        below = fmax(below, -y + tan_y * z);
+    }
+    double eye_y = 0.5 * (above - below);
+    eye_z = fmax(eye_z, 0.5 * (above + below) / tan_y);
+
+    /* The eye is moved up or down, and the target with it, which stays on the vertical through the centre: a turned
+     * camera goes round the middle of the scene. */
+    double rise = eye_y / cos_elevation, distance = eye_z - rise * sin_elevation;
+    centre[1] += rise;
+    for (int i = 0; i < 3; i++) {
+        c.target[i] = (float)centre[i];
+        c.eye[i] = (float)(centre[i] + distance * b.back[i]);
+    }
+    camera_fit_planes(&c, s);
+    return c;
+}
+
+camera camera_turned(const camera *c, float angle_rad)
+{
+    camera turned = *c;
+    vec3 vertical = {0.0f, 1.0f, 0.0f}; /* glTF's, also where the camera is tilted */
+    glm_vec3_sub(turned.eye, turned.target, turned.eye);
+    glm_vec3_rotate(turned.eye, angle_rad, vertical);
+    glm_vec3_add(turned.eye, turned.target, turned.eye);
+    glm_vec3_rotate(turned.up, angle_rad, vertical);
+    return turned;
+}
+
+static bool is_finite3(const float v[3])
+{
+    return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
+}
+
+bool camera_check(const camera *c, char *error, size_t error_size)
+{
+    const struct {
+        const char *name;
+        const float *value;
+    } vectors[] = {{"eye", c->eye}, {"target", c->target}, {"up", c->up}};
+    for (int i = 0; i < 3; i++) {
+        const float *v = vectors[i].value;
+        if (!is_finite3(v)) {
+            snprintf(error, error_size, "camera %s (%g, %g, %g) is not finite", vectors[i].name, (double)v[0],
+                     (double)v[1], (double)v[2]);
+            return false;
+        }
+    }
+    double offset[3], up[3], right[3], largest = 0.0;
+    for (int i = 0; i < 3; i++) {
+        offset[i] = (double)c->eye[i] - c->target[i];
+        up[i] = c->up[i];
+        largest = fmax(largest, fmax(fabs((double)c->eye[i]), fabs((double)c->target[i])));
+    }
+    /* Nearer than this, rounding of the coordinates alone decides where the camera looks. */
+    if (!(normalize(offset) > 4.0 * (double)FLT_EPSILON * largest)) {
+        snprintf(error, error_size, "camera eye and target are the same point (%g, %g, %g)", (double)c->eye[0],
+                 (double)c->eye[1], (double)c->eye[2]);
+        return false;
+    }
+    if (!(normalize(up) > 0.0)) {
+        snprintf(error, error_size, "camera up is (0, 0, 0)");
+        return false;
+    }
+    cross(up, offset, right);
+    if (!(sqrt(dot(right, right)) > 1e-4)) {
+        snprintf(error, error_size, "camera up (%g, %g, %g) is along the line from eye to target", (double)c->up[0],
+                 (double)c->up[1], (double)c->up[2]);
+        return false;
+    }
+    if (!(c->fov_y_rad > 0.0f && c->fov_y_rad < GLM_PIf)) {
+        snprintf(error, error_size, "camera fov of %g degrees is not between 0 and 180",
+                 (double)c->fov_y_rad * 180.0 / GLM_PI);
+        return false;
+    }
+    if (!(c->near_plane > 0.0f && isfinite(c->near_plane))) {
+        snprintf(error, error_size, "camera near plane %g is not a positive distance", (double)c->near_plane);
+        return false;
+    }
+    if (!(c->far_plane > c->near_plane && isfinite(c->far_plane))) {
+        snprintf(error, error_size, "camera far plane %g is not beyond the near plane %g", (double)c->far_plane,
+                 (double)c->near_plane);
+        return false;
+    }
+    return true;
+}
+
+scene_view camera_view(const camera *c, int width, int height)
+{
+    scene_view view = {.width = width, .height = height};
+    basis b = camera_basis(c);
+    const double *rows[3] = {b.right, b.up, b.back};
+    const double eye[3] = {c->eye[0], c->eye[1], c->eye[2]};
+    for (int r = 0; r < 3; r++) {
+        for (int i = 0; i < 3; i++)
+            view.view_from_world[4 * i + r] = (float)rows[r][i];
+        view.view_from_world[12 + r] = (float)-dot(rows[r], eye);
+    }
+    view.view_from_world[15] = 1.0f;
+
+    mat4 clip_from_view;
+    glm_perspective(c->fov_y_rad, (float)width / (float)height, c->near_plane, c->far_plane, clip_from_view);
+    glm_mat4_ucopy(clip_from_view, (vec4 *)view.clip_from_view);
+    return view;
+}
+
+float camera_suggest_radius(const scene *s)
+{
+    double diagonal = bounds_diagonal(s);
+    return diagonal > 0.0 ? (float)(diagonal / 20.0) : 0.5f;
+}

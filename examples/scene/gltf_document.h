@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * A glTF 2.0 file as it was written, in plain C: what tinygltf parsed, less what the examples do not draw. Nothing
+ * has been checked yet when it comes from gltf_document_open(); after gltf_check() every index, range and count in it
+ * holds, so that the rest of the loader may follow them freely. Indices are -1 where the file names none.
+ */
+#ifndef GLSSAO_EXAMPLES_GLTF_DOCUMENT_H
+#define GLSSAO_EXAMPLES_GLTF_DOCUMENT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "scene_fault.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* glTF's numbers, which are OpenGL's. */
+enum {
+    GLTF_BYTE = 5120,
+    GLTF_UNSIGNED_BYTE = 5121,
+    GLTF_SHORT = 5122,
+    GLTF_UNSIGNED_SHORT = 5123,
+    GLTF_UNSIGNED_INT = 5125,
+    GLTF_FLOAT = 5126
+};
+enum {
+    GLTF_POINTS,
+    GLTF_LINES,
+    GLTF_LINE_LOOP,
+    GLTF_LINE_STRIP,
+    GLTF_TRIANGLES,
+    GLTF_TRIANGLE_STRIP,
+    GLTF_TRIANGLE_FAN
+};
+
+typedef struct gltf_buffer {
+    const uint8_t *data;
+    size_t size;
+} gltf_buffer;
+
+typedef struct gltf_buffer_view {
+    int buffer;
+    size_t offset, length, stride; /* bytes; stride 0: tightly packed */
+} gltf_buffer_view;
+
+typedef struct gltf_sparse {
+    int64_t count; /* 0: not sparse */
+    int index_view, index_type, value_view;
+    int64_t index_offset, value_offset;
+} gltf_sparse;
+
+typedef struct gltf_accessor {
+    int buffer_view; /* -1: zeros */
+    size_t offset, count;
+    int component_type;
+    int rows, columns; /* VEC3: 3, 1; MAT4: 4, 4 */
+    bool normalized;
+    gltf_sparse sparse;
+} gltf_accessor;
+
+typedef struct gltf_attribute {
+    const char *name;
+    int accessor;
+} gltf_attribute;
+
+typedef struct gltf_attribute_list {
+    const gltf_attribute *items;
+    size_t count;
+} gltf_attribute_list;
+
+typedef struct gltf_primitive {
+    gltf_attribute_list attributes;
+    const gltf_attribute_list *targets;
+    size_t target_count;
+    int indices, material, mode;
+} gltf_primitive;
+
+typedef struct gltf_weights {
+    const double *values;
+    size_t count;
+} gltf_weights;
+
+typedef struct gltf_mesh {
+    const gltf_primitive *primitives;
+    size_t primitive_count;
+    gltf_weights weights;
+} gltf_mesh;
+
+typedef struct gltf_node {
+    int mesh, skin, camera;
+    const int *children;
+    size_t child_count;
+    bool has_matrix;
+    double matrix[16]; /* column-major */
+    double translation[3], rotation[4], scale[3];
+    gltf_weights weights;
+    bool instanced; /* EXT_mesh_gpu_instancing; accessors: */
+    int instance_translation, instance_rotation, instance_scale;
+} gltf_node;
+
+typedef struct gltf_skin {
+    const int *joints;
+    size_t joint_count;
+    int inverse_bind_matrices;
+} gltf_skin;
+
+typedef struct gltf_material {
+    double base_color[4];
+    int texture, uv_set;
+    double uv_offset[2], uv_scale[2], uv_rotation; /* KHR_texture_transform; radians */
+    const char *alpha_mode;
+    double alpha_cutoff;
+    bool double_sided, unlit;
+} gltf_material;
+
+typedef struct gltf_texture {
+    int sampler, image;
+} gltf_texture;
+
+typedef struct gltf_sampler {
+    int min_filter, mag_filter, wrap_s, wrap_t; /* OpenGL's numbers; -1: not given */
+} gltf_sampler;
+
+typedef struct gltf_image {
+    const char *name; /* its URI or name; "" where it has neither */
+    int buffer_view;
+    const uint8_t *encoded; /* NULL: in the buffer view, or not found */
+    size_t encoded_size;
+} gltf_image;
+
+typedef struct gltf_camera {
+    const char *name;
+    bool orthographic;
+    double fov_y_rad, x_mag, y_mag, near_plane, far_plane;
+} gltf_camera;
+
+typedef struct gltf_scene {
+    const int *nodes;
+    size_t node_count;
+} gltf_scene;
+
+/* Each list as pointer and length; the pointers lead into `owner`. */
+typedef struct gltf_document {
+    void *owner;
+    size_t source_bytes; /* of the file and of the external files that it names */
+    const char *version, *min_version;
+    int default_scene;
+    const gltf_buffer *buffers;
+    const gltf_buffer_view *buffer_views;
+    const gltf_accessor *accessors;
+    const gltf_mesh *meshes;
+    const gltf_node *nodes;
+    const gltf_skin *skins;
+    const gltf_material *materials;
+    const gltf_texture *textures;
+    const gltf_sampler *samplers;
+    const gltf_image *images;
+    const gltf_camera *cameras;
+    const gltf_scene *scenes;
+    size_t buffer_count, buffer_view_count, accessor_count, mesh_count, node_count, skin_count, material_count,
+        texture_count, sampler_count, image_count, camera_count, scene_count;
+} gltf_document;
+
+/* Reads and parses the file. On failure false, with the fault set, and nothing to close. */
+bool gltf_document_open(gltf_document *out, const char *path, scene_fault *fault);
+void gltf_document_close(gltf_document *document);
+
+/* True where every reference, range and count in the document holds; otherwise the fault says which does not. */
+bool gltf_check(const gltf_document *document, scene_fault *fault);
+
+/* The accessor of that name, -1 where the list has none. */
+int gltf_find_attribute(const gltf_attribute_list *list, const char *name);
+
+/* Bytes of one component, 0 for a type that glTF does not have; of one element, columns aligned as glTF asks. */
+size_t gltf_component_size(int component_type);
+size_t gltf_element_size(const gltf_accessor *accessor);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

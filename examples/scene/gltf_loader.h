@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What the parts of the glTF loader share: the checked document, the scene that is being built from it, and the limits
+ * that keep a small file from asking for much.
+ */
+#ifndef GLSSAO_EXAMPLES_GLTF_LOADER_H
+#define GLSSAO_EXAMPLES_GLTF_LOADER_H
+
+#include "gltf_document.h"
+#include "scene_builder.h"
+
+/* A primitive's vertices, read and posed, before they become the scene's. Arrays of `count`, NULL where the file has
+ * none. */
+typedef struct gltf_vertices {
+    const gltf_primitive *source; /* NULL: empty */
+    size_t pose;                  /* the node whose weights or skin they follow, SIZE_MAX: none */
+    int uv_sets[2];
+    uint32_t count;
+    float (*positions)[3];
+    float (*normals)[3];
+    float (*uvs[2])[2];
+    float (*colors)[4];
+    bool mirrored;   /* posed by a skin that turns it inside out: windings are to be swapped */
+    bool normals_ok; /* all finite and of some length */
+    bool emitted;    /* they are in the scene from `first` on */
+    uint32_t first;
+} gltf_vertices;
+
+typedef struct gltf_loader {
+    const gltf_document *document;
+    scene_builder *builder;
+    scene_fault *fault;
+    float (*world_from_node)[16];                /* of every node */
+    int *material_map, *texture_map, *image_map; /* the scene's index for the document's; -1: not made yet */
+    int default_material;                        /* the scene's index, -1: not made yet */
+    int *mesh_map;                               /* for meshes that are drawn as they are; -1: not made yet */
+    gltf_vertices recent;                        /* what the last primitive used: the next one often shares it */
+    uint64_t reads_left, vertices_left, indices_left, pixels_left;
+} gltf_loader;
+
+/* gltf_read.c: an accessor's elements with `components` numbers each, in new memory that the caller frees. NULL on
+ * failure. */
+
+typedef enum gltf_scaling {
+    GLTF_AS_SAID,   /* integers are scaled to 0..1 or -1..1 where the accessor says normalized */
+    GLTF_NORMALIZED /* always */
+} gltf_scaling;
+
+float *gltf_read_floats(gltf_loader *l, int accessor, int components, gltf_scaling scaling);
+uint32_t *gltf_read_indices(gltf_loader *l, int accessor, int components);
+
+/* gltf_material.c: the scene's material for the document's (-1: the default), made with its texture and image when it
+ * is first asked for; -1 on failure. */
+int gltf_add_material(gltf_loader *l, int material);
+
+/* gltf_image.c: the scene's image for the document's, decoded when it is first asked for; -1 on failure. */
+int gltf_add_image(gltf_loader *l, int image);
+
+/* gltf_vertices.c: reads a primitive's vertices into l->recent in the pose that the node gives them, where they are not
+ * there yet. The uv sets are the numbers of the two that the scene's vertices keep. */
+bool gltf_read_vertices(gltf_loader *l, const gltf_primitive *primitive, size_t node, const int uv_sets[2]);
+void gltf_free_vertices(gltf_vertices *v);
+
+/* gltf_skin.c: moves vertices to world space by the joints of the node's skin. */
+bool gltf_pose_skin(gltf_loader *l, gltf_vertices *v, int skin, size_t node);
+
+/* gltf_mesh.c: the scene's mesh for the one that a node draws; -1 on failure. */
+int gltf_add_mesh(gltf_loader *l, size_t node);
+
+/* gltf_node.c: world matrices of all nodes; then instances and cameras of the scene that is to be drawn. */
+bool gltf_place_nodes(gltf_loader *l);
+bool gltf_add_scene(gltf_loader *l);
+
+#endif

@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Reads the vertices of a primitive: attributes, then morph targets by their default weights, then the skin. Positions
+ * must be finite; normals are made unit or marked; texture coordinates and colours that are not finite become 0 and 1.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "gltf_loader.h"
+
+void gltf_free_vertices(gltf_vertices *v)
+{
+    free(v->positions);
+    free(v->normals);
+    free(v->uvs[0]);
+    free(v->uvs[1]);
+    free(v->colors);
+    memset(v, 0, sizeof *v);
+}
+
+static bool same_attributes(const gltf_attribute_list *a, const gltf_attribute_list *b)
+{
+    bool same = a->count == b->count;
+    for (size_t i = 0; same && i < a->count; ++i)
+        same = a->items[i].accessor == b->items[i].accessor && !strcmp(a->items[i].name, b->items[i].name);
+    return same;
+}
+
+static bool same_source(const gltf_primitive *a, const gltf_primitive *b)
+{
+    bool same = same_attributes(&a->attributes, &b->attributes) && a->target_count == b->target_count;
+    for (size_t t = 0; same && t < a->target_count; ++t)
+        same = same_attributes(&a->targets[t], &b->targets[t]);
+    return same;
+}
+
+/* NULL where the list has no attribute of that name, or on failure. */
+static float *read_attribute(gltf_loader *l, const gltf_attribute_list *list, const char *name, int components,
+                             gltf_scaling scaling)
+{
+    const int accessor = gltf_find_attribute(list, name);
+    return accessor < 0 ? NULL : gltf_read_floats(l, accessor, components, scaling);
+}
+
+static float *read_uvs(gltf_loader *l, const gltf_vertices *v, int set)
+{
+    char name[32];
+    snprintf(name, sizeof name, "TEXCOORD_%d", set);
+    float *uvs = read_attribute(l, &v->source->attributes, name, 2, GLTF_AS_SAID);
+    for (size_t i = 0; uvs && i < 2 * (size_t)v->count; ++i)
+        uvs[i] = isfinite(uvs[i]) ? uvs[i] : 0;
+    return uvs;
+}
+
+/* Three components get an alpha of 1. */
+static float *read_colors(gltf_loader *l, const gltf_vertices *v)
+{
+    const int accessor = gltf_find_attribute(&v->source->attributes, "COLOR_0");
+    const int components = accessor >= 0 && l->document->accessors[accessor].rows == 3 ? 3 : 4;
+    float *given = read_attribute(l, &v->source->attributes, "COLOR_0", components, GLTF_NORMALIZED);
+    if (!given)
+        return NULL;
+    float *colors = malloc((size_t)v->count * 4 * sizeof *colors);
+    for (size_t i = 0; colors && i < v->count; ++i) {
+        for (int c = 0; c < 4; ++c) {
+            const float value = c < components ? given[i * (size_t)components + (size_t)c] : 1;
+            colors[4 * i + (size_t)c] = isfinite(value) ? fminf(fmaxf(value, 0), 1) : 1;
+        }
+    }
+    free(given);
+    if (!colors)
+        scene_fail_memory(l->fault);
+    return colors;
+}
+
+/* Adds a target's displacements, where it has any. */
+static bool add_target(gltf_loader *l, const gltf_vertices *v, const gltf_attribute_list *target, const char *name,
+                       double weight, float (*to)[3])
+{
+    float *by = to ? read_attribute(l, target, name, 3, GLTF_AS_SAID) : NULL;
+    for (size_t i = 0; by && i < v->count; ++i)
+        for (size_t axis = 0; axis < 3; ++axis)
+            to[i][axis] += (float)(weight * (double)by[3 * i + axis]);
+    free(by);
+    return !l->fault->set;
+}
+
+static bool pose_targets(gltf_loader *l, gltf_vertices *v, const gltf_node *node)
+{
+    const gltf_weights *given = node->weights.count ? &node->weights : &l->document->meshes[node->mesh].weights;
+    for (size_t t = 0; t < v->source->target_count && t < given->count; ++t) {
+        const double weight = given->values[t];
+        const gltf_attribute_list *target = &v->source->targets[t];
+        if (weight != 0 && (!add_target(l, v, target, "POSITION", weight, v->positions) ||
+                            !add_target(l, v, target, "NORMAL", weight, v->normals)))
+            return false;
+    }
+    return true;
+}
+
+static bool check_positions(gltf_loader *l, const gltf_vertices *v)
+{
+    for (uint32_t i = 0; i < v->count; ++i)
+        if (!isfinite(v->positions[i][0]) || !isfinite(v->positions[i][1]) || !isfinite(v->positions[i][2]))
+            return scene_fail(l->fault, "accessor %d: the position of vertex %u is not finite",
+                              gltf_find_attribute(&v->source->attributes, "POSITION"), i);
+    return true;
+}
+
+/* Unit length; one that has no direction becomes 0, 0, 0 and is counted as wrong. */
+static void normalize_normals(gltf_vertices *v)
+{
+    v->normals_ok = true;
+    for (uint32_t i = 0; v->normals && i < v->count; ++i) {
+        float *n = v->normals[i];
+        const double length = sqrt((double)n[0] * n[0] + (double)n[1] * n[1] + (double)n[2] * n[2]);
+        const bool ok = length > 0 && isfinite(length);
+        for (int axis = 0; axis < 3; ++axis)
+            n[axis] = ok ? (float)(n[axis] / length) : 0;
+        v->normals_ok = v->normals_ok && ok;
+    }
+}
+
+bool gltf_read_vertices(gltf_loader *l, const gltf_primitive *primitive, size_t node_number, const int uv_sets[2])
+{
+    const gltf_node *node = &l->document->nodes[node_number];
+    const size_t pose = node->skin >= 0 || primitive->target_count ? node_number : SIZE_MAX;
+    gltf_vertices *v = &l->recent;
+    if (v->source && v->pose == pose && v->uv_sets[0] == uv_sets[0] && v->uv_sets[1] == uv_sets[1] &&
+        same_source(v->source, primitive))
+        return true;
+    gltf_free_vertices(v);
+    v->source = primitive;
+    v->pose = pose;
+    memcpy(v->uv_sets, uv_sets, sizeof v->uv_sets);
+    const int positions = gltf_find_attribute(&primitive->attributes, "POSITION");
+    const size_t count = l->document->accessors[positions].count;
+    if (count > l->vertices_left)
+        return scene_fail(l->fault, "accessor %d: too many vertices, %zu", positions, count);
+    v->count = (uint32_t)count;
+    const gltf_attribute_list *attributes = &primitive->attributes;
+    v->positions = (float(*)[3])read_attribute(l, attributes, "POSITION", 3, GLTF_AS_SAID);
+    v->normals = (float(*)[3])read_attribute(l, attributes, "NORMAL", 3, GLTF_AS_SAID);
+    v->uvs[0] = (float(*)[2])read_uvs(l, v, uv_sets[0]);
+    v->uvs[1] = (float(*)[2])read_uvs(l, v, uv_sets[1]);
+    v->colors = (float(*)[4])read_colors(l, v);
+    if (l->fault->set || !pose_targets(l, v, node) || !check_positions(l, v) ||
+        (node->skin >= 0 && (!gltf_pose_skin(l, v, node->skin, node_number) || !check_positions(l, v))))
+        return false;
+    normalize_normals(v);
+    return true;
+}

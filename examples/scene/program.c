@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Compiles and links the programs of the scene's draw passes.
+ */
+#include "program.h"
+
+#include "gl.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const struct {
+    unsigned bit;
+    const char *macro;
+} variant_macros[] = {
+    {VARIANT_TEXTURED, "TEXTURED"}, {VARIANT_COLORED, "COLORED"},           {VARIANT_MASKED, "MASKED"},
+    {VARIANT_LIT, "LIT"},           {VARIANT_DOUBLE_SIDED, "DOUBLE_SIDED"}, {VARIANT_BLENDED, "BLENDED"},
+};
+
+static const struct {
+    const char *name;
+    size_t offset; /* of its location in draw_program */
+} uniforms[] = {
+    {"u_view_from_world", offsetof(draw_program, view_from_world)},
+    {"u_clip_from_view", offsetof(draw_program, clip_from_view)},
+    {"u_normal_view_from_world", offsetof(draw_program, normal_view_from_world)},
+    {"u_uv_row_u", offsetof(draw_program, uv_row_u)},
+    {"u_uv_row_v", offsetof(draw_program, uv_row_v)},
+    {"u_base_color", offsetof(draw_program, base_color)},
+    {"u_alpha_cutoff", offsetof(draw_program, alpha_cutoff)},
+    {"u_ambient", offsetof(draw_program, ambient)},
+    {"u_directional", offsetof(draw_program, directional)},
+    {"u_to_light_view", offsetof(draw_program, to_light_view)},
+    {"u_pixel_uv", offsetof(draw_program, pixel_uv)},
+    {"u_scale", offsetof(draw_program, scale)},
+    {"u_bias", offsetof(draw_program, bias)},
+    {"u_red_only", offsetof(draw_program, red_only)},
+    {"u_numerator", offsetof(draw_program, numerator)},
+    {"u_denominator", offsetof(draw_program, denominator)},
+    {"u_far_depth", offsetof(draw_program, far_depth)},
+};
+
+static const struct {
+    const char *name;
+    int unit;
+} samplers[] = {
+    {"u_base_color_map", UNIT_BASE_COLOR},
+    {"u_ambient_map", UNIT_AMBIENT},
+    {"u_map", UNIT_MAP},
+    {"u_depth_map", UNIT_MAP},
+};
+
+/* Drivers log many lines; the error is one. */
+static void say_failure(const char *what, const char *step, char *log, char *error, size_t error_size)
+{
+    char *end = log;
+    for (const char *c = log; *c; c++) {
+        bool space = *c == '\n' || *c == '\r' || *c == '\t' || *c == ' ';
+        if (!space)
+            *end++ = *c;
+        else if (end > log && end[-1] != ' ')
+            *end++ = ' ';
+    }
+    *end = '\0';
+    snprintf(error, error_size, "%s, %s: %s", what, step, *log ? log : "the driver gives no reason");
+}
+
+static unsigned compile(GLenum type, const char *source, const char *macros, const char *what, char *error,
+                        size_t error_size)
+{
+    /* #version has to come first; it is the first line of each shader file. */
+    size_t version_length = strcspn(source, "\n") + 1;
+    const char *parts[] = {source, macros, source + version_length};
+    const GLint lengths[] = {(GLint)version_length, -1, -1};
+
+    unsigned shader = gl.CreateShader(type);
+    gl.ShaderSource(shader, 3, parts, lengths);
+    gl.CompileShader(shader);
+    GLint compiled = GL_FALSE;
+    gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+    if (!compiled) {
+        char log[2048] = "";
+        gl.GetShaderInfoLog(shader, sizeof log, NULL, log);
+        say_failure(what, type == GL_VERTEX_SHADER ? "vertex shader" : "fragment shader", log, error, error_size);
+        gl.DeleteShader(shader);
+        return 0;
+    }
+    return shader;
+}
+
+static bool link(unsigned program, const char *what, char *error, size_t error_size)
+{
+    gl.LinkProgram(program);
+    GLint linked = GL_FALSE;
+    gl.GetProgramiv(program, GL_LINK_STATUS, &linked);
+    if (!linked) {
+        char log[2048] = "";
+        gl.GetProgramInfoLog(program, sizeof log, NULL, log);
+        say_failure(what, "link", log, error, error_size);
+    }
+    return linked;
+}
+
+static void look_up(draw_program *p)
+{
+    for (size_t i = 0; i < sizeof uniforms / sizeof uniforms[0]; i++) {
+        int location = gl.GetUniformLocation(p->name, uniforms[i].name);
+        memcpy((char *)p + uniforms[i].offset, &location, sizeof location);
+    }
+    gl.UseProgram(p->name);
+    for (size_t i = 0; i < sizeof samplers / sizeof samplers[0]; i++)
+        gl.Uniform1i(gl.GetUniformLocation(p->name, samplers[i].name), samplers[i].unit);
+    gl.UseProgram(0);
+}
+
+bool draw_program_build(draw_program *p, const char *what, const char *vertex_source, const char *fragment_source,
+                        unsigned variant, char *error, size_t error_size)
+{
+    char macros[256] = "";
+    size_t length = 0;
+    for (size_t i = 0; i < sizeof variant_macros / sizeof variant_macros[0]; i++)
+        length += (size_t)snprintf(macros + length, sizeof macros - length, "#define %s %d\n", variant_macros[i].macro,
+                                   (variant & variant_macros[i].bit) != 0);
+    /* Line numbers in the driver's log are then those of the file. */
+    snprintf(macros + length, sizeof macros - length, "#line 2\n");
+
+    unsigned vertex = compile(GL_VERTEX_SHADER, vertex_source, macros, what, error, error_size);
+    if (!vertex)
+        return false;
+    unsigned fragment = compile(GL_FRAGMENT_SHADER, fragment_source, macros, what, error, error_size);
+    if (!fragment) {
+        gl.DeleteShader(vertex);
+        return false;
+    }
+    p->name = gl.CreateProgram();
+    gl.AttachShader(p->name, vertex);
+    gl.AttachShader(p->name, fragment);
+    /* The program keeps them for as long as it lives. */
+    gl.DeleteShader(vertex);
+    gl.DeleteShader(fragment);
+    if (!link(p->name, what, error, error_size)) {
+        gl.DeleteProgram(p->name);
+        p->name = 0;
+        return false;
+    }
+    look_up(p);
+    return true;
+}

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What every scene has in common, wherever it came from: its end.
+ */
+#include "scene.h"
+
+#include <stdlib.h>
+
+void scene_destroy(scene *s)
+{
+    if (!s)
+        return;
+    for (uint32_t i = 0; i < s->image_count; ++i)
+        free(s->images[i].rgba);
+    free(s->vertices);
+    free(s->indices);
+    free(s->primitives);
+    free(s->meshes);
+    free(s->instances);
+    free(s->materials);
+    free(s->textures);
+    free(s->images);
+    free(s->cameras);
+    free(s);
+}

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Puts a scene together piece by piece: what the glTF loader and the built-in scenes share. It grows the arrays,
+ * keeps the counts, sorts the instances by mesh and measures the bounds.
+ */
+#ifndef GLSSAO_EXAMPLES_SCENE_BUILDER_H
+#define GLSSAO_EXAMPLES_SCENE_BUILDER_H
+
+#include "scene.h"
+#include "scene_fault.h"
+
+typedef struct scene_builder {
+    scene *made;
+    scene_fault *fault;
+    int *instance_mesh; /* which mesh each instance belongs to, until they are sorted */
+    uint32_t room[9];   /* allocated elements of each array, by enum in scene_builder.c */
+} scene_builder;
+
+/* False, with the fault set, when there is no memory: as with every call below that can fail. */
+bool scene_builder_begin(scene_builder *b, const char *name, scene_fault *fault);
+
+/* `count` new elements, zeroed; the index of the first goes to `out_first`. NULL on failure. The pointer lives until
+ * the next call for the same array. */
+scene_vertex *scene_builder_add_vertices(scene_builder *b, uint32_t count, uint32_t *out_first);
+uint32_t *scene_builder_add_indices(scene_builder *b, uint32_t count, uint32_t *out_first);
+
+/* Copies the element in and returns its index, -1 on failure. An image's pixels become the scene's, even then. */
+int scene_builder_add_material(scene_builder *b, const scene_material *material);
+int scene_builder_add_texture(scene_builder *b, const scene_texture *texture);
+int scene_builder_add_image(scene_builder *b, const scene_image *image);
+int scene_builder_add_camera(scene_builder *b, const scene_camera *camera);
+
+/* A new mesh without primitives; -1 on failure. */
+int scene_builder_add_mesh(scene_builder *b);
+
+/* Adds the indices from `first_index` to the newest, at least one triangle, to the newest mesh. */
+bool scene_builder_add_primitive(scene_builder *b, uint32_t first_index, int material);
+
+/* `world_from_mesh` is 16 floats, column-major. */
+bool scene_builder_add_instance(scene_builder *b, int mesh, const float *world_from_mesh);
+
+/* White, opaque, single-sided, no texture. */
+scene_material scene_default_material(void);
+
+/* Hands over the finished scene; NULL, with everything freed, on failure. */
+scene *scene_builder_finish(scene_builder *b);
+
+/* Frees what was put together so far. */
+void scene_builder_abandon(scene_builder *b);
+
+#endif

@@ -1,0 +1,61 @@
+#version 330
+// SPDX-License-Identifier: MIT
+//
+// Every triangle of the scene, in every pass. The expression for gl_Position stands here once, is invariant, and
+// sees the same inputs in each variant, so that the main pass finds the pre-pass's depth with EQUAL.
+// Macros, 0 or 1: TEXTURED, COLORED, and LIT (normals are wanted).
+// In:  mesh-space vertex; per instance, world_from_mesh and the inverse transpose of its upper 3x3.
+// Out: clip position; unit normal in view space; uv after the material's transform; vertex colour, linear.
+
+layout(location = 0) in vec3 a_position_mesh;
+layout(location = 4) in mat4x3 a_world_from_mesh;
+
+uniform mat4 u_view_from_world;
+uniform mat4 u_clip_from_view;
+
+invariant gl_Position;
+
+#if LIT
+layout(location = 1) in vec3 a_normal_mesh;
+layout(location = 8) in mat3 a_normal_world_from_mesh;
+uniform mat3 u_normal_view_from_world;
+out vec3 v_normal_view;
+
+// Scaled by the largest component first: uneven scales give normals whose square would leave the range of a float.
+vec3 unit_or_zero(vec3 v)
+{
+    vec3 size = abs(v);
+    float largest = max(size.x, max(size.y, size.z));
+    return largest > 0.0 ? normalize(v / largest) : vec3(0.0);
+}
+#endif
+
+#if TEXTURED
+layout(location = 2) in vec2 a_uv;
+uniform vec3 u_uv_row_u; // u' = dot(row, (u, v, 1))
+uniform vec3 u_uv_row_v;
+out vec2 v_uv;
+#endif
+
+#if COLORED
+layout(location = 3) in vec4 a_color;
+out vec4 v_color;
+#endif
+
+void main()
+{
+    vec3 position_world = a_world_from_mesh * vec4(a_position_mesh, 1.0);
+    vec4 position_view = u_view_from_world * vec4(position_world, 1.0);
+    gl_Position = u_clip_from_view * position_view;
+
+#if LIT
+    // Unit at each vertex, so that an instance interpolates as the same triangle baked into world space would.
+    v_normal_view = unit_or_zero(u_normal_view_from_world * (a_normal_world_from_mesh * a_normal_mesh));
+#endif
+#if TEXTURED
+    v_uv = vec2(dot(u_uv_row_u, vec3(a_uv, 1.0)), dot(u_uv_row_v, vec3(a_uv, 1.0)));
+#endif
+#if COLORED
+    v_color = a_color;
+#endif
+}

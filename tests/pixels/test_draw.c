@@ -1,0 +1,269 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The scene's draw passes, pixel by pixel: normals of every kind of instance, which triangles are seen, and that the
+ * main pass covers what the pre-pass covered.
+ */
+#include "camera.h"
+#include "draw.h"
+#include "draw_frame.h"
+#include "fixture.h"
+#include "small_scene.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- normals -------------------------------------------------------------------------------------------- */
+
+static void normals_are_in_view_space(void **state)
+{
+    (void)state;
+    small_scene *s = frame_one_quad(small_scene_material(), NULL);
+    /* From the right and above: the quad's +z is then neither axis of view space. */
+    camera c = {.eye = {2, 1, 2}, .up = {0, 1, 0}, .fov_y_rad = 0.6f, .near_plane = 1, .far_plane = 9};
+    const scene_view view = camera_view(&c, FRAME_SIZE, FRAME_SIZE);
+    const scene_lighting lighting = scene_default_lighting();
+    frame f = frame_draw(s, &view, &lighting, 0);
+    assert_true(frame_is_drawn(&f, FRAME_MIDDLE));
+    for (int i = 0; i < 3; i++)
+        assert_float_equal(f.normals[4 * FRAME_MIDDLE + i], view.view_from_world[8 + i], 1e-5f);
+    assert_float_equal(f.normals[4 * FRAME_MIDDLE + 3], 0, 0);
+    assert_float_equal(f.normals[4 * FRAME_MIDDLE + 0], -0.70711f, 1e-4f);
+    assert_float_equal(f.normals[4 * FRAME_MIDDLE + 1], -0.23570f, 1e-4f);
+    assert_float_equal(f.normals[4 * FRAME_MIDDLE + 2], 0.66667f, 1e-4f);
+    frame_free(&f);
+    free(s);
+}
+
+/* world_from_mesh = turn about (1, 2, 3) by 0.8, after scales. */
+static void turned_and_scaled(float x, float y, float z, float out[16])
+{
+    const double axis[3] = {1 / sqrt(14), 2 / sqrt(14), 3 / sqrt(14)}, cosine = cos(0.8), sine = sin(0.8);
+    const double scale[3] = {x, y, z};
+    memset(out, 0, 16 * sizeof *out);
+    for (int c = 0; c < 3; c++) {
+        for (int r = 0; r < 3; r++) {
+            const double skew = r == c ? 0 : axis[3 - r - c] * ((r + 1) % 3 == c ? -sine : sine);
+            const double turn = (r == c ? cosine : 0) + skew + (1 - cosine) * axis[r] * axis[c];
+            out[4 * c + r] = (float)(turn * scale[c]);
+        }
+    }
+    out[15] = 1;
+}
+
+/* A copy whose vertices are where the only instance put them, as a modelling program would bake it. */
+static small_scene *baked(const small_scene *s)
+{
+    small_scene *b = small_scene_create();
+    const float *m = s->instances[0].world_from_mesh;
+    double inverse[3][3], determinant = 0; /* inverse[row][column], times the determinant */
+    for (int c = 0; c < 3; c++)
+        for (int r = 0; r < 3; r++) {
+            const int c1 = (c + 1) % 3, c2 = (c + 2) % 3, r1 = (r + 1) % 3, r2 = (r + 2) % 3;
+            inverse[c][r] = (double)m[4 * c1 + r1] * m[4 * c2 + r2] - (double)m[4 * c1 + r2] * m[4 * c2 + r1];
+        }
+    for (int r = 0; r < 3; r++)
+        determinant += m[r] * inverse[0][r];
+
+    memcpy(b->vertices, s->vertices, sizeof s->vertices);
+    memcpy(b->indices, s->indices, sizeof s->indices);
+    memcpy(b->materials, s->materials, sizeof s->materials);
+    memcpy(b->primitives, s->primitives, sizeof s->primitives);
+    b->scene.vertex_count = s->scene.vertex_count;
+    b->scene.index_count = s->scene.index_count;
+    b->scene.material_count = s->scene.material_count;
+    b->scene.primitive_count = 1;
+    b->scene.mesh_count = 1;
+    b->meshes[0].primitive_count = 1;
+    for (uint32_t i = 0; i < s->scene.vertex_count; i++) {
+        double normal[3] = {0}, length = 0;
+        for (int r = 0; r < 3; r++) {
+            double at = m[12 + r];
+            for (int c = 0; c < 3; c++) {
+                at += (double)m[4 * c + r] * s->vertices[i].position[c];
+                normal[r] += inverse[c][r] / determinant * s->vertices[i].normal[c];
+            }
+            b->vertices[i].position[r] = (float)at;
+            length += normal[r] * normal[r];
+        }
+        for (int r = 0; r < 3; r++)
+            b->vertices[i].normal[r] = (float)(normal[r] / sqrt(length));
+    }
+    for (uint32_t i = 0; determinant < 0 && i < s->scene.index_count; i += 3) {
+        b->indices[i] = s->indices[i + 1];
+        b->indices[i + 1] = s->indices[i];
+    }
+    small_scene_add_instance(b, NULL);
+    memcpy(b->scene.bounds_min, s->scene.bounds_min, sizeof b->scene.bounds_min);
+    memcpy(b->scene.bounds_max, s->scene.bounds_max, sizeof b->scene.bounds_max);
+    return b;
+}
+
+static void instances_have_the_normals_of_baked_triangles(void **state)
+{
+    (void)state;
+    const float scales[][3] = {{1, 1, 1},  {-1, 1, 1},     {-1, -1, -1},          {1, 3, 0.3f},
+                               {2, 1, -4}, {5, 1, 0.005f}, {1e-4f, 1e-4f, 1e-4f}, {1e4f, -1e4f, 2e4f}};
+    const scene_lighting lighting = scene_default_lighting();
+    for (size_t k = 0; k < sizeof scales / sizeof scales[0]; k++) {
+        float m[16];
+        turned_and_scaled(scales[k][0], scales[k][1], scales[k][2], m);
+        small_scene *s = small_scene_create();
+        small_scene_begin_mesh(s, small_scene_add_material(s, small_scene_material()));
+        small_scene_add_sphere(s);
+        small_scene_add_instance(s, m);
+        small_scene *b = baked(s);
+        const camera c = camera_frame_scene(&s->scene, 1);
+        const scene_view view = camera_view(&c, FRAME_SIZE, FRAME_SIZE);
+        frame f = frame_draw(s, &view, &lighting, 0), g = frame_draw(b, &view, &lighting, 0);
+        int compared = 0, differently_covered = 0;
+        double worst = 0;
+        for (int i = 0; i < FRAME_SIZE * FRAME_SIZE; i++) {
+            differently_covered += frame_is_drawn(&f, i) != frame_is_drawn(&g, i);
+            if (!frame_is_drawn(&f, i) || !frame_is_drawn(&g, i))
+                continue;
+            compared++;
+            for (int a = 0; a < 3; a++)
+                worst = fmax(worst, fabs((double)f.normals[4 * i + a] - g.normals[4 * i + a]));
+        }
+        if (compared < 100 || differently_covered > 2 || !(worst < 1e-3))
+            fail_msg("scale %zu: %d pixels compared, %d covered by one alone, normals differ by up to %g", k, compared,
+                     differently_covered, worst);
+        frame_free(&f);
+        frame_free(&g);
+        free(s);
+        free(b);
+    }
+}
+
+static void normals_of_zero_length_face_the_viewer(void **state)
+{
+    (void)state;
+    small_scene *s = frame_one_quad(small_scene_material(), NULL);
+    for (int i = 0; i < 4; i++)
+        memset(s->vertices[i].normal, 0, sizeof s->vertices[i].normal);
+    const scene_lighting lighting = scene_default_lighting();
+    frame f = frame_draw(s, &frame_front, &lighting, 0);
+    const float facing[4] = {0, 0, 1, 0};
+    assert_memory_equal(f.normals + 4 * FRAME_MIDDLE, facing, sizeof facing);
+    frame_free(&f);
+    free(s);
+}
+
+/* ---- which triangles are seen --------------------------------------------------------------------------- */
+
+static const float mirrored[16] = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+static const float turned_round[16] = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
+static const float mirrored_and_turned[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
+
+static void fronts_are_drawn_and_backs_culled(void **state)
+{
+    (void)state;
+    const int quarter = FRAME_SIZE * FRAME_SIZE / 4;
+    assert_int_equal(frame_count_drawn_by(frame_one_quad(small_scene_material(), NULL)), quarter);
+    assert_int_equal(frame_count_drawn_by(frame_one_quad(small_scene_material(), turned_round)), 0);
+}
+
+static void mirrored_instances_keep_their_fronts(void **state)
+{
+    (void)state;
+    const int quarter = FRAME_SIZE * FRAME_SIZE / 4;
+    assert_int_equal(frame_count_drawn_by(frame_one_quad(small_scene_material(), mirrored)), quarter);
+    assert_int_equal(frame_count_drawn_by(frame_one_quad(small_scene_material(), mirrored_and_turned)), 0);
+}
+
+static void double_sided_backs_show_normals_that_face_the_viewer(void **state)
+{
+    (void)state;
+    scene_material material = small_scene_material();
+    material.double_sided = true;
+    const float *placements[] = {NULL, mirrored, turned_round, mirrored_and_turned};
+    const scene_lighting lighting = scene_default_lighting();
+    for (int k = 0; k < 4; k++) {
+        small_scene *s = frame_one_quad(material, placements[k]);
+        frame f = frame_draw(s, &frame_front, &lighting, 0);
+        assert_int_equal(frame_count_drawn(&f, FRAME_SIZE * FRAME_SIZE), FRAME_SIZE * FRAME_SIZE / 4);
+        assert_float_equal(f.normals[4 * FRAME_MIDDLE + 2], 1, 1e-6f);
+        frame_free(&f);
+        free(s);
+    }
+}
+
+static void mixed_instances_of_a_mesh_are_all_drawn(void **state)
+{
+    (void)state;
+    small_scene *s = small_scene_create();
+    for (int k = 0; k < 16; k++) {
+        float m[16] = {0.125f, 0, 0, 0, 0, 0.125f, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+        m[0] *= k % 3 ? 1.0f : -1.0f;
+        m[12] = (float)(k % 4) * 0.5f - 0.75f;
+        m[13] = (float)(k / 4) * 0.5f - 0.75f;
+        if (k == 0)
+            frame_add_quad(s, small_scene_material(), m);
+        else
+            small_scene_add_instance(s, m);
+    }
+    assert_int_equal(frame_count_drawn_by(s), 16 * (FRAME_SIZE / 16) * (FRAME_SIZE / 16));
+}
+
+/* Every variant of material, instances of all kinds, perspective: the main pass finds the pre-pass's depth. */
+static void depth_equal_covers_what_the_prepass_covered(void **state)
+{
+    (void)state;
+    enum { LARGE = 256 };
+    static const uint8_t checker[2 * 2 * 4] = {90, 90, 90, 255, 90, 90, 90, 0, 90, 90, 90, 0, 90, 90, 90, 255};
+    small_scene *s = small_scene_create();
+    const int texture = small_scene_add_texture(s, 2, 2, checker);
+    uint32_t random = 1;
+    for (int variant = 0; variant < 32; variant++) {
+        scene_material material = small_scene_material();
+        material.base_color_texture = variant & 1 ? texture : -1;
+        material.alpha = variant & 2 ? SCENE_ALPHA_MASK : SCENE_ALPHA_OPAQUE;
+        material.double_sided = variant & 4;
+        material.unlit = variant & 8;
+        small_scene_begin_mesh(s, small_scene_add_material(s, material));
+        const uint32_t first = s->scene.vertex_count;
+        small_scene_add_sphere(s);
+        for (uint32_t i = first; variant & 16 && i < s->scene.vertex_count; i++)
+            s->vertices[i].color[3] = (float)(i % 2);
+        for (int k = 0; k < 4; k++) {
+            float m[16] = {0}, random_parts[6];
+            for (int i = 0; i < 6; i++) {
+                random = random * 1664525u + 1013904223u;
+                random_parts[i] = (float)(random >> 8) / 16777216.0f - 0.5f;
+            }
+            turned_and_scaled(1 + random_parts[0], k % 2 ? -1.0f : 1.0f, 1 + random_parts[1], m);
+            for (int i = 0; i < 3; i++)
+                m[12 + i] = 9 * random_parts[2 + i];
+            small_scene_add_instance(s, m);
+        }
+    }
+    const camera c = camera_frame_scene(&s->scene, 1);
+    const scene_view view = camera_view(&c, LARGE, LARGE);
+    const scene_lighting lighting = {.ambient = {0.5f, 0.5f, 0.5f}, .direction_world = {0, -1, 0}, .sky = {1, 0, 1}};
+    frame f = frame_draw(s, &view, &lighting, 0);
+    int differing = 0;
+    for (int i = 0; i < LARGE * LARGE; i++)
+        differing += frame_is_drawn(&f, i) != (f.color[i][1] != 0);
+    assert_true(frame_count_drawn(&f, LARGE * LARGE) > LARGE * LARGE / 5);
+    assert_int_equal(differing, 0);
+    frame_free(&f);
+    free(s);
+}
+
+int main(void)
+{
+#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
+    const struct CMUnitTest tests[] = {
+        TEST(normals_are_in_view_space),
+        TEST(instances_have_the_normals_of_baked_triangles),
+        TEST(normals_of_zero_length_face_the_viewer),
+        TEST(fronts_are_drawn_and_backs_culled),
+        TEST(mirrored_instances_keep_their_fronts),
+        TEST(double_sided_backs_show_normals_that_face_the_viewer),
+        TEST(mixed_instances_of_a_mesh_are_all_drawn),
+        TEST(depth_equal_covers_what_the_prepass_covered),
+    };
+#undef TEST
+    return cmocka_run_group_tests_name("draw", tests, fixture_setup, fixture_teardown);
+}

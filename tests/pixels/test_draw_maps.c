@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The examples' full-screen passes: view distance from window depth for every kind of projection, and showing maps.
+ */
+#include "draw.h"
+#include "fixture.h"
+#include "small_scene.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { COUNT = 64 }; /* pixels in a row */
+
+typedef struct passes {
+    small_scene *scene;
+    scene_renderer *renderer;
+    GLuint map, framebuffer; /* RGBA32F, of COUNT x 1 */
+} passes;
+
+static passes make_passes(void)
+{
+    char error[512];
+    passes p = {.scene = small_scene_create()};
+    p.renderer = scene_renderer_create(&p.scene->scene, error, sizeof error);
+    assert_non_null(p.renderer);
+    gl.GenTextures(1, &p.map);
+    gl.BindTexture(GL_TEXTURE_2D, p.map);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, COUNT, 1, 0, GL_RGBA, GL_FLOAT, NULL);
+    gl.GenFramebuffers(1, &p.framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, p.framebuffer);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, p.map, 0);
+    return p;
+}
+
+static void free_passes(passes *p)
+{
+    gl.DeleteFramebuffers(1, &p->framebuffer);
+    gl.DeleteTextures(1, &p->map);
+    scene_renderer_destroy(p->renderer);
+    free(p->scene);
+}
+
+/* The z row of a projection and its w: ndc_z = (a z + b) / (c z + e). */
+typedef struct projection {
+    const char *name;
+    double a, b, c, e;
+    double nearest, farthest; /* distances tried */
+} projection;
+
+static double depth_at(const projection *p, double distance)
+{
+    const double z = -distance;
+    return 0.5 + 0.5 * (p->a * z + p->b) / (p->c * z + p->e);
+}
+
+static void view_distance_is_the_analytic_one(void **state)
+{
+    (void)state;
+    const double n = 0.25, f = 64;
+    const projection projections[] = {
+        {"perspective", -(f + n) / (f - n), -2 * f * n / (f - n), -1, 0, n, 0.99 * f},
+        {"infinite", -1, -2 * n, -1, 0, n, 500},
+        {"reversed", (f + n) / (f - n), 2 * f * n / (f - n), -1, 0, n, 0.99 * f},
+        {"reversed infinite", 1, 2 * n, -1, 0, n, 500},
+        {"orthographic", -2 / (f - n), -(f + n) / (f - n), 0, 1, n, 0.99 * f},
+        {"reversed orthographic", 2 / (f - n), (f + n) / (f - n), 0, 1, n, 0.99 * f},
+        /* Planes on both sides of the eye: what is behind it has a negative distance. */
+        {"orthographic from behind", -2 / (f + 100), -(f - 100) / (f + 100), 0, 1, -99, 0.99 * f},
+        {"tiny perspective", -(f + n) / (f - n), -2e-4 * f * n / (f - n), -1, 0, 1e-4 * n, 0.99e-4 * f},
+    };
+    passes p = make_passes();
+    for (size_t k = 0; k < sizeof projections / sizeof projections[0]; k++) {
+        const projection *q = &projections[k];
+        float depth[COUNT];
+        double distance[COUNT];
+        for (int i = 0; i < COUNT - 1; i++) {
+            /* Even steps in the quantity that depth is linear in, so that the depth map's rounding is no issue. */
+            const double t = (i + 0.5) / (COUNT - 1);
+            distance[i] =
+                q->c != 0 ? 1 / ((1 - t) / q->nearest + t / q->farthest) : (1 - t) * q->nearest + t * q->farthest;
+            depth[i] = (float)depth_at(q, distance[i]);
+        }
+        const bool reversed = depth_at(q, q->nearest) > depth_at(q, q->farthest);
+        depth[COUNT - 1] = reversed ? 0 : 1;
+        GLuint depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, COUNT, 1, depth);
+        const scene_view view = {.clip_from_view = {1.5f, 0, 0, 0, 0, 2, 0, 0, 0.25f, -0.5f, (float)q->a, (float)q->c,
+                                                    0, 0, (float)q->b, (float)q->e},
+                                 .width = COUNT,
+                                 .height = 1};
+        scene_draw_view_distance(p.renderer, &view, depth_texture);
+        float *got = fixture_read_texture(p.map, COUNT, 1, 1);
+        for (int i = 0; i < COUNT - 1; i++)
+            if (!(fabs((double)got[i] - distance[i]) <= 1e-4 * fmax(fabs(distance[i]), q->c != 0 ? 0 : 1)))
+                fail_msg("%s: distance %g, not %g", q->name, (double)got[i], distance[i]);
+        if (got[COUNT - 1] != 0)
+            fail_msg("%s: the sky's distance is %g, not 0", q->name, (double)got[COUNT - 1]);
+        free(got);
+        gl.DeleteTextures(1, &depth_texture);
+    }
+    free_passes(&p);
+}
+
+static void map_keeps_its_orientation_and_values(void **state)
+{
+    (void)state;
+    passes p = make_passes();
+    GLuint map;
+    float texels[COUNT * 3];
+    for (int i = 0; i < COUNT * 3; i++)
+        texels[i] = (float)i;
+    gl.GenTextures(1, &map);
+    gl.BindTexture(GL_TEXTURE_2D, map);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, COUNT, 1, 0, GL_RGB, GL_FLOAT, texels);
+    for (int red_only = 0; red_only < 2; red_only++) {
+        scene_draw_map(p.renderer, map, COUNT, 1, red_only, 2, 0.5f);
+        float *got = fixture_read_texture(p.map, COUNT, 1, 4);
+        for (int i = 0; i < COUNT; i++) {
+            for (int c = 0; c < 3; c++)
+                assert_float_equal(got[4 * i + c], 2 * texels[3 * i + (red_only ? 0 : c)] + 0.5f, 0.05f);
+            assert_float_equal(got[4 * i + 3], 1, 0);
+        }
+        free(got);
+    }
+    gl.DeleteTextures(1, &map);
+    free_passes(&p);
+}
+
+static void small_map_is_spread_linearly_and_upright(void **state)
+{
+    (void)state;
+    const float texels[2 * 2] = {0, 1, 2, 3}; /* lower left, lower right, upper left, upper right */
+    passes p = make_passes();
+    GLuint map;
+    gl.GenTextures(1, &map);
+    gl.BindTexture(GL_TEXTURE_2D, map);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, 2, 2, 0, GL_RED, GL_FLOAT, texels);
+    gl.BindTexture(GL_TEXTURE_2D, p.map);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, 4, 4, 0, GL_RGBA, GL_FLOAT, NULL);
+    scene_draw_map(p.renderer, map, 4, 4, true, 1, 0);
+    float *got = fixture_read_texture(p.map, 4, 4, 1);
+    const float weight[4] = {0, 0.25f, 0.75f, 1}; /* of the second texel, at each pixel's centre */
+    for (int y = 0; y < 4; y++)
+        for (int x = 0; x < 4; x++)
+            assert_float_equal(got[4 * y + x], weight[x] + 2 * weight[y], 0.01f);
+    free(got);
+    gl.DeleteTextures(1, &map);
+    free_passes(&p);
+}
+
+static void passes_leave_the_defaults(void **state)
+{
+    (void)state;
+    passes p = make_passes();
+    const scene_view view = {.width = COUNT, .height = 1};
+    const scene_lighting lighting = scene_default_lighting();
+    for (int k = 0; k < 4; k++) {
+        /* Whatever a pass finds, it draws the same and leaves the same. */
+        gl.Enable(GL_BLEND);
+        gl.Enable(GL_CULL_FACE);
+        gl.DepthFunc(GL_NEVER);
+        gl.DepthMask(GL_FALSE);
+        gl.ColorMask(GL_FALSE, GL_TRUE, GL_FALSE, GL_TRUE);
+        gl.FrontFace(GL_CW);
+        if (k == 0)
+            scene_draw_normals(p.renderer, &view);
+        else if (k == 1)
+            scene_draw_main(p.renderer, &view, &lighting, 0);
+        else if (k == 2)
+            scene_draw_map(p.renderer, 0, COUNT, 1, false, 1, 0);
+        else
+            scene_draw_view_distance(p.renderer, &view, 0);
+        const GLenum disabled[] = {GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_FRAMEBUFFER_SRGB};
+        const GLenum zero[] = {GL_CURRENT_PROGRAM, GL_VERTEX_ARRAY_BINDING, GL_ARRAY_BUFFER_BINDING,
+                               GL_TEXTURE_BINDING_2D, GL_SAMPLER_BINDING};
+        GLint value = -1;
+        GLboolean mask[4];
+        for (size_t i = 0; i < sizeof disabled / sizeof disabled[0]; i++)
+            assert_false(gl.IsEnabled(disabled[i]));
+        for (size_t i = 0; i < sizeof zero / sizeof zero[0]; i++) {
+            gl.GetIntegerv(zero[i], &value);
+            assert_int_equal(value, 0);
+        }
+        gl.GetIntegerv(GL_DEPTH_FUNC, &value);
+        assert_int_equal(value, GL_LESS);
+        gl.GetIntegerv(GL_FRONT_FACE, &value);
+        assert_int_equal(value, GL_CCW);
+        gl.GetBooleanv(GL_DEPTH_WRITEMASK, mask);
+        assert_true(mask[0]);
+        gl.GetBooleanv(GL_COLOR_WRITEMASK, mask);
+        assert_true(mask[0] && mask[1] && mask[2] && mask[3]);
+    }
+    free_passes(&p);
+}
+
+int main(void)
+{
+#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
+    const struct CMUnitTest tests[] = {
+        TEST(view_distance_is_the_analytic_one),
+        TEST(map_keeps_its_orientation_and_values),
+        TEST(small_map_is_spread_linearly_and_upright),
+        TEST(passes_leave_the_defaults),
+    };
+#undef TEST
+    return cmocka_run_group_tests_name("draw maps", tests, fixture_setup, fixture_teardown);
+}

@@ -1,0 +1,231 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What each kind of material does to colour, normals and depth.
+ */
+#include "draw.h"
+#include "draw_frame.h"
+#include "fixture.h"
+#include "small_scene.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void mask_draws_where_alpha_reaches_the_cutoff(void **state)
+{
+    (void)state;
+    static const uint8_t halves[2 * 1 * 4] = {255, 255, 255, 51, 255, 255, 255, 204};
+    scene_material material = small_scene_material();
+    material.alpha = SCENE_ALPHA_MASK;
+    material.base_color[3] = 0.5f;
+    assert_int_equal(frame_count_drawn_by(frame_one_quad(material, NULL)), FRAME_SIZE * FRAME_SIZE / 4);
+    material.alpha_cutoff = 0.51f;
+    assert_int_equal(frame_count_drawn_by(frame_one_quad(material, NULL)), 0);
+
+    material.base_color[3] = 1;
+    material.base_color_texture = 0;
+    small_scene *s = frame_one_quad(material, NULL);
+    small_scene_add_texture(s, 2, 1, halves);
+    assert_int_equal(frame_count_drawn_by(s), FRAME_SIZE * FRAME_SIZE / 8);
+
+    material.alpha = SCENE_ALPHA_OPAQUE;
+    s = frame_one_quad(material, NULL);
+    small_scene_add_texture(s, 2, 1, halves);
+    assert_int_equal(frame_count_drawn_by(s), FRAME_SIZE * FRAME_SIZE / 4);
+}
+
+static void blended_adds_colour_but_no_depth_and_no_normal(void **state)
+{
+    (void)state;
+    scene_material material = small_scene_material();
+    material.alpha = SCENE_ALPHA_BLEND;
+    material.unlit = true;
+    memcpy(material.base_color, (float[4]){0.8f, 0.2f, 0, 0.25f}, sizeof material.base_color);
+    small_scene *s = frame_one_quad(material, NULL);
+    scene_lighting lighting = {.direction_world = {0, -1, 0}, .sky = {0.1f, 0.5f, 0.9f}};
+    frame f = frame_draw(s, &frame_front, &lighting, 0);
+    assert_int_equal(frame_count_drawn(&f, FRAME_SIZE * FRAME_SIZE), 0);
+    assert_float_equal(f.depth[FRAME_MIDDLE], 1, 0);
+    frame_assert_color(f.color[0], 0.1, 0.5, 0.9);
+    frame_assert_color(f.color[FRAME_MIDDLE], 0.25 * 0.8 + 0.75 * 0.1, 0.25 * 0.2 + 0.75 * 0.5, 0.75 * 0.9);
+    frame_free(&f);
+    free(s);
+}
+
+static void blended_is_drawn_back_to_front(void **state)
+{
+    (void)state;
+    scene_lighting lighting = {.direction_world = {0, -1, 0}};
+    for (int red_first = 0; red_first < 2; red_first++) {
+        small_scene *s = small_scene_create();
+        for (int k = 0; k < 2; k++) {
+            const bool red = k != red_first;
+            const float place[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, red ? 0.5f : -0.5f, 1};
+            scene_material material = small_scene_material();
+            material.alpha = SCENE_ALPHA_BLEND;
+            material.unlit = true;
+            memcpy(material.base_color, red ? (float[4]){1, 0, 0, 0.5f} : (float[4]){0, 1, 0, 0.5f},
+                   sizeof material.base_color);
+            frame_add_quad(s, material, place);
+        }
+        frame f = frame_draw(s, &frame_front, &lighting, 0);
+        frame_assert_color(f.color[FRAME_MIDDLE], 0.5, 0.25, 0);
+        frame_free(&f);
+        free(s);
+    }
+}
+
+static void blended_is_hidden_by_opaque_in_front(void **state)
+{
+    (void)state;
+    scene_material opaque = small_scene_material(), blended = small_scene_material();
+    opaque.unlit = blended.unlit = true;
+    blended.alpha = SCENE_ALPHA_BLEND;
+    memcpy(blended.base_color, (float[4]){1, 0, 0, 0.5f}, sizeof blended.base_color);
+    const float behind[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -0.5f, 1};
+    small_scene *s = frame_one_quad(opaque, NULL);
+    frame_add_quad(s, blended, behind);
+    scene_lighting lighting = {.direction_world = {0, -1, 0}};
+    frame f = frame_draw(s, &frame_front, &lighting, 0);
+    frame_assert_color(f.color[FRAME_MIDDLE], 1, 1, 1);
+    frame_free(&f);
+    free(s);
+}
+
+static void accessibility_scales_ambient_light_alone(void **state)
+{
+    (void)state;
+    const float half = 0.5f;
+    const float pi = 3.14159265f;
+    GLuint map;
+    gl.GenTextures(1, &map);
+    gl.BindTexture(GL_TEXTURE_2D, map);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R16, 1, 1, 0, GL_RED, GL_FLOAT, &half);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    /* Light at 60 degrees to the quad's normal. */
+    const scene_lighting lighting = {.ambient = {0.4f, 0.2f, 0.1f},
+                                     .direction_world = {0.8660254f, 0, -0.5f},
+                                     .directional = {0.2f * pi, 0.4f * pi, 0.6f * pi}};
+    scene_material material = small_scene_material();
+    memcpy(material.base_color, (float[4]){0.5f, 1, 0.25f, 1}, sizeof material.base_color);
+    for (int mode = 0; mode < 4; mode++) { /* bit 0: with the map, bit 1: unlit */
+        const double access = mode & 1 ? 0.5 : 1;
+        material.unlit = mode & 2;
+        small_scene *s = frame_one_quad(material, NULL);
+        frame f = frame_draw(s, &frame_front, &lighting, mode & 1 ? map : 0);
+        if (material.unlit)
+            frame_assert_color(f.color[FRAME_MIDDLE], 0.5, 1, 0.25);
+        else
+            frame_assert_color(f.color[FRAME_MIDDLE], 0.5 * (0.4 * access + 0.1), 0.2 * access + 0.2,
+                               0.25 * (0.1 * access + 0.3));
+        frame_free(&f);
+        free(s);
+    }
+    gl.DeleteTextures(1, &map);
+}
+
+/* The quad's uv (0, 0) is its upper left corner, as is the first texel of the image. */
+static void texels_are_where_the_uvs_say(void **state)
+{
+    (void)state;
+    static const uint8_t texels[2 * 2 * 4] = {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255};
+    static const double colors[4][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+    /* Which texel is at the upper left, upper right, lower left, lower right of the picture. */
+    static const struct {
+        int uv_set;
+        float transform[6];
+        int texels[4];
+    } cases[] = {
+        {0, {1, 0, 0, 0, 1, 0}, {0, 1, 2, 3}},
+        {1, {1, 0, 0, 0, 1, 0}, {0, 2, 1, 3}},    /* the second set has u and v swapped */
+        {0, {1, 0, 0.5f, 0, 1, 0}, {1, 0, 3, 2}}, /* half a picture on, and round again */
+        {0, {0, 1, 0, -1, 0, 1}, {2, 0, 3, 1}},   /* u' = v, v' = 1 - u */
+    };
+    const int at[4] = {
+        FRAME_SIZE * 5 / 8 * FRAME_SIZE + FRAME_SIZE * 3 / 8, FRAME_SIZE * 5 / 8 * FRAME_SIZE + FRAME_SIZE * 5 / 8,
+        FRAME_SIZE * 3 / 8 * FRAME_SIZE + FRAME_SIZE * 3 / 8, FRAME_SIZE * 3 / 8 * FRAME_SIZE + FRAME_SIZE * 5 / 8};
+    scene_lighting lighting = {.direction_world = {0, -1, 0}};
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        scene_material material = small_scene_material();
+        material.unlit = true;
+        material.base_color_texture = 0;
+        material.base_color_uv = cases[k].uv_set;
+        memcpy(material.base_color_uv_from_uv, cases[k].transform, sizeof material.base_color_uv_from_uv);
+        small_scene *s = frame_one_quad(material, NULL);
+        small_scene_add_texture(s, 2, 2, texels);
+        frame f = frame_draw(s, &frame_front, &lighting, 0);
+        for (int i = 0; i < 4; i++) {
+            const double *color = colors[cases[k].texels[i]];
+            frame_assert_color(f.color[at[i]], color[0], color[1], color[2]);
+        }
+        frame_free(&f);
+        free(s);
+    }
+}
+
+static void vertex_colour_multiplies_base_colour(void **state)
+{
+    (void)state;
+    scene_material material = small_scene_material();
+    material.unlit = true;
+    material.base_color[0] = 0.5f;
+    small_scene *s = frame_one_quad(material, NULL);
+    for (int i = 0; i < 4; i++)
+        memcpy(s->vertices[i].color, (float[4]){0.5f, 0.25f, 0.75f, 1}, sizeof s->vertices[i].color);
+    scene_lighting lighting = {.direction_world = {0, -1, 0}};
+    frame f = frame_draw(s, &frame_front, &lighting, 0);
+    frame_assert_color(f.color[FRAME_MIDDLE], 0.25, 0.25, 0.75);
+    frame_free(&f);
+    free(s);
+}
+
+static void empty_scene_is_all_sky(void **state)
+{
+    (void)state;
+    small_scene *s = small_scene_create();
+    small_scene_add_material(s, small_scene_material());
+    scene_lighting lighting = {.direction_world = {0, -1, 0}, .sky = {0.2f, 0.4f, 0.6f}};
+    frame f = frame_draw(s, &frame_front, &lighting, 0);
+    assert_int_equal(frame_count_drawn(&f, FRAME_SIZE * FRAME_SIZE), 0);
+    frame_assert_color(f.color[FRAME_MIDDLE], 0.2, 0.4, 0.6);
+    frame_free(&f);
+    free(s);
+}
+
+static void images_beyond_the_driver_are_refused(void **state)
+{
+    (void)state;
+    static const uint8_t texel[4];
+    scene_material material = small_scene_material();
+    material.base_color_texture = 0;
+    small_scene *s = frame_one_quad(material, NULL);
+    small_scene_add_texture(s, 1 << 20, 1, texel);
+    char error[512] = "";
+    assert_null(scene_renderer_create(&s->scene, error, sizeof error));
+    assert_non_null(strstr(error, "1048576 x 1"));
+    /* Unused, it does no harm. */
+    s->materials[0].base_color_texture = -1;
+    scene_renderer *r = scene_renderer_create(&s->scene, error, sizeof error);
+    assert_non_null(r);
+    scene_renderer_destroy(r);
+    scene_renderer_destroy(NULL);
+    free(s);
+}
+
+int main(void)
+{
+#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
+    const struct CMUnitTest tests[] = {
+        TEST(mask_draws_where_alpha_reaches_the_cutoff),
+        TEST(blended_adds_colour_but_no_depth_and_no_normal),
+        TEST(blended_is_drawn_back_to_front),
+        TEST(blended_is_hidden_by_opaque_in_front),
+        TEST(accessibility_scales_ambient_light_alone),
+        TEST(texels_are_where_the_uvs_say),
+        TEST(vertex_colour_multiplies_base_colour),
+        TEST(empty_scene_is_all_sky),
+        TEST(images_beyond_the_driver_are_refused),
+    };
+#undef TEST
+    return cmocka_run_group_tests_name("draw materials", tests, fixture_setup, fixture_teardown);
+}

@@ -1,0 +1,190 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# cli.sh GLSSAO_RENDER: what the command line promises: exit codes, messages that name what and where, files of the
+# right kind and size, the same bits every time.
+set -uo pipefail
+render=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+
+fail() {
+    echo "FAILED: $*"
+    sed 's/^/    /' err
+    failures=$((failures + 1))
+}
+
+# want CODE WORDS ARGUMENTS...: this exit code, and WORDS (fixed text) in the last line on stderr.
+want() {
+    local code=$1 words=$2
+    shift 2
+    "$render" "$@" >out 2>err
+    local got=$?
+    [ "$got" = "$code" ] || fail "$*: exit $got instead of $code"
+    [ -z "$words" ] || tail -n 1 err | grep -qF -- "$words" || fail "$*: the last line does not say \"$words\""
+}
+
+# Width and height stand in a PNG's bytes 16 to 23, most significant first; the colour type in byte 25.
+png_is() { # file, width, height, colour type (0 grey, 2 RGB)
+    local bytes
+    bytes=$(od -An -tu1 -j16 -N10 "$1" 2>/dev/null | tr -s ' \n' '  ')
+    # shellcheck disable=SC2086
+    set -- "$1" "$2" "$3" "$4" $bytes
+    [ $# = 14 ] || { fail "$1 is no PNG"; return; }
+    [ "$((($5 << 24) + ($6 << 16) + ($7 << 8) + $8)) $((($9 << 24) + (${10} << 16) + (${11} << 8) + ${12}))" = "$2 $3" ] ||
+        fail "$1 is not $2 x $3"
+    [ "${14}" = "$4" ] || fail "$1 has colour type ${14} instead of $4"
+}
+
+pfm_is() { # file, width, height
+    [ "$(head -n 2 "$1" 2>/dev/null)" = "Pf
+$2 $3" ] || fail "$1 has not the head of a $2 x $3 one-channel PFM"
+    [ "$(wc -c <"$1")" -ge $(($2 * $3 * 4)) ] || fail "$1 is too short"
+}
+
+size="-s 65x37"
+# shellcheck disable=SC2086
+{
+    want 0 "" -h
+    grep -q -- --blur-rounds out || fail "help does not list the options"
+    want 0 "" --version
+
+    # Wrong usage: 2, naming option and value.
+    want 2 "nothing to do"
+    want 2 "nothing to do" --no-ao
+    want 2 "--no-such-option" --no-such-option
+    want 2 "-z" -z
+    want 2 "--output" -o
+    want 2 "--output" -o a.jpg
+    want 2 ".png" -o .png
+    want 2 "--depth" --depth d.png
+    want 2 "--ao" --ao a.exr
+    want 2 "horizon is not there yet" -t horizon -o a.png
+    want 2 "hemisphere is not there yet" -t hemisphere -o a.png
+    want 2 "raytrace is not there yet" -t raytrace -o a.png
+    want 2 '"fancy"' -t fancy -o a.png
+    want 2 '"best"' --quality best -o a.png
+    want 2 '"glx"' --context glx -o a.png
+    want 2 '"attic"' --scene attic -o a.png
+    for bad in 0x10 10x0 10 x10 10x -5x5 10x10x10 10x99999 1e2x10 99999999999999999999x10 " 10x10" ""; do
+        want 2 "--size \"$bad\"" -s "$bad" -o a.png
+    done
+    for bad in "" abc 1x nan inf -inf 0x10 1e99 " 1" "1 " -1 1,0; do
+        want 2 "--radius \"$bad\"" --radius "$bad" -o a.png
+    done
+    want 2 "--power" --power 65 -o a.png
+    want 2 "--samples" --samples 15 -o a.png
+    want 2 "--samples" --samples 1.5 -o a.png
+    want 2 "--blur-rounds" --blur-rounds 17 -o a.png
+    want 2 "--fov" --fov 180 -o a.png
+    want 2 "--near" --near 0 -o a.png
+    want 2 "--near 5" --near 5 --far 2 -o a.png
+    for bad in 1,2 1,2,3,4 1,2,x 1,,3 nan,0,0; do
+        want 2 "--eye \"$bad\"" --eye "$bad" -o a.png
+    done
+    want 2 "same point" --eye 1,2,3 --target 1,2,3 -o a.png
+    want 2 "--frames" --frames 0 -o a.png
+    want 2 "--frames" --frames 3 --plan
+    want 2 "--bench" --bench 2 --frames 3 -o a.png
+    want 2 "--seed" --seed -1 -o a.png
+    want 2 "--seed" --seed 4294967296 -o a.png
+    want 2 "--no-ao" --no-ao --ao a.png
+    want 2 "--plan" --plan=yes
+    want 2 "a.png is named for two" -o a.png --ao a.png
+    want 2 "b.glb" a.glb b.glb -o a.png
+    want 2 "--scene" --scene plane a.glb -o a.png
+    [ ! -e a.png ] || fail "wrong usage left a picture"
+
+    # Could not render: 1, naming the file.
+    want 1 "none.glb" -o a.png none.glb
+    want 1 "no-folder/a.png" -o no-folder/a.png
+    mkdir folder.png
+    want 1 "folder.png" -o folder.png
+    want 1 "no-folder/s.json" --stats no-folder/s.json
+    want 1 "--camera 3" $size -o a.png --camera 3
+    echo '{"asset":' >broken.gltf
+    want 1 "broken.gltf" -o a.png broken.gltf
+    [ ! -e a.png ] || fail "a run that failed left a picture"
+
+    # Every output, of the right kind and size.
+    want 0 "" $size -o a.png --ao a.pfm --normals n.png --depth d.pfm --stats s.json
+    png_is a.png 65 37 2
+    png_is n.png 65 37 2
+    pfm_is a.pfm 65 37
+    pfm_is d.pfm 65 37
+    grep -q '^context: ' err || fail "stderr does not tell the context"
+    if command -v python3 >/dev/null; then
+        python3 -m json.tool s.json >json 2>err || fail "s.json is no JSON"
+    fi
+    for key in program library context scene triangles instances width height settings load setup prepass ao main \
+        readback encode draw_calls gpu_ms wall cpu; do
+        grep -q "\"$key\":" s.json || fail "s.json has no $key"
+    done
+    want 0 "" $size --ao a.png
+    png_is a.png 65 37 0
+    want 0 "" -s1x1 -o tiny.png --ao tiny.pfm
+    png_is tiny.png 1 1 2
+
+    # The same command gives the same bits; another seed gives others.
+    want 0 "" $size --seed=7 -o a1.png --ao a1.pfm
+    want 0 "" $size --seed=7 -o a2.png --ao a2.pfm
+    cmp a1.png a2.png || fail "two runs differ"
+    cmp a1.pfm a2.pfm || fail "two runs differ"
+    want 0 "" $size --seed 8 --ao a3.pfm
+    ! cmp -s a1.pfm a3.pfm || fail "the seed changes nothing"
+    want 0 "" $size --no-ao -o off.png
+    ! cmp -s a1.png off.png || fail "--no-ao changes nothing"
+
+    # Settings arrive.
+    want 0 "" $size --ao p1.pfm --power 0
+    ! cmp -s a1.pfm p1.pfm || fail "--power changes nothing"
+    for options in "--radius 0.1" "--samples 3" "--blur-rounds 0" "--quality low" "--eye 3,2,5" "--fov 20"; do
+        want 0 "" $size --ao p2.pfm $options --seed 7
+        ! cmp -s a1.pfm p2.pfm || fail "$options changes nothing"
+    done
+
+    # Turntable, plan, benchmark.
+    want 0 "" $size --frames 3 -o turn.png
+    grep -q "frame 3 of 3" err || fail "no progress"
+    for i in 1 2 3; do png_is "turn-000$i.png" 65 37 2; done
+    [ ! -e turn.png ] || fail "a turntable leaves a picture without a number"
+    cmp -s turn-0001.png turn-0002.png && fail "the turntable stands still"
+    want 0 "" $size --plan
+    grep -q '^main  *run' out || fail "the plan has no main pass"
+    want 0 "" $size --plan --no-ao
+    grep -q '^occlusion  *skip' out || fail "the plan of --no-ao runs occlusion"
+    want 0 "" $size --bench 3
+    grep -q 'median.*p95' out || fail "the benchmark prints no times"
+
+    # Built-in scenes and both kinds of context.
+    for scene in columns cornell steps plane; do
+        want 0 "" $size --scene $scene -o scene.png
+    done
+    want 0 "" $size --context egl -o scene.png
+    if ldconfig -p 2>/dev/null | grep -q libOSMesa; then
+        want 0 "" $size --context osmesa -o scene.png
+    fi
+
+    # A file of one triangle, with a perspective and an orthographic camera.
+    cat >triangle.gltf <<'GLTF'
+{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2]}],
+ "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0.3, 0.3, 3]}, {"camera": 1, "translation": [0.3, 0.3, 3]}],
+ "cameras": [{"type": "perspective", "perspective": {"yfov": 0.6, "znear": 0.1}},
+             {"type": "orthographic", "orthographic": {"xmag": 2, "ymag": 2, "znear": 0.1, "zfar": 10}}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+ "bufferViews": [{"buffer": 0, "byteLength": 36}],
+ "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}
+GLTF
+    want 0 "" $size -o t1.png triangle.gltf
+    want 0 "" $size -o t2.png --camera 1 triangle.gltf
+    want 0 "" $size -o t3.png --camera 2 triangle.gltf
+    cmp t1.png t2.png || fail "the first camera is not the default"
+    ! cmp -s t2.png t3.png || fail "--camera changes nothing"
+    want 1 "--camera 3: triangle.gltf" $size -o t4.png --camera 3 triangle.gltf
+    want 1 "" -s 16x16 --eye 0,0,0 --target 0,1,0 --up 0,1,0 -o t4.png
+}
+
+[ $failures = 0 ] && echo "all holds"
+exit $((failures > 0))

@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# run-all.sh: installs what is missing (Debian, Ubuntu), builds with clang and, with sanitizers, with gcc, and runs
+# every test in both. Stops at the first build or test run that fails; ctest's summary comes last.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+./third_party/install-packages.sh build test
+export LSAN_OPTIONS=suppressions=$PWD/tests/lsan.supp:print_suppressions=0
+run() { # folder, then cmake's options
+    local folder=$1
+    shift
+    cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DGLSSAO_WERROR=ON -DGLSSAO_CHECK_GL=ON "$@" >/dev/null
+    cmake --build "$folder"
+    ctest --test-dir "$folder" --output-on-failure -j2
+}
+run build-clang -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++
+run build-sanitize -DCMAKE_C_COMPILER=gcc -DCMAKE_CXX_COMPILER=g++ -DGLSSAO_SANITIZE=ON

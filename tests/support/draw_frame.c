@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: MIT */
+#include "draw_frame.h"
+
+#include "fixture.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+const scene_view frame_front = {.view_from_world = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+                                .clip_from_view = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -0.5f, 0, 0, 0, 0, 1},
+                                .width = FRAME_SIZE,
+                                .height = FRAME_SIZE};
+
+typedef struct target {
+    int size;
+    GLuint normals, depth, color; /* RGBA32F, DEPTH_COMPONENT24, SRGB8_ALPHA8 */
+    GLuint normals_framebuffer, color_framebuffer;
+} target;
+
+static GLuint make_map(GLint internal_format, GLenum format, int size)
+{
+    GLuint name;
+    gl.GenTextures(1, &name);
+    gl.BindTexture(GL_TEXTURE_2D, name);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, internal_format, size, size, 0, format, GL_FLOAT, NULL);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    return name;
+}
+
+static GLuint make_framebuffer(GLuint color, GLuint depth)
+{
+    GLuint name;
+    gl.GenFramebuffers(1, &name);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, name);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
+    assert_int_equal(gl.CheckFramebufferStatus(GL_FRAMEBUFFER), GL_FRAMEBUFFER_COMPLETE);
+    return name;
+}
+
+static target make_target(int size)
+{
+    target t = {.size = size};
+    t.normals = make_map(GL_RGBA32F, GL_RGBA, size);
+    t.depth = make_map(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, size);
+    t.color = make_map(GL_SRGB8_ALPHA8, GL_RGBA, size);
+    t.normals_framebuffer = make_framebuffer(t.normals, t.depth);
+    t.color_framebuffer = make_framebuffer(t.color, t.depth);
+    return t;
+}
+
+static void free_target(target *t)
+{
+    const GLuint textures[] = {t->normals, t->depth, t->color};
+    const GLuint framebuffers[] = {t->normals_framebuffer, t->color_framebuffer};
+    gl.DeleteTextures(3, textures);
+    gl.DeleteFramebuffers(2, framebuffers);
+}
+
+frame frame_draw(const small_scene *s, const scene_view *view, const scene_lighting *lighting, unsigned ambient_map)
+{
+    char error[512];
+    scene_renderer *r = scene_renderer_create(&s->scene, error, sizeof error);
+    if (!r)
+        fail_msg("%s", error);
+    target t = make_target(view->width);
+    const float cleared[4] = {FRAME_EMPTY, FRAME_EMPTY, FRAME_EMPTY, FRAME_EMPTY}, far_depth = 1;
+    gl.BindFramebuffer(GL_FRAMEBUFFER, t.normals_framebuffer);
+    gl.ClearBufferfv(GL_COLOR, 0, cleared);
+    gl.ClearBufferfv(GL_DEPTH, 0, &far_depth);
+    scene_draw_normals(r, view);
+    frame f = {.normals = fixture_read_texture(t.normals, t.size, t.size, 4)};
+    gl.BindFramebuffer(GL_FRAMEBUFFER, t.color_framebuffer);
+    scene_draw_main(r, view, lighting, ambient_map);
+    f.color = malloc((size_t)(t.size * t.size) * 4);
+    gl.ReadPixels(0, 0, t.size, t.size, GL_RGBA, GL_UNSIGNED_BYTE, f.color);
+    f.depth = fixture_read_depth(t.depth, t.size, t.size);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    free_target(&t);
+    scene_renderer_destroy(r);
+    return f;
+}
+
+void frame_free(frame *f)
+{
+    free(f->normals);
+    free(f->depth);
+    free(f->color);
+}
+
+bool frame_is_drawn(const frame *f, int pixel)
+{
+    return f->normals[4 * pixel] != FRAME_EMPTY;
+}
+
+int frame_count_drawn(const frame *f, int pixels)
+{
+    int count = 0;
+    for (int i = 0; i < pixels; i++)
+        count += frame_is_drawn(f, i);
+    return count;
+}
+
+int frame_count_drawn_by(small_scene *s)
+{
+    const scene_lighting lighting = scene_default_lighting();
+    frame f = frame_draw(s, &frame_front, &lighting, 0);
+    const int count = frame_count_drawn(&f, FRAME_SIZE * FRAME_SIZE);
+    frame_free(&f);
+    free(s);
+    return count;
+}
+
+void frame_add_quad(small_scene *s, scene_material material, const float world_from_mesh[16])
+{
+    static const float corner[3] = {-0.5f, -0.5f, 0}, along_x[3] = {1, 0, 0}, along_y[3] = {0, 1, 0};
+    small_scene_begin_mesh(s, small_scene_add_material(s, material));
+    small_scene_add_quad(s, corner, along_x, along_y);
+    small_scene_add_instance(s, world_from_mesh);
+}
+
+small_scene *frame_one_quad(scene_material material, const float world_from_mesh[16])
+{
+    small_scene *s = small_scene_create();
+    frame_add_quad(s, material, world_from_mesh);
+    return s;
+}
+
+static int srgb(double linear)
+{
+    const double encoded = linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
+    return (int)lround(255 * fmin(fmax(encoded, 0), 1));
+}
+
+void frame_assert_color(const uint8_t color[4], double r, double g, double b)
+{
+    const int wanted[3] = {srgb(r), srgb(g), srgb(b)};
+    for (int c = 0; c < 3; c++)
+        if (abs(color[c] - wanted[c]) > 1)
+            fail_msg("colour %d %d %d, not %d %d %d", color[0], color[1], color[2], wanted[0], wanted[1], wanted[2]);
+}

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Scenes made by hand, for tests of what draws them: materials, then meshes of one primitive, each with its instances.
+ */
+#ifndef GLSSAO_TESTS_SMALL_SCENE_H
+#define GLSSAO_TESTS_SMALL_SCENE_H
+
+#include "scene.h"
+
+enum { SMALL_SCENE_VERTICES = 16384, SMALL_SCENE_PARTS = 256 };
+
+typedef struct small_scene {
+    scene scene; /* points into the arrays below */
+    scene_vertex vertices[SMALL_SCENE_VERTICES];
+    uint32_t indices[SMALL_SCENE_VERTICES * 6];
+    scene_primitive primitives[SMALL_SCENE_PARTS];
+    scene_mesh meshes[SMALL_SCENE_PARTS];
+    scene_instance instances[SMALL_SCENE_PARTS];
+    scene_material materials[SMALL_SCENE_PARTS];
+    scene_texture textures[4];
+    scene_image images[4];
+} small_scene;
+
+/* White, opaque, single-sided, lit. */
+scene_material small_scene_material(void);
+
+/* free() frees it. */
+small_scene *small_scene_create(void);
+int small_scene_add_material(small_scene *s, scene_material material);
+/* Takes no copy of the texels. Nearest, repeated. Returns the texture. */
+int small_scene_add_texture(small_scene *s, int width, int height, const uint8_t *rgba);
+
+/* Begins a mesh of one primitive; what is added next belongs to it. */
+void small_scene_begin_mesh(small_scene *s, int material);
+/* A quad: corner + u, corner + v, its front where u x v points; uv (0, 1) at the corner, (1, 0) opposite. Its normals
+ * are that of the plane. Returns its first vertex of four: corner, +u, +v, both. */
+scene_vertex *small_scene_add_quad(small_scene *s, const float corner[3], const float u[3], const float v[3]);
+/* A sphere of radius 1, its front outside; 24 by 12 quads with the sphere's own normals. */
+void small_scene_add_sphere(small_scene *s);
+/* An instance of the mesh begun last; NULL: where its vertices say. Bounds grow by it: the vertices come before. */
+void small_scene_add_instance(small_scene *s, const float world_from_mesh[16]);
+
+#endif

@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The invariants of a scene.
+ */
+#include "scene_validity.h"
+
+#include <math.h>
+
+static bool all_finite(const float *values, int count)
+{
+    bool finite = true;
+    for (int i = 0; i < count; ++i)
+        finite = finite && isfinite(values[i]);
+    return finite;
+}
+
+static const char *find_vertex_flaw(const scene *s)
+{
+    for (uint32_t i = 0; i < s->vertex_count; ++i) {
+        const scene_vertex *v = &s->vertices[i];
+        const double n[3] = {(double)v->normal[0], (double)v->normal[1], (double)v->normal[2]};
+        if (!all_finite(v->position, 3) || !all_finite(v->uv[0], 4) || !all_finite(v->color, 4))
+            return "a vertex is not finite";
+        if (!(fabs(sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) - 1) < 1e-3))
+            return "a normal is not of unit length";
+    }
+    return NULL;
+}
+
+static const char *find_primitive_flaw(const scene *s)
+{
+    for (uint32_t i = 0; i < s->primitive_count; ++i) {
+        const scene_primitive *p = &s->primitives[i];
+        if (p->index_count == 0 || p->index_count % 3 || p->first_index > s->index_count ||
+            p->index_count > s->index_count - p->first_index)
+            return "a primitive's indices are not there";
+        if (p->material < 0 || (uint32_t)p->material >= s->material_count)
+            return "a primitive's material is not there";
+        for (uint32_t k = p->first_index; k < p->first_index + p->index_count; ++k) {
+            if (s->indices[k] >= s->vertex_count)
+                return "an index is not within the vertices";
+            for (int axis = 0; axis < 3; ++axis)
+                if (!(s->vertices[s->indices[k]].position[axis] >= p->bounds_min[axis] &&
+                      s->vertices[s->indices[k]].position[axis] <= p->bounds_max[axis]))
+                    return "a primitive's bounds do not hold it";
+        }
+    }
+    return NULL;
+}
+
+static const char *find_material_flaw(const scene *s)
+{
+    if (!s->material_count)
+        return "no material";
+    for (uint32_t i = 0; i < s->material_count; ++i) {
+        const scene_material *m = &s->materials[i];
+        if (m->base_color_texture < -1 || m->base_color_texture >= (int)s->texture_count)
+            return "a material's texture is not there";
+        if (m->base_color_uv < 0 || m->base_color_uv > 1)
+            return "a material's uv set is not there";
+        if (!all_finite(m->base_color, 4) || !all_finite(m->base_color_uv_from_uv, 6) || !isfinite(m->alpha_cutoff))
+            return "a material is not finite";
+    }
+    for (uint32_t i = 0; i < s->texture_count; ++i)
+        if (s->textures[i].image < 0 || (uint32_t)s->textures[i].image >= s->image_count)
+            return "a texture's image is not there";
+    for (uint32_t i = 0; i < s->image_count; ++i)
+        if (s->images[i].width < 1 || s->images[i].height < 1 || !s->images[i].rgba)
+            return "an image is empty";
+    return NULL;
+}
+
+/* The corners of a primitive's box, in the world, within the scene's bounds (give and take rounding)? */
+static bool holds(const scene *s, const scene_primitive *p, const float *m)
+{
+    for (uint32_t i = p->first_index; i < p->first_index + p->index_count; ++i) {
+        const float *at = s->vertices[s->indices[i]].position;
+        for (int axis = 0; axis < 3; ++axis) {
+            const float world = m[axis] * at[0] + m[4 + axis] * at[1] + m[8 + axis] * at[2] + m[12 + axis];
+            const float slack = 1e-4f * (1 + fabsf(s->bounds_min[axis]) + fabsf(s->bounds_max[axis]));
+            if (!(world >= s->bounds_min[axis] - slack && world <= s->bounds_max[axis] + slack))
+                return false;
+        }
+    }
+    return true;
+}
+
+static const char *find_instance_flaw(const scene *s)
+{
+    uint32_t next = 0;
+    for (uint32_t m = 0; m < s->mesh_count; ++m) {
+        const scene_mesh *mesh = &s->meshes[m];
+        if (mesh->first_instance != next && mesh->instance_count)
+            return "instances are not sorted by mesh";
+        next += mesh->instance_count;
+        if (mesh->first_primitive > s->primitive_count ||
+            mesh->primitive_count > s->primitive_count - mesh->first_primitive || next > s->instance_count)
+            return "a mesh's primitives or instances are not there";
+        for (uint32_t i = next - mesh->instance_count; i < next; ++i) {
+            const float *matrix = s->instances[i].world_from_mesh;
+            if (!all_finite(matrix, 16))
+                return "a matrix is not finite";
+            if (matrix[3] != 0 || matrix[7] != 0 || matrix[11] != 0 || matrix[15] != 1)
+                return "a matrix is not affine";
+            /* Many instances: their corners were tried often enough. */
+            for (uint32_t p = 0; p < mesh->primitive_count && i < next - mesh->instance_count + 50; ++p)
+                if (!holds(s, &s->primitives[mesh->first_primitive + p], matrix))
+                    return "the scene's bounds do not hold an instance";
+        }
+    }
+    return next == s->instance_count ? NULL : "an instance has no mesh";
+}
+
+const char *scene_find_flaw(const scene *s)
+{
+    const char *flaw = find_vertex_flaw(s);
+    flaw = flaw ? flaw : find_primitive_flaw(s);
+    flaw = flaw ? flaw : find_material_flaw(s);
+    flaw = flaw ? flaw : find_instance_flaw(s);
+    if (!flaw && (!all_finite(s->bounds_min, 3) || !all_finite(s->bounds_max, 3)))
+        flaw = "the bounds are not finite";
+    for (uint32_t i = 0; !flaw && i < s->camera_count; ++i)
+        if (!all_finite(s->cameras[i].world_from_view, 16))
+            flaw = "a camera is not finite";
+    return flaw;
+}
+
+uint64_t scene_count_triangles(const scene *s)
+{
+    uint64_t triangles = 0;
+    for (uint32_t m = 0; m < s->mesh_count; ++m)
+        for (uint32_t p = 0; p < s->meshes[m].primitive_count; ++p)
+            triangles += (uint64_t)s->meshes[m].instance_count *
+                         (s->primitives[s->meshes[m].first_primitive + p].index_count / 3);
+    return triangles;
+}

@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Pictures: what is written reads back the same, and neither a bad path nor a hostile file does harm.
+ */
+#define _POSIX_C_SOURCE 200809L /* setrlimit */
+#include "picture.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+
+#include <cmocka.h>
+
+static const char path[] = "test_picture.tmp";
+static char error[256];
+
+static int remove_file(void **state)
+{
+    (void)state;
+    remove(path);
+    return 0;
+}
+
+static bool file_exists(const char *name)
+{
+    FILE *file = fopen(name, "rb");
+    if (file)
+        fclose(file);
+    return file;
+}
+
+static void png_round_trips_odd_sizes(void **state)
+{
+    (void)state;
+    const int sizes[][2] = {{1, 1}, {1, 37}, {41, 1}, {17, 13}};
+    const int channel_counts[] = {1, 3, 4};
+    uint8_t pixels[41 * 37 * 4];
+    for (size_t i = 0; i < sizeof pixels; i++)
+        pixels[i] = (uint8_t)(i * 37 + i / 7);
+    for (int k = 0; k < 12; k++) {
+        const int width = sizes[k / 3][0], height = sizes[k / 3][1], channels = channel_counts[k % 3];
+        int read_width = 0, read_height = 0;
+        assert_true(picture_write_png(path, width, height, channels, pixels, error, sizeof error));
+        uint8_t *read = picture_read_png(path, &read_width, &read_height, error, sizeof error);
+        assert_non_null(read);
+        assert_int_equal(read_width, width);
+        assert_int_equal(read_height, height);
+        for (int i = 0; i < width * height; i++) {
+            for (int c = 0; c < 4; c++) {
+                const int wanted = c < 3           ? pixels[i * channels + (channels == 1 ? 0 : c)]
+                                   : channels == 4 ? pixels[i * channels + 3]
+                                                   : 255;
+                assert_int_equal(read[4 * i + c], wanted);
+            }
+        }
+        free(read);
+    }
+}
+
+static void png_of_colour_is_marked_srgb(void **state)
+{
+    (void)state;
+    const uint8_t pixels[3] = {1, 2, 3};
+    for (int channels = 1; channels <= 3; channels += 2) {
+        assert_true(picture_write_png(path, 1, 1, channels, pixels, error, sizeof error));
+        char bytes[256] = "";
+        FILE *file = fopen(path, "rb");
+        const size_t size = fread(bytes, 1, sizeof bytes - 4, file);
+        fclose(file);
+        bool marked = false;
+        for (size_t i = 0; i < size; i++)
+            marked = marked || memcmp(bytes + i, "sRGB", 4) == 0;
+        assert_int_equal(marked, channels == 3);
+    }
+}
+
+static void pfm_round_trips_every_bit(void **state)
+{
+    (void)state;
+    const float values[9] = {0, -0.0f, 1e-40f, 3e38f, INFINITY, -1.5f, 0.1f, 65504, 1};
+    const int sizes[][3] = {{1, 1, 1}, {3, 3, 1}, {1, 9, 1}, {9, 1, 1}, {3, 1, 3}, {1, 3, 3}};
+    for (int k = 0; k < 6; k++) {
+        int width = 0, height = 0, channels = 0;
+        assert_true(picture_write_pfm(path, sizes[k][0], sizes[k][1], sizes[k][2], values, error, sizeof error));
+        float *read = picture_read_pfm(path, &width, &height, &channels, error, sizeof error);
+        assert_non_null(read);
+        assert_int_equal(width, sizes[k][0]);
+        assert_int_equal(height, sizes[k][1]);
+        assert_int_equal(channels, sizes[k][2]);
+        assert_memory_equal(read, values, (size_t)(width * height * channels) * sizeof *read);
+        free(read);
+    }
+}
+
+static void pfm_bytes_are_little_endian(void **state)
+{
+    (void)state;
+    const float one = 1;
+    char bytes[32];
+    assert_true(picture_write_pfm(path, 1, 1, 1, &one, error, sizeof error));
+    FILE *file = fopen(path, "rb");
+    const size_t size = fread(bytes, 1, sizeof bytes, file);
+    fclose(file);
+    assert_int_equal(size, 16);
+    assert_memory_equal(bytes, "Pf\n1 1\n-1.0\n\0\0\x80\x3f", 16);
+}
+
+static void errors_name_path_and_cause(void **state)
+{
+    (void)state;
+    const char *nowhere = "no such folder/picture";
+    const uint8_t byte = 0;
+    const float value = 0;
+    int a, b, c;
+    for (int k = 0; k < 4; k++) {
+        error[0] = '\0';
+        assert_false(k == 0   ? picture_write_png(nowhere, 1, 1, 1, &byte, error, sizeof error)
+                     : k == 1 ? picture_write_pfm(nowhere, 1, 1, 1, &value, error, sizeof error)
+                     : k == 2 ? picture_read_pfm(nowhere, &a, &b, &c, error, sizeof error) != NULL
+                              : picture_read_png(nowhere, &a, &b, error, sizeof error) != NULL);
+        assert_non_null(strstr(error, nowhere));
+        assert_non_null(strstr(error, "No such file"));
+        assert_null(strchr(error, '\n'));
+    }
+}
+
+static void arguments_out_of_range_write_nothing(void **state)
+{
+    (void)state;
+    const uint8_t bytes[4] = {0};
+    const float value = 0;
+    assert_false(picture_write_png(path, 0, 1, 1, bytes, error, sizeof error));
+    assert_false(picture_write_png(path, 1, 1, 2, bytes, error, sizeof error));
+    assert_false(picture_write_pfm(path, 1, 1 << 24, 1, &value, error, sizeof error));
+    assert_false(picture_write_pfm(path, 1, 1, 4, &value, error, sizeof error));
+    assert_false(file_exists(path));
+}
+
+/* Linux's device that is always full: the disk runs out, and the device is not taken for a broken picture. */
+static void full_disk_is_reported(void **state)
+{
+    (void)state;
+    if (!file_exists("/dev/full"))
+        skip();
+    static uint8_t pixels[256 * 256 * 3];
+    static float values[256 * 256];
+    assert_false(picture_write_png("/dev/full", 256, 256, 3, pixels, error, sizeof error));
+    assert_string_equal(error, "/dev/full: No space left on device");
+    assert_false(picture_write_pfm("/dev/full", 256, 256, 1, values, error, sizeof error));
+    assert_string_equal(error, "/dev/full: No space left on device");
+    assert_true(file_exists("/dev/full"));
+}
+
+static void partly_written_file_is_removed(void **state)
+{
+    (void)state;
+    static uint8_t pixels[64 * 64 * 3];
+    static float values[64 * 64];
+    for (size_t i = 0; i < sizeof pixels; i++)
+        pixels[i] = (uint8_t)(i * i * 31 >> 7);
+    struct rlimit limit, small;
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &limit), 0);
+    small = limit;
+    small.rlim_cur = 1000;
+    signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+    const bool png_written = picture_write_png(path, 64, 64, 3, pixels, error, sizeof error);
+    const bool png_left = file_exists(path);
+    const bool pfm_written = picture_write_pfm(path, 64, 64, 1, values, error, sizeof error);
+    const bool pfm_left = file_exists(path);
+    setrlimit(RLIMIT_FSIZE, &limit);
+    assert_false(png_written || png_left || pfm_written || pfm_left);
+    assert_string_equal(error, "test_picture.tmp: File too large");
+}
+
+static void write_bytes(const char *bytes, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    fclose(file);
+}
+
+static void hostile_pfm_is_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *bytes;
+        size_t size;
+    } files[] = {
+#define FILE_OF(text) {text, sizeof text - 1}
+        FILE_OF(""),
+        FILE_OF("P"),
+        FILE_OF("P6\n1 1\n255\nabc"),
+        FILE_OF("Pf\n"),
+        FILE_OF("Pf\n1 1\n-1.0"),
+        FILE_OF("Pf\n1 1\n-1.0\n"),      /* no pixels */
+        FILE_OF("Pf\n1 1\n-1.0\nabc"),   /* too few */
+        FILE_OF("Pf\n1 1\n-1.0\nabcde"), /* too many */
+        FILE_OF("Pf\n1 1\n1.0\nabcd"),   /* big-endian */
+        FILE_OF("Pf\n1 1\n-2.0\nabcd"),
+        FILE_OF("Pf\n-1 -1\n-1.0\nabcd"),
+        FILE_OF("Pf\n0 1\n-1.0\n"),
+        FILE_OF("Pf\n1  1\n-1.0\nabcd"),
+        FILE_OF("Pf\n 1 1\n-1.0\nabcd"),
+        FILE_OF("Pf\n1 1 \n-1.0\nabcd"),
+        FILE_OF("Pf\n0x1 1\n-1.0\nabcd"),
+        FILE_OF("Pf\n65536 65536\n-1.0\nabcd"),  /* 16 GiB that are not there */
+        FILE_OF("Pf\n4294967297 1\n-1.0\nabcd"), /* 1 in 32 bits */
+        FILE_OF("Pf\n99999999999999999999999999999 1\n-1.0\nabcd"),
+        FILE_OF("Pf\n1 1\r\n-1.0\nabcd"),
+        FILE_OF("Pf\n1\0 1\n-1.0\nabcd"),
+#undef FILE_OF
+    };
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+        int width, height, channels;
+        write_bytes(files[i].bytes, files[i].size);
+        error[0] = '\0';
+        if (picture_read_pfm(path, &width, &height, &channels, error, sizeof error))
+            fail_msg("file %zu was taken", i);
+        assert_ptr_equal(strstr(error, path), error);
+    }
+}
+
+static void broken_png_is_refused(void **state)
+{
+    (void)state;
+    uint8_t pixels[64];
+    for (int i = 0; i < 64; i++)
+        pixels[i] = (uint8_t)(i * i);
+    assert_true(picture_write_png(path, 8, 8, 1, pixels, error, sizeof error));
+    char bytes[512];
+    FILE *file = fopen(path, "rb");
+    const size_t size = fread(bytes, 1, sizeof bytes, file);
+    fclose(file);
+    for (size_t cut = 0; cut < size - 12; cut++) { /* without the end marker of 12 bytes it may be taken */
+        int width, height;
+        write_bytes(bytes, cut);
+        if (picture_read_png(path, &width, &height, error, sizeof error))
+            fail_msg("%zu of %zu bytes were taken", cut, size);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(png_round_trips_odd_sizes, remove_file),
+        cmocka_unit_test_teardown(png_of_colour_is_marked_srgb, remove_file),
+        cmocka_unit_test_teardown(pfm_round_trips_every_bit, remove_file),
+        cmocka_unit_test_teardown(pfm_bytes_are_little_endian, remove_file),
+        cmocka_unit_test(errors_name_path_and_cause),
+        cmocka_unit_test_teardown(arguments_out_of_range_write_nothing, remove_file),
+        cmocka_unit_test(full_disk_is_reported),
+        cmocka_unit_test_teardown(partly_written_file_is_removed, remove_file),
+        cmocka_unit_test_teardown(hostile_pfm_is_refused, remove_file),
+        cmocka_unit_test_teardown(broken_png_is_refused, remove_file),
+    };
+    return cmocka_run_group_tests_name("picture", tests, NULL, NULL);
+}
