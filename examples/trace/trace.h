@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Ray-traced ambient accessibility, through Embree: the truth that the screen-space techniques are measured against,
+ * and what glssao-bake bakes. Knows nothing of OpenGL. Builds with Embree 3 and 4.
+ *
+ * What blocks: opaque and alpha-tested triangles, from both sides; texels below an alpha test's cut-off let rays
+ * through; blended materials block nothing, as they write no depth.
+ */
+#ifndef GLSSAO_EXAMPLES_TRACE_H
+#define GLSSAO_EXAMPLES_TRACE_H
+
+#include "draw.h"
+#include "scene.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct trace_scene trace_scene;
+
+/* Builds the acceleration structure. The scene must outlive it. NULL on failure, with one line in `error`. */
+trace_scene *trace_scene_create(const scene *s, char *error, size_t error_size);
+void trace_scene_destroy(trace_scene *t);
+
+/* Called on the calling thread now and then; `done` in 0..1. */
+typedef void (*trace_progress_fn)(double done, void *user);
+
+typedef struct trace_options {
+    float radius;       /* scene units: a hit farther away does not block (hard cut) */
+    int samples;        /* rays a pixel or point, >= 1 */
+    uint32_t seed;      /* same seed, same bits, whatever the number of threads */
+    int threads;        /* 0: as many as there are cores */
+    trace_progress_fn progress; /* may be NULL */
+    void *progress_user;
+} trace_options;
+
+typedef struct trace_stats {
+    uint64_t rays;      /* occlusion rays cast */
+    double seconds;     /* wall clock of the tracing alone */
+} trace_stats;
+
+/* Accessibility of each pixel seen by `view` (1 where nothing is seen), rows bottom to top: one ray through each pixel's
+ * centre finds the point as the rasteriser does (back faces of single-sided materials culled, alpha test applied), then
+ * `samples` rays, cosine-weighted about the interpolated shading normal (turned to the viewer's side on double-sided
+ * materials), from the point moved along the geometric normal. out_foreground (may be NULL) is 1 where something is
+ * seen. design: accessibility = 1 - blocked share. */
+bool trace_accessibility(const trace_scene *t, const scene_view *view, const trace_options *options,
+                         float *out_accessibility, uint8_t *out_foreground, trace_stats *out_stats, char *error,
+                         size_t error_size);
+
+typedef enum trace_distribution { TRACE_COSINE = 0, TRACE_UNIFORM } trace_distribution;
+
+/* Accessibility of given points in world space with unit normals; the rays start `offset` scene units along them.
+ * radius may be INFINITY. */
+bool trace_points(const trace_scene *t, const float (*positions)[3], const float (*normals)[3], size_t count,
+                  trace_distribution distribution, float offset, const trace_options *options, float *out_accessibility,
+                  trace_stats *out_stats, char *error, size_t error_size);
+
+#endif
