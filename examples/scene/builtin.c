@@ -105,7 +105,7 @@ static bool make_columns(scene_builder *b)
         const float x = i % 2 ? 5.0f : -5.0f, z = -10.0f + 5.0f * (float)(i / 2);
         ok = place_at(b, column, x, 0, z) && place_at(b, sphere, x, 3.5f, z);
     }
-    return ok && add_camera(b, (float[3]){3, 5.5f, -15}, (float[3]){0, 0.6f, 0}, 45);
+    return ok && add_camera(b, (float[3]){2.4f, 5.5f, -18}, (float[3]){0, 0.8f, 0}, 45);
 }
 
 /* A closed room whose walls face inwards, so that one looks in through the back of the front wall. */
@@ -148,10 +148,10 @@ static bool add_railing(scene_builder *b, int metal, int steps, float rise, floa
     const float length = (float)steps * sqrtf(rise * rise + run * run), slope = glm_deg(atan2f(rise, run));
     const float end = 1.6f - run * (float)steps;
     return ok &&
-           place(b, metal, (float[3]){1.6f - run * (float)steps / 2, top / 2 + high + rise / 2, front - post / 2},
+           place(b, metal, (float[3]){1.6f - run * (float)steps / 2, top / 2 + high, front - post / 2},
                  (float[3]){length, 0.05f, 0.06f}, (vec3){0, 0, 1}, -slope) &&
-           place_box(b, metal, (float[3]){end - 1.6f, top + high, front - 0.045f},
-                     (float[3]){end + 0.02f, top + high + 0.05f, front + 0.015f});
+           place_box(b, metal, (float[3]){end - 1.6f, top + high - 0.025f, front - 0.045f},
+                     (float[3]){end + 0.02f, top + high + 0.025f, front + 0.015f});
 }
 
 /* A staircase against a wall, up to a landing, with posts and a thin railing on its open side. */
@@ -177,14 +177,14 @@ static bool make_steps(scene_builder *b)
          place_box(b, post, (float[3]){landing - 1.6f, top, front - 0.1f},
                    (float[3]){landing - 1.48f, top + 1.05f, front + 0.02f});
     return ok && add_railing(b, metal, STEPS, rise, run, front) &&
-           add_camera(b, (float[3]){3.6f, 2.6f, 5.2f}, (float[3]){-0.3f, 1.1f, -0.6f}, 42);
+           add_camera(b, (float[3]){4.4f, 2.9f, 4.4f}, (float[3]){-0.3f, 1.1f, -0.6f}, 42);
 }
 
 static bool make_plane(scene_builder *b)
 {
     const int grey = add_matte(b, 0.5f, 0.5f, 0.5f);
     return grey >= 0 && add_floor(b, grey, 20, 20, 8, 8) &&
-           add_camera(b, (float[3]){9, 7, 14}, (float[3]){0, 0, 0}, 45);
+           add_camera(b, (float[3]){12, 9, 20}, (float[3]){0, 0, 0.8f}, 45);
 }
 
 scene *scene_make(const char *name, char *error, size_t error_size)

@@ -7,21 +7,22 @@
 #include "gltf_file.h"
 #include "gltf_loader.h"
 
-enum { MOST_VERTICES = 1 << 25, MOST_PIXELS = 1 << 27 };
+enum { MOST_VERTICES = 1 << 25, MOST_PIXELS = 1 << 28 };
 
 static uint64_t smaller(uint64_t a, uint64_t b)
 {
     return a < b ? a : b;
 }
 
-/* The file's size sets most limits: instances aside, what is in memory is at most some times what is on disk. */
+/* The file's size sets most limits: instances aside, what is in memory is some times what is on disk at most, and
+ * some ten megabytes. */
 static void set_limits(gltf_loader *l)
 {
     const uint64_t bytes = l->document->source_bytes;
     l->vertices_left = smaller((1u << 20) + 4 * bytes, MOST_VERTICES);
     l->indices_left = 4 * l->vertices_left;
     l->reads_left = 16 * l->vertices_left;
-    l->pixels_left = MOST_PIXELS;
+    l->pixels_left = smaller((1u << 24) + 64 * bytes, MOST_PIXELS);
 }
 
 /* `count` numbers, all -1. */

@@ -18,7 +18,8 @@
 enum {
     MOST_FILE_BYTES = INT32_MAX, /* tinygltf counts in int */
     MOST_JSON_DEPTH = 64,
-    MOST_JSON_VALUES = 4 << 20 /* a parsed value takes up to 150 bytes */
+    MOST_JSON_VALUES = 4 << 20,   /* a parsed value takes up to 150 bytes */
+    MOST_COPIED_BYTES = 256 << 20 /* of the BIN chunk, for buffers after the first */
 };
 
 /* Most elements of the arrays at the root; each becomes a structure of some hundred bytes to some kilobytes. */
@@ -185,7 +186,7 @@ static bool count_value(json_scan *scan, const gltf_file *f, scene_fault *fault)
         return scene_fail(fault, "JSON: more than %d values", MOST_JSON_VALUES);
     if (scan->depth == 2 && scan->elements > scan->limit)
         return scene_fail(fault, "JSON: more than %zu %.*s", scan->limit, (int)scan->name_size, scan->name);
-    if (scan->depth == 2 && scan->in_buffers && f->bin_size && scan->elements > MOST_FILE_BYTES / f->bin_size)
+    if (scan->depth == 2 && scan->in_buffers && f->bin_size && scan->elements - 1 > MOST_COPIED_BYTES / f->bin_size)
         return scene_fail(fault, "JSON: too many buffers for a BIN chunk of %zu bytes", f->bin_size);
     return true;
 }

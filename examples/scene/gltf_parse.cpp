@@ -5,9 +5,11 @@
 #include "gltf_parse.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <iterator>
+#include <set>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -19,13 +21,15 @@ namespace
 // Where tinygltf looks for files; the callbacks take it off again, and with it whatever else tinygltf tries.
 const char folder_mark[] = "gltf:";
 
-// All external files together, so that one file named many times does not fill the memory.
-constexpr size_t most_external_bytes = size_t{1} << 31;
+// All external files together, and those of them that are read again: one file named many times must not fill the
+// memory.
+constexpr size_t most_external_bytes = size_t{1} << 31, most_repeated_bytes = size_t{1} << 28;
 
 struct external_files {
     std::string folder; // "" or with a slash at its end
-    size_t bytes_read = 0;
-    std::string refused; // the last URI that leads out of the folder
+    size_t bytes_read = 0, bytes_repeated = 0;
+    std::set<std::string> read; // their paths
+    std::string refused;        // the last URI that leads out of the folder
 };
 
 // The file that a name from tinygltf stands for; false where it is none of ours.
@@ -64,12 +68,14 @@ bool read_external(std::vector<unsigned char> *out, std::string *err, const std:
         return false;
     size_t size = 0;
     const char *reason = nullptr;
-    uint8_t *data = gltf_read_file(path.c_str(), most_external_bytes - files->bytes_read, &size, &reason);
+    const bool again = !files->read.insert(path).second;
+    const size_t limit = again ? most_repeated_bytes - files->bytes_repeated : most_external_bytes - files->bytes_read;
+    uint8_t *data = gltf_read_file(path.c_str(), limit, &size, &reason);
     if (!data) {
         *err += reason;
         return false;
     }
-    files->bytes_read += size;
+    (again ? files->bytes_repeated : files->bytes_read) += size;
     try {
         out->assign(data, data + size);
     } catch (...) {
@@ -83,13 +89,15 @@ bool read_external(std::vector<unsigned char> *out, std::string *err, const std:
 // Newer versions of tinygltf ask for the size first, through a callback that older ones do not have.
 bool external_size(size_t *out_size, std::string *err, const std::string &name, void *user)
 {
-    std::vector<unsigned char> data;
-    auto *files = static_cast<external_files *>(user);
-    const size_t bytes_read = files->bytes_read;
-    const bool ok = read_external(&data, err, name, user);
-    files->bytes_read = bytes_read;
-    *out_size = data.size();
-    return ok;
+    std::string path;
+    std::error_code error;
+    if (!external_path(name, static_cast<external_files *>(user), &path))
+        return false;
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (error)
+        *err += error.message();
+    *out_size = error ? 0 : static_cast<size_t>(size);
+    return !error;
 }
 
 template <typename Callbacks>

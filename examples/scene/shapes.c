@@ -12,15 +12,32 @@ static const float two_pi = 6.28318530718f;
 /* Where a grid's point lies, for s and t within 0 and 1: position and normal, of any length but 0. */
 typedef void surface_fn(const void *surface, float s, float t, float position[3], float normal[3]);
 
+static bool same_place(const float a[3], const float b[3])
+{
+    return fabsf(a[0] - b[0]) + fabsf(a[1] - b[1]) + fabsf(a[2] - b[2]) < 1e-6f;
+}
+
+/* Where a side of the grid shrinks to a point, half of its triangles have no area and are left out. */
+static bool add_triangle(scene_builder *b, uint32_t i, uint32_t j, uint32_t k)
+{
+    const scene_vertex *v = b->made->vertices;
+    if (same_place(v[i].position, v[j].position) || same_place(v[j].position, v[k].position) ||
+        same_place(v[k].position, v[i].position))
+        return true;
+    uint32_t first = 0;
+    uint32_t *to = scene_builder_add_indices(b, 3, &first);
+    if (to)
+        memcpy(to, (uint32_t[3]){i, j, k}, 3 * sizeof *to);
+    return to;
+}
+
 /* Evaluates the surface at (s_cells + 1) x (t_cells + 1) points; it faces the way of d/ds x d/dt. */
 static bool add_surface(scene_builder *b, surface_fn *at, const void *surface, uint32_t s_cells, uint32_t t_cells)
 {
-    uint32_t first = 0, first_index = 0;
+    uint32_t first = 0;
     scene_vertex *vertex = scene_builder_add_vertices(b, (s_cells + 1) * (t_cells + 1), &first);
-    uint32_t *index = vertex ? scene_builder_add_indices(b, 6 * s_cells * t_cells, &first_index) : NULL;
-    if (!index)
-        return false;
-    for (uint32_t t = 0; t <= t_cells; ++t) {
+    bool ok = vertex;
+    for (uint32_t t = 0; ok && t <= t_cells; ++t) {
         for (uint32_t s = 0; s <= s_cells; ++s, ++vertex) {
             vertex->uv[0][0] = vertex->uv[1][0] = (float)s / (float)s_cells;
             vertex->uv[0][1] = vertex->uv[1][1] = 1 - (float)t / (float)t_cells;
@@ -33,13 +50,12 @@ static bool add_surface(scene_builder *b, surface_fn *at, const void *surface, u
         }
     }
     for (uint32_t t = 0; t < t_cells; ++t) {
-        for (uint32_t s = 0; s < s_cells; ++s, index += 6) {
+        for (uint32_t s = 0; ok && s < s_cells; ++s) {
             const uint32_t here = first + t * (s_cells + 1) + s, above = here + s_cells + 1;
-            const uint32_t quad[6] = {here, here + 1, above + 1, here, above + 1, above};
-            memcpy(index, quad, sizeof quad);
+            ok = add_triangle(b, here, here + 1, above + 1) && add_triangle(b, here, above + 1, above);
         }
     }
-    return true;
+    return ok;
 }
 
 typedef struct plane {

@@ -450,7 +450,7 @@ static void built_in_scenes_wind_counter_clockwise(void **state)
                                     (v[1]->position[z] - v[0]->position[z]) * (v[2]->position[y] - v[0]->position[y]);
                 face += cross * (v[0]->normal[x] + v[1]->normal[x] + v[2]->normal[x]);
             }
-            assert_true(face > -1e-9f);
+            assert_true(face > 0);
         }
         scene_destroy(s);
     }

@@ -346,7 +346,7 @@ static void a_wrong_byte_anywhere_gives_a_valid_scene_or_an_error(void **state)
             const uint8_t right = bytes[at];
             char error[512] = "";
             random = random * 1664525u + 1013904223u;
-            bytes[at] = round == 0 ? (uint8_t)(right ^ 1u << (random >> 29)) : (uint8_t)(random >> 24);
+            bytes[at] = (uint8_t)(round == 0 ? right ^ 1u << (random >> 29) : random >> 24);
             scene *s = scene_load(gltf_write_bytes("wrong.glb", bytes, size), error, sizeof error);
             assert_true(s ? !scene_find_flaw(s) : *error && !strchr(error, '\n'));
             loaded += s != NULL;
