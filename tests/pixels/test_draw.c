@@ -35,70 +35,6 @@ static void normals_are_in_view_space(void **state)
     free(s);
 }
 
-/* world_from_mesh = turn about (1, 2, 3) by 0.8, after scales. */
-static void turned_and_scaled(float x, float y, float z, float out[16])
-{
-    const double axis[3] = {1 / sqrt(14), 2 / sqrt(14), 3 / sqrt(14)}, cosine = cos(0.8), sine = sin(0.8);
-    const double scale[3] = {x, y, z};
-    memset(out, 0, 16 * sizeof *out);
-    for (int c = 0; c < 3; c++) {
-        for (int r = 0; r < 3; r++) {
-            const double skew = r == c ? 0 : axis[3 - r - c] * ((r + 1) % 3 == c ? -sine : sine);
-            const double turn = (r == c ? cosine : 0) + skew + (1 - cosine) * axis[r] * axis[c];
-            out[4 * c + r] = (float)(turn * scale[c]);
-        }
-    }
-    out[15] = 1;
-}
-
-/* A copy whose vertices are where the only instance put them, as a modelling program would bake it. */
-static small_scene *baked(const small_scene *s)
-{
-    small_scene *b = small_scene_create();
-    const float *m = s->instances[0].world_from_mesh;
-    double inverse[3][3], determinant = 0; /* inverse[row][column], times the determinant */
-    for (int c = 0; c < 3; c++)
-        for (int r = 0; r < 3; r++) {
-            const int c1 = (c + 1) % 3, c2 = (c + 2) % 3, r1 = (r + 1) % 3, r2 = (r + 2) % 3;
-            inverse[c][r] = (double)m[4 * c1 + r1] * m[4 * c2 + r2] - (double)m[4 * c1 + r2] * m[4 * c2 + r1];
-        }
-    for (int r = 0; r < 3; r++)
-        determinant += m[r] * inverse[0][r];
-
-    memcpy(b->vertices, s->vertices, sizeof s->vertices);
-    memcpy(b->indices, s->indices, sizeof s->indices);
-    memcpy(b->materials, s->materials, sizeof s->materials);
-    memcpy(b->primitives, s->primitives, sizeof s->primitives);
-    b->scene.vertex_count = s->scene.vertex_count;
-    b->scene.index_count = s->scene.index_count;
-    b->scene.material_count = s->scene.material_count;
-    b->scene.primitive_count = 1;
-    b->scene.mesh_count = 1;
-    b->meshes[0].primitive_count = 1;
-    for (uint32_t i = 0; i < s->scene.vertex_count; i++) {
-        double normal[3] = {0}, length = 0;
-        for (int r = 0; r < 3; r++) {
-            double at = m[12 + r];
-            for (int c = 0; c < 3; c++) {
-                at += (double)m[4 * c + r] * s->vertices[i].position[c];
-                normal[r] += inverse[c][r] / determinant * s->vertices[i].normal[c];
-            }
-            b->vertices[i].position[r] = (float)at;
-            length += normal[r] * normal[r];
-        }
-        for (int r = 0; r < 3; r++)
-            b->vertices[i].normal[r] = (float)(normal[r] / sqrt(length));
-    }
-    for (uint32_t i = 0; determinant < 0 && i < s->scene.index_count; i += 3) {
-        b->indices[i] = s->indices[i + 1];
-        b->indices[i + 1] = s->indices[i];
-    }
-    small_scene_add_instance(b, NULL);
-    memcpy(b->scene.bounds_min, s->scene.bounds_min, sizeof b->scene.bounds_min);
-    memcpy(b->scene.bounds_max, s->scene.bounds_max, sizeof b->scene.bounds_max);
-    return b;
-}
-
 static void instances_have_the_normals_of_baked_triangles(void **state)
 {
     (void)state;
@@ -107,12 +43,12 @@ static void instances_have_the_normals_of_baked_triangles(void **state)
     const scene_lighting lighting = scene_default_lighting();
     for (size_t k = 0; k < sizeof scales / sizeof scales[0]; k++) {
         float m[16];
-        turned_and_scaled(scales[k][0], scales[k][1], scales[k][2], m);
+        small_scene_turned_and_scaled(scales[k][0], scales[k][1], scales[k][2], m);
         small_scene *s = small_scene_create();
         small_scene_begin_mesh(s, small_scene_add_material(s, small_scene_material()));
         small_scene_add_sphere(s);
         small_scene_add_instance(s, m);
-        small_scene *b = baked(s);
+        small_scene *b = small_scene_baked(s);
         const camera c = camera_frame_scene(&s->scene, 1);
         const scene_view view = camera_view(&c, FRAME_SIZE, FRAME_SIZE);
         frame f = frame_draw(s, &view, &lighting, 0), g = frame_draw(b, &view, &lighting, 0);
@@ -232,7 +168,7 @@ static void depth_equal_covers_what_the_prepass_covered(void **state)
                 random = random * 1664525u + 1013904223u;
                 random_parts[i] = (float)(random >> 8) / 16777216.0f - 0.5f;
             }
-            turned_and_scaled(1 + random_parts[0], k % 2 ? -1.0f : 1.0f, 1 + random_parts[1], m);
+            small_scene_turned_and_scaled(1 + random_parts[0], k % 2 ? -1.0f : 1.0f, 1 + random_parts[1], m);
             for (int i = 0; i < 3; i++)
                 m[12 + i] = 9 * random_parts[2 + i];
             small_scene_add_instance(s, m);

@@ -144,3 +144,76 @@ void small_scene_add_instance(small_scene *s, const float world_from_mesh[16])
     memcpy(s->instances[all->instance_count++].world_from_mesh, m, sizeof identity);
     s->meshes[all->mesh_count - 1].instance_count++;
 }
+
+void small_scene_turned_and_scaled(float x, float y, float z, float out[16])
+{
+    const double axis[3] = {1 / sqrt(14), 2 / sqrt(14), 3 / sqrt(14)}, cosine = cos(0.8), sine = sin(0.8);
+    const double scale[3] = {x, y, z};
+    memset(out, 0, 16 * sizeof *out);
+    for (int c = 0; c < 3; c++) {
+        for (int r = 0; r < 3; r++) {
+            const double skew = r == c ? 0 : axis[3 - r - c] * ((r + 1) % 3 == c ? -sine : sine);
+            const double turn = (r == c ? cosine : 0) + skew + (1 - cosine) * axis[r] * axis[c];
+            out[4 * c + r] = (float)(turn * scale[c]);
+        }
+    }
+    out[15] = 1;
+}
+
+/* The inverse transpose of m's upper 3x3, [row][column], up to a positive factor; the sign of its determinant. */
+static double normal_matrix(const float m[16], double out[3][3])
+{
+    double determinant = 0;
+    for (int c = 0; c < 3; c++)
+        for (int r = 0; r < 3; r++) {
+            const int c1 = (c + 1) % 3, c2 = (c + 2) % 3, r1 = (r + 1) % 3, r2 = (r + 2) % 3;
+            out[r][c] = (double)m[4 * c1 + r1] * m[4 * c2 + r2] - (double)m[4 * c1 + r2] * m[4 * c2 + r1];
+        }
+    for (int r = 0; r < 3; r++)
+        determinant += m[r] * out[r][0];
+    for (int i = 0; determinant < 0 && i < 9; i++)
+        out[i / 3][i % 3] = -out[i / 3][i % 3];
+    return determinant < 0 ? -1 : 1;
+}
+
+static void bake_instance(small_scene *b, const small_scene *s, const scene_primitive *p, const float m[16])
+{
+    double cofactors[3][3];
+    const bool mirrored = normal_matrix(m, cofactors) < 0;
+    small_scene_begin_mesh(b, p->material);
+    const uint32_t first = b->scene.vertex_count;
+    for (uint32_t i = 0; i < p->index_count; i++) {
+        const scene_vertex *from = &s->vertices[s->indices[p->first_index + i]];
+        float position[3], normal[3];
+        double direction[3] = {0}, length = 0;
+        for (int r = 0; r < 3; r++) {
+            double at = m[12 + r];
+            for (int k = 0; k < 3; k++) {
+                at += (double)m[4 * k + r] * from->position[k];
+                direction[r] += cofactors[r][k] * from->normal[k];
+            }
+            position[r] = (float)at;
+            length += direction[r] * direction[r];
+        }
+        for (int r = 0; r < 3; r++)
+            normal[r] = (float)(direction[r] / sqrt(length));
+        add_vertex(b, position, normal, 0, 0);
+    }
+    for (uint32_t i = first; i < b->scene.vertex_count; i += 3) /* a mirror turns the winding round */
+        add_triangle(b, mirrored ? i + 1 : i, mirrored ? i : i + 1, i + 2);
+    small_scene_add_instance(b, NULL);
+}
+
+small_scene *small_scene_baked(const small_scene *s)
+{
+    small_scene *b = small_scene_create();
+    for (uint32_t i = 0; i < s->scene.material_count; i++)
+        small_scene_add_material(b, s->materials[i]);
+    for (uint32_t k = 0; k < s->scene.mesh_count; k++)
+        for (uint32_t i = 0; i < s->meshes[k].instance_count; i++)
+            bake_instance(b, s, &s->primitives[s->meshes[k].first_primitive],
+                          s->instances[s->meshes[k].first_instance + i].world_from_mesh);
+    memcpy(b->scene.bounds_min, s->scene.bounds_min, sizeof b->scene.bounds_min);
+    memcpy(b->scene.bounds_max, s->scene.bounds_max, sizeof b->scene.bounds_max);
+    return b;
+}

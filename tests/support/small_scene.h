@@ -40,4 +40,9 @@ void small_scene_add_sphere(small_scene *s);
 /* An instance of the mesh begun last; NULL: where its vertices say. Bounds grow by it: the vertices come before. */
 void small_scene_add_instance(small_scene *s, const float world_from_mesh[16]);
 
+/* world_from_mesh = turn about (1, 2, 3) by 0.8, after scales; a negative scale mirrors. */
+void small_scene_turned_and_scaled(float x, float y, float z, float out[16]);
+/* A copy whose vertices are where the instances put them, as a modelling program would bake it; free() frees it. */
+small_scene *small_scene_baked(const small_scene *s);
+
 #endif
