@@ -62,7 +62,7 @@ typedef struct scene_mesh {
 } scene_mesh;
 
 typedef struct scene_instance {
-    float world_from_mesh[16]; /* affine */
+    float world_from_mesh[16]; /* affine; may mirror or flatten to a plane, but never to a line or a point */
 } scene_instance;
 
 typedef struct scene_camera {
@@ -89,7 +89,8 @@ typedef struct scene {
 } scene;
 
 /* Loads a .gltf or .glb file. NULL on failure, with one line in `error` that names the file and the fault.
- * Nothing in the file is trusted: every index, offset, count and reference is checked before use. */
+ * Nothing in the file is trusted: every index, offset, count and reference is checked before use, what a file may
+ * allocate follows from its size, and files that it names must lie in its own folder or below. */
 scene *scene_load(const char *path, char *error, size_t error_size);
 
 /* Makes a built-in scene: "columns", "cornell", "steps" or "plane". NULL on failure, as above. */

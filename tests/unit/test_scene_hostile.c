@@ -232,10 +232,14 @@ static void images_that_are_drawn_must_be_there(void **state)
         const char *uri, *fault;
     } faults[] = {{"no.png", "image 0 (no.png): it is missing"},
                   {"../no.png", "image 0 (../no.png): it is missing, or not a file in the glTF file's folder"},
-                  {"text.png", "image 0 (text.png): neither a PNG nor a JPEG"},
+                  {"text.png", "image 0 (text.png): neither a sound PNG nor a JPEG"},
                   {"cut.jpg", "image 0 (cut.jpg): it cannot be decoded"},
+                  {"huffman.jpg", "image 0 (huffman.jpg): neither a sound PNG nor a JPEG"},
                   {wide, "image 0: too large"}};
     static const uint8_t jpeg[] = {0xff, 0xd8, 0xff, 0xc0, 0, 11, 8, 0, 8, 0, 8, 1, 1, 0x11, 0};
+    uint8_t huffman[sizeof jpeg + 21] = {0xff, 0xd8, 0xff, 0xc4, 0, 19, 0, 200, 200}; /* 400 codes */
+    memcpy(huffman + 23, jpeg + 2, sizeof jpeg - 2);
+    gltf_write_bytes("huffman.jpg", huffman, sizeof huffman);
     gltf_write_bytes("text.png", "a picture", 9);
     gltf_write_bytes("cut.jpg", jpeg, sizeof jpeg);
     for (size_t i = 0; i < sizeof faults / sizeof *faults; ++i) {

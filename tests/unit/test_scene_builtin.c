@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The built-in scenes.
+ */
+#include "scene_validity.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static const char *const names[] = {"columns", "cornell", "steps", "plane"};
+
+static void built_in_scenes_are_valid_and_suggest_a_camera(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; ++i) {
+        char error[256] = "";
+        scene *s = scene_make(names[i], error, sizeof error);
+        assert_non_null(s);
+        assert_null(scene_find_flaw(s));
+        assert_string_equal(s->name, names[i]);
+        assert_int_equal(s->camera_count, 1);
+        assert_true(scene_count_triangles(s) > 100);
+        scene_destroy(s);
+    }
+}
+
+/* Triangles face the way of their normals: what back-face culling relies on. */
+static void built_in_scenes_wind_counter_clockwise(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; ++i) {
+        scene *s = scene_make(names[i], NULL, 0);
+        assert_non_null(s);
+        for (uint32_t k = 0; k < s->index_count; k += 3) {
+            const scene_vertex *v[3];
+            float face = 0;
+            for (uint32_t j = 0; j < 3; ++j)
+                v[j] = &s->vertices[s->indices[k + j]];
+            for (int x = 0; x < 3; ++x) {
+                const int y = (x + 1) % 3, z = (x + 2) % 3;
+                const float cross = (v[1]->position[y] - v[0]->position[y]) * (v[2]->position[z] - v[0]->position[z]) -
+                                    (v[1]->position[z] - v[0]->position[z]) * (v[2]->position[y] - v[0]->position[y]);
+                face += cross * (v[0]->normal[x] + v[1]->normal[x] + v[2]->normal[x]);
+            }
+            assert_true(face > 0);
+        }
+        scene_destroy(s);
+    }
+}
+
+static void columns_stand_in_two_rows(void **state)
+{
+    (void)state;
+    scene *s = scene_make("columns", NULL, 0);
+    assert_memory_equal(s->bounds_min, ((float[3]){-10, 0, -15}), 3 * sizeof(float));
+    assert_memory_equal(s->bounds_max, ((float[3]){10, 4, 15}), 3 * sizeof(float));
+    assert_int_equal(s->instance_count, 22);
+    scene_destroy(s);
+}
+
+static void an_unknown_name_is_an_error(void **state)
+{
+    (void)state;
+    char error[256] = "";
+    assert_null(scene_make("sponza", error, sizeof error));
+    assert_non_null(strstr(error, "sponza"));
+    assert_null(scene_make("", NULL, 0));
+    scene_destroy(NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(built_in_scenes_are_valid_and_suggest_a_camera),
+        cmocka_unit_test(built_in_scenes_wind_counter_clockwise),
+        cmocka_unit_test(columns_stand_in_two_rows),
+        cmocka_unit_test(an_unknown_name_is_an_error),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
