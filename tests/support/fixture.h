@@ -25,7 +25,7 @@ typedef struct fixture {
 /* cmocka group functions: no context is a failure, not a skip. The fixture is the test's *state. */
 int fixture_setup(void **state);
 int fixture_teardown(void **state);
-/* cmocka test teardown: fails where GL holds an error. */
+/* cmocka test teardown: fails where GL holds an error, or the library logged one. */
 int fixture_no_gl_error(void **state);
 
 void fixture_clear_log(fixture *f);
