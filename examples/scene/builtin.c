@@ -126,7 +126,8 @@ static bool make_cornell(scene_builder *b)
     vec3 y = {0, 1, 0};
     ok = ok && box >= 0 && place(b, box, (float[3]){-0.9f, 1.65f, -0.9f}, (float[3]){1.65f, 3.3f, 1.65f}, y, 17) &&
          place(b, box, (float[3]){0.95f, 0.825f, 0.85f}, (float[3]){1.65f, 1.65f, 1.65f}, y, -17);
-    return ok && add_camera(b, (float[3]){0, h, h + 7.6f}, (float[3]){0, h, 0}, 42);
+    /* Inside: from outside, the front wall would be culled and yet occlude. */
+    return ok && add_camera(b, (float[3]){0.4f, h, h - 0.1f}, (float[3]){0, h - 0.5f, 0}, 72);
 }
 
 /* Posts of 0.03 along the open side, and the handrail over them. */
