@@ -88,7 +88,9 @@ static pipeline_wants choose_wants(const options *o)
     const bool maps_alone = !o->output && (o->ao || o->normals || o->depth);
     pipeline_wants wants = {.picture = o->bench || !maps_alone};
     wants.ao = !o->no_ao && (wants.picture || o->ao);
-    wants.normals = wants.ao || o->normals;
+    wants.traced = wants.ao && o->technique == OPTIONS_RAYTRACE;
+    wants.normals = (wants.ao && !wants.traced) || o->normals;
+    wants.prepass = wants.picture || wants.normals || o->depth;
     return wants;
 }
 
@@ -177,6 +179,7 @@ static bool write_stats(run *r, const glssao_stats *passes, const char *context_
                           .settings = r->pipeline.wants.ao ? &r->pipeline.settings : NULL,
                           .passes = *passes,
                           .times = &r->times,
+                          .traced = r->pipeline.wants.traced ? &r->pipeline.truth.stats : NULL,
                           .bench = r->bench.recorded ? &r->bench : NULL,
                           .frames = r->frames_drawn,
                           .wall_ms = clock_wall_ms() - start_ms,

@@ -35,6 +35,9 @@ typedef struct options {
     bool plan, no_ao, help, version;
 } options;
 
+/* Of options.technique, behind the library's own. */
+enum { OPTIONS_RAYTRACE = GLSSAO_HORIZON + 1 };
+
 typedef enum options_result { OPTIONS_RUN, OPTIONS_DONE, OPTIONS_WRONG } options_result;
 
 /* OPTIONS_DONE: help or version was asked for and printed to stdout. OPTIONS_WRONG: one line in `error` names the

@@ -13,7 +13,13 @@
 /* The effect's lengths belong together: a radius other than the default's scales the others along. */
 static glssao_settings choose_settings(const options *o, const scene *s)
 {
-    glssao_settings settings = glssao_default_settings((glssao_technique)o->technique, (glssao_quality)o->quality);
+    const bool traced = o->technique == OPTIONS_RAYTRACE;
+    glssao_settings settings =
+        glssao_default_settings(traced ? GLSSAO_CLASSIC : (glssao_technique)o->technique, (glssao_quality)o->quality);
+    if (traced) { /* of these, the tracer uses the radius, and its own: */
+        settings.power = 1;
+        settings.sample_count = 512;
+    }
     float radius = settings.radius;
     if (o->radius.given) {
         radius = o->radius.value;
@@ -84,7 +90,7 @@ static bool check_size(int width, int height, char *error, size_t error_size)
 bool pipeline_create(pipeline *p, const scene *s, context *c, const options *o, pipeline_wants wants, char *error,
                      size_t error_size)
 {
-    *p = (pipeline){.wants = wants, .width = o->width, .height = o->height};
+    *p = (pipeline){.wants = wants, .width = o->width, .height = o->height, .seed = o->seed};
     if (!check_size(o->width, o->height, error, error_size)) {
         return false;
     }
@@ -94,9 +100,12 @@ bool pipeline_create(pipeline *p, const scene *s, context *c, const options *o, 
     if (!p->renderer) {
         return false;
     }
+    if (wants.traced && !truth_open(&p->truth, s, o->width, o->height, error, error_size)) {
+        return false;
+    }
     p->depth = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, p->width, p->height);
     bool complete = true;
-    if (wants.ao || wants.normals) {
+    if (wants.normals) {
         const glssao_config config = {.load = context_load,
                                       .load_user = c,
                                       .log = glssao_log_to_stderr,
@@ -128,6 +137,7 @@ bool pipeline_create(pipeline *p, const scene *s, context *c, const options *o, 
 void pipeline_destroy(pipeline *p)
 {
     glssao_destroy(p->effect);
+    truth_close(&p->truth);
     if (p->renderer) {
         scene_renderer_destroy(p->renderer);
         gl.DeleteFramebuffers(1, &p->depth_framebuffer);
@@ -171,15 +181,30 @@ static glssao_frame make_frame(const pipeline *p, const scene_view *view)
     return frame;
 }
 
+static bool find_accessibility(pipeline *p, const scene_view *view, char *error, size_t error_size)
+{
+    if (p->wants.traced) {
+        return truth_trace(&p->truth, view, &p->settings, p->seed, error, error_size);
+    }
+    const glssao_frame frame = make_frame(p, view);
+    return check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", error, error_size);
+}
+
+static GLuint ambient_map(const pipeline *p)
+{
+    return p->wants.traced ? p->truth.map : glssao_map(p->effect, GLSSAO_MAP_AMBIENT, NULL, NULL);
+}
+
 bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, char *error, size_t error_size)
 {
-    if (!draw_prepass(p, view, error, error_size)) {
-        return false;
+    if (p->wants.prepass) {
+        if (!draw_prepass(p, view, error, error_size)) {
+            return false;
+        }
+        stopwatch_lap(times, PHASE_PREPASS);
     }
-    stopwatch_lap(times, PHASE_PREPASS);
     if (p->wants.ao) {
-        const glssao_frame frame = make_frame(p, view);
-        if (!check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", error, error_size)) {
+        if (!find_accessibility(p, view, error, error_size)) {
             return false;
         }
         stopwatch_lap(times, PHASE_AO);
@@ -187,8 +212,7 @@ bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, char *
     if (p->wants.picture) {
         gl.BindFramebuffer(GL_FRAMEBUFFER, p->color_framebuffer);
         gl.Viewport(0, 0, p->width, p->height);
-        const GLuint ambient = p->wants.ao ? glssao_map(p->effect, GLSSAO_MAP_AMBIENT, NULL, NULL) : 0;
-        scene_draw_main(p->renderer, view, &p->lighting, ambient);
+        scene_draw_main(p->renderer, view, &p->lighting, p->wants.ao ? ambient_map(p) : 0);
         stopwatch_lap(times, PHASE_MAIN);
     }
     return true;
@@ -252,8 +276,12 @@ static void *read_map(pipeline *p, const map_drawing *drawing, pixel_kind kind)
 
 void *pipeline_read_ao(pipeline *p, pixel_kind kind)
 {
-    const GLuint map = glssao_map(p->effect, GLSSAO_MAP_AMBIENT, NULL, NULL);
-    return read_map(p, &(map_drawing){.texture = map, .red_only = true, .scale = 1}, kind);
+    if (p->wants.traced && kind == PIXELS_FLOAT) { /* as traced, past any filter */
+        const size_t size = (size_t)p->width * (size_t)p->height * sizeof(float);
+        void *copy = malloc(size);
+        return copy ? memcpy(copy, p->truth.accessibility, size) : NULL;
+    }
+    return read_map(p, &(map_drawing){.texture = ambient_map(p), .red_only = true, .scale = 1}, kind);
 }
 
 void *pipeline_read_normals(pipeline *p)
@@ -282,9 +310,13 @@ static void print_row(const char *name, bool run, int draws, int width, int heig
 void pipeline_print_plan(const pipeline *p, const scene_view *view)
 {
     printf("%-12s %-5s %5s  %-12s %s\n", "pass", "", "draws", "size", "reason");
-    print_row("pre-pass", true, -1, p->width, p->height,
-              p->effect ? "depth and view-space normals" : "depth alone: nothing reads normals");
-    if (p->wants.ao) {
+    print_row("pre-pass", p->wants.prepass, -1, p->width, p->height,
+              p->effect          ? "depth and view-space normals"
+              : p->wants.prepass ? "depth alone: nothing reads normals"
+                                 : "rays find their surfaces themselves");
+    if (p->wants.traced) {
+        print_row("raytrace", true, 0, p->width, p->height, "rays from each pixel's surface, on the processor");
+    } else if (p->wants.ao) {
         const glssao_frame frame = make_frame(p, view);
         const glssao_plan plan = glssao_plan_frame(p->effect, &frame, &p->settings);
         for (int i = 0; i < GLSSAO_PASS_COUNT; i++) {

@@ -11,21 +11,26 @@
 #include "options.h"
 #include "report.h"
 #include "scene.h"
+#include "truth.h"
 #include "writer.h"
 
 /* What the command line makes necessary. */
 typedef struct pipeline_wants {
     bool picture; /* the main pass */
-    bool ao;      /* the occlusion passes */
-    bool normals; /* a normal map, for --normals or the occlusion */
+    bool ao;      /* accessibility: the occlusion passes, or */
+    bool traced;  /* rays */
+    bool prepass; /* depth, and with it: */
+    bool normals; /* a normal map, for --normals or the occlusion passes */
 } pipeline_wants;
 
 typedef struct pipeline {
     pipeline_wants wants;
     int width, height;
     scene_renderer *renderer;
-    glssao_effect *effect; /* NULL where neither occlusion nor normals are wanted */
+    glssao_effect *effect; /* NULL where neither occlusion passes nor normals are wanted */
+    truth truth;           /* where traced */
     glssao_settings settings;
+    uint32_t seed;
     scene_lighting lighting;
     GLuint depth, depth_framebuffer, color, color_framebuffer;
 } pipeline;

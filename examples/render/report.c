@@ -189,11 +189,22 @@ static void print_settings(FILE *f, const report *r)
             (double)s->blur_normal_threshold, (double)s->blur_depth_threshold, r->options->seed);
 }
 
+static void print_traced(FILE *f, const report *r)
+{
+    const glssao_settings *s = r->settings;
+    fprintf(f,
+            "  \"settings\": {\"technique\": \"raytrace\", \"radius\": %.9g, \"power\": %.9g, \"sample_count\": %d, "
+            "\"seed\": %u},\n",
+            (double)s->radius, (double)s->power, s->sample_count, r->options->seed);
+    fprintf(f, "  \"rays\": %" PRIu64 ",\n  \"rays_per_second\": %.0f,\n", r->traced->rays,
+            r->traced->seconds > 0 ? (double)r->traced->rays / r->traced->seconds : 0.0);
+}
+
 static void print_passes(FILE *f, const report *r)
 {
     fputs("  \"passes\": [", f);
     const char *separator = "\n";
-    for (int i = 0; r->settings && i < GLSSAO_PASS_COUNT; i++) {
+    for (int i = 0; r->settings && !r->traced && i < GLSSAO_PASS_COUNT; i++) {
         const struct glssao_pass_stats *pass = &r->passes.passes[i];
         fprintf(f, "%s    {\"name\": ", separator);
         print_string(f, pass->name ? pass->name : "");
@@ -232,7 +243,11 @@ bool report_write(const report *r, const char *path, char *error, size_t error_s
     print_scene(f, r->scene);
     fprintf(f, "  \"width\": %d,\n  \"height\": %d,\n  \"frames\": %d,\n", r->options->width, r->options->height,
             r->frames);
-    print_settings(f, r);
+    if (r->traced) {
+        print_traced(f, r);
+    } else {
+        print_settings(f, r);
+    }
     print_passes(f, r);
     if (r->bench) {
         print_bench(f, r->bench);

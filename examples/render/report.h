@@ -7,6 +7,7 @@
 
 #include "options.h"
 #include "scene.h"
+#include "trace.h"
 
 typedef enum phase {
     PHASE_LOAD = 0, /* runs beside PHASE_CONTEXT, on a thread of its own */
@@ -49,7 +50,8 @@ typedef struct report {
     const glssao_settings *settings; /* NULL without occlusion */
     glssao_stats passes;             /* of the last frame */
     const stopwatch *times;
-    const bench *bench; /* NULL without --bench */
+    const trace_stats *traced; /* NULL but with -t raytrace */
+    const bench *bench;        /* NULL without --bench */
     int frames;
     double wall_ms, cpu_ms; /* of the whole run, up to writing this */
 } report;

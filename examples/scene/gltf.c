@@ -36,9 +36,10 @@ static int *make_map(gltf_loader *l, size_t count)
     return map;
 }
 
-static bool build(gltf_loader *l)
+bool gltf_loader_begin(gltf_loader *l)
 {
     const gltf_document *d = l->document;
+    set_limits(l);
     l->default_material = -1;
     l->material_map = make_map(l, d->material_count);
     l->texture_map = make_map(l, d->texture_count);
@@ -47,14 +48,17 @@ static bool build(gltf_loader *l)
     l->world_from_node = calloc(d->node_count + 1, sizeof *l->world_from_node);
     if (!l->world_from_node)
         scene_fail_memory(l->fault);
-    const bool ok = !l->fault->set && gltf_place_nodes(l) && gltf_add_scene(l);
+    return !l->fault->set;
+}
+
+void gltf_loader_end(gltf_loader *l)
+{
     gltf_free_vertices(&l->recent);
     free(l->world_from_node);
     free(l->mesh_map);
     free(l->image_map);
     free(l->texture_map);
     free(l->material_map);
-    return ok;
 }
 
 scene *scene_load(const char *path, char *error, size_t error_size)
@@ -67,11 +71,11 @@ scene *scene_load(const char *path, char *error, size_t error_size)
         return NULL;
     if (gltf_check(&document, &fault) && scene_builder_begin(&builder, gltf_file_name(path), &fault)) {
         gltf_loader loader = {.document = &document, .builder = &builder, .fault = &fault};
-        set_limits(&loader);
-        if (build(&loader))
+        if (gltf_loader_begin(&loader) && gltf_place_nodes(&loader) && gltf_add_scene(&loader))
             made = scene_builder_finish(&builder);
         else
             scene_builder_abandon(&builder);
+        gltf_loader_end(&loader);
     }
     gltf_document_close(&document);
     return made;

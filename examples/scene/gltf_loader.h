@@ -38,6 +38,10 @@ typedef struct gltf_loader {
     uint64_t reads_left, vertices_left, indices_left, pixels_left;
 } gltf_loader;
 
+/* gltf.c: limits and maps of a loader whose document, builder and fault are set. Ending is due in either case. */
+bool gltf_loader_begin(gltf_loader *l);
+void gltf_loader_end(gltf_loader *l);
+
 /* gltf_read.c: an accessor's elements with `components` numbers each, in new memory that the caller frees. NULL on
  * failure. */
 
@@ -64,11 +68,22 @@ void gltf_free_vertices(gltf_vertices *v);
 /* gltf_skin.c: moves vertices to world space by the joints of the node's skin. */
 bool gltf_pose_skin(gltf_loader *l, gltf_vertices *v, int skin, size_t node);
 
+/* gltf_mesh.c: the triangles of the primitive whose vertices are l->recent, as indices into those. The caller frees
+ * them. */
+typedef struct gltf_triangles {
+    uint32_t *indices; /* three a triangle, counter-clockwise seen from the front */
+    uint32_t count;    /* of indices */
+} gltf_triangles;
+
+bool gltf_make_triangles(gltf_loader *l, const gltf_primitive *p, gltf_triangles *out);
+
 /* gltf_mesh.c: the scene's mesh for the one that a node draws; -1 on failure. */
 int gltf_add_mesh(gltf_loader *l, size_t node);
 
 /* gltf_node.c: world matrices of all nodes; then instances and cameras of the scene that is to be drawn. */
 bool gltf_place_nodes(gltf_loader *l);
+/* The world matrices of a node's EXT_mesh_gpu_instancing instances, for the caller to free; NULL on failure. */
+float (*gltf_read_instances(gltf_loader *l, size_t node, size_t *out_count))[16];
 bool gltf_add_scene(gltf_loader *l);
 
 #endif

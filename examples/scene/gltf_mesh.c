@@ -10,12 +10,6 @@
 
 #include "gltf_loader.h"
 
-/* Three indices for each triangle, counter-clockwise seen from the front. */
-typedef struct triangle_list {
-    uint32_t *indices;
-    uint32_t count; /* of indices */
-} triangle_list;
-
 /* The k-th corner of a triangle as a position in the primitive's order. Odd triangles of a strip are turned over. */
 static size_t corner(int mode, size_t triangle, unsigned k)
 {
@@ -29,7 +23,7 @@ static size_t corner(int mode, size_t triangle, unsigned k)
     }
 }
 
-static bool make_triangles(gltf_loader *l, const gltf_primitive *p, triangle_list *out)
+bool gltf_make_triangles(gltf_loader *l, const gltf_primitive *p, gltf_triangles *out)
 {
     const gltf_vertices *v = &l->recent;
     const size_t order = p->indices < 0 ? v->count : l->document->accessors[p->indices].count;
@@ -105,7 +99,7 @@ static scene_vertex *add_vertices(gltf_loader *l, uint32_t count, uint32_t *out_
 }
 
 /* Each corner becomes a vertex of its own, with its face's normal; the indices follow. */
-static bool add_flat(gltf_loader *l, triangle_list *triangles)
+static bool add_flat(gltf_loader *l, gltf_triangles *triangles)
 {
     const gltf_vertices *v = &l->recent;
     uint32_t first = 0;
@@ -123,7 +117,7 @@ static bool add_flat(gltf_loader *l, triangle_list *triangles)
 }
 
 /* Normals of no direction become the mean, by area, of the faces around them. */
-static bool repair_normals(gltf_loader *l, const triangle_list *triangles, scene_vertex *vertices)
+static bool repair_normals(gltf_loader *l, const gltf_triangles *triangles, scene_vertex *vertices)
 {
     const gltf_vertices *v = &l->recent;
     double(*sums)[3] = calloc(v->count, sizeof *sums);
@@ -146,7 +140,7 @@ static bool repair_normals(gltf_loader *l, const triangle_list *triangles, scene
 }
 
 /* The vertices as they are, once for all primitives that share them; the indices follow. */
-static bool add_shared(gltf_loader *l, triangle_list *triangles)
+static bool add_shared(gltf_loader *l, gltf_triangles *triangles)
 {
     gltf_vertices *v = &l->recent;
     if (!v->emitted) {
@@ -163,7 +157,7 @@ static bool add_shared(gltf_loader *l, triangle_list *triangles)
     return true;
 }
 
-static bool add_triangles(gltf_loader *l, triangle_list *triangles, int material)
+static bool add_triangles(gltf_loader *l, gltf_triangles *triangles, int material)
 {
     uint32_t first = 0;
     if (!(l->recent.normals ? add_shared(l, triangles) : add_flat(l, triangles)))
@@ -185,8 +179,8 @@ static bool add_primitive(gltf_loader *l, const gltf_primitive *p, size_t node)
     /* Only the base colour has a texture, so a set past the second takes the second's place. */
     const int set = p->material < 0 ? 0 : l->document->materials[p->material].uv_set;
     const int uv_sets[2] = {0, set > 1 ? set : 1};
-    triangle_list triangles = {0};
-    const bool ok = gltf_read_vertices(l, p, node, uv_sets) && make_triangles(l, p, &triangles) &&
+    gltf_triangles triangles = {0};
+    const bool ok = gltf_read_vertices(l, p, node, uv_sets) && gltf_make_triangles(l, p, &triangles) &&
                     (!triangles.count || add_triangles(l, &triangles, material));
     free(triangles.indices);
     return ok;

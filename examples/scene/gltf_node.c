@@ -130,7 +130,7 @@ static bool add_instance(gltf_loader *l, int mesh, mat4 world_from_mesh)
 }
 
 /* One of EXT_mesh_gpu_instancing's accessors; NULL where there is none, or on failure. */
-static float *read_instances(gltf_loader *l, size_t node, int accessor, int components, size_t *count)
+static float *read_attribute(gltf_loader *l, size_t node, int accessor, int components, size_t *count)
 {
     if (accessor < 0)
         return NULL;
@@ -150,30 +150,47 @@ static void pick(const float *values, size_t index, size_t components, double *o
         out[c] = (double)values[index * components + c];
 }
 
-static bool add_instances(gltf_loader *l, size_t node, int mesh)
+float (*gltf_read_instances(gltf_loader *l, size_t node, size_t *out_count))[16]
 {
     const gltf_node *n = &l->document->nodes[node];
     size_t count = 0;
-    float *translations = read_instances(l, node, n->instance_translation, 3, &count);
-    float *rotations = read_instances(l, node, n->instance_rotation, 4, &count);
-    float *scales = read_instances(l, node, n->instance_scale, 3, &count);
-    bool ok = !l->fault->set;
-    for (size_t i = 0; ok && i < count; ++i) {
+    float *translations = read_attribute(l, node, n->instance_translation, 3, &count);
+    float *rotations = read_attribute(l, node, n->instance_rotation, 4, &count);
+    float *scales = read_attribute(l, node, n->instance_scale, 3, &count);
+    float(*made)[16] = l->fault->set ? NULL : malloc((count + 1) * sizeof *made);
+    if (!made)
+        scene_fail_memory(l->fault);
+    for (size_t i = 0; made && i < count; ++i) {
         double t[3] = {0}, r[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
         pick(translations, i, 3, t);
         pick(rotations, i, 4, r);
         pick(scales, i, 3, s);
         mat4 node_from_mesh, world_from_mesh;
-        ok = compose(t, r, s, node_from_mesh);
-        if (ok)
+        const bool composed = compose(t, r, s, node_from_mesh);
+        if (composed)
             glm_mat4_mul((vec4 *)l->world_from_node[node], node_from_mesh, world_from_mesh);
-        ok = (ok && matrix_is_finite(world_from_mesh)) ||
-             scene_fail(l->fault, "node %zu: the transform of instance %zu is not a number, or 0", node, i);
-        ok = ok && add_instance(l, mesh, world_from_mesh);
+        if (!composed || !matrix_is_finite(world_from_mesh)) {
+            scene_fail(l->fault, "node %zu: the transform of instance %zu is not a number, or 0", node, i);
+            free(made);
+            made = NULL;
+        } else
+            memcpy(made[i], world_from_mesh, sizeof made[i]);
     }
     free(translations);
     free(rotations);
     free(scales);
+    *out_count = count;
+    return made;
+}
+
+static bool add_instances(gltf_loader *l, size_t node, int mesh)
+{
+    size_t count = 0;
+    float(*world_from_mesh)[16] = gltf_read_instances(l, node, &count);
+    bool ok = world_from_mesh;
+    for (size_t i = 0; ok && i < count; ++i)
+        ok = add_instance(l, mesh, (vec4 *)world_from_mesh[i]);
+    free(world_from_mesh);
     return ok;
 }
 

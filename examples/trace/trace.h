@@ -26,24 +26,24 @@ void trace_scene_destroy(trace_scene *t);
 typedef void (*trace_progress_fn)(double done, void *user);
 
 typedef struct trace_options {
-    float radius;       /* scene units: a hit farther away does not block (hard cut) */
-    int samples;        /* rays a pixel or point, >= 1 */
-    uint32_t seed;      /* same seed, same bits, whatever the number of threads */
-    int threads;        /* 0: as many as there are cores */
+    float radius;               /* scene units: a hit farther away does not block (hard cut) */
+    int samples;                /* rays a pixel or point, >= 1 */
+    uint32_t seed;              /* same seed, same bits, whatever the number of threads */
+    int threads;                /* 0: as many as there are cores */
     trace_progress_fn progress; /* may be NULL */
     void *progress_user;
 } trace_options;
 
 typedef struct trace_stats {
-    uint64_t rays;      /* occlusion rays cast */
-    double seconds;     /* wall clock of the tracing alone */
+    uint64_t rays;  /* occlusion rays cast */
+    double seconds; /* wall clock of the tracing alone */
 } trace_stats;
 
-/* Accessibility of each pixel seen by `view` (1 where nothing is seen), rows bottom to top: one ray through each pixel's
- * centre finds the point as the rasteriser does (back faces of single-sided materials culled, alpha test applied), then
- * `samples` rays, cosine-weighted about the interpolated shading normal (turned to the viewer's side on double-sided
- * materials), from the point moved along the geometric normal. out_foreground (may be NULL) is 1 where something is
- * seen. design: accessibility = 1 - blocked share. */
+/* Accessibility of each pixel seen by `view` (1 where nothing is seen), rows bottom to top: one ray through each
+ * pixel's centre finds the point as the rasteriser does (back faces of single-sided materials culled, alpha test
+ * applied), then `samples` rays, cosine-weighted about the interpolated shading normal (turned to the viewer's side on
+ * double-sided materials), from the point moved along the geometric normal. out_foreground (may be NULL) is 1 where
+ * something is seen. design: accessibility = 1 - blocked share. */
 bool trace_accessibility(const trace_scene *t, const scene_view *view, const trace_options *options,
                          float *out_accessibility, uint8_t *out_foreground, trace_stats *out_stats, char *error,
                          size_t error_size);

@@ -62,7 +62,6 @@ size="-s 65x37"
     want 2 "--ao" --ao a.exr
     want 2 "horizon is not there yet" -t horizon -o a.png
     want 2 "hemisphere is not there yet" -t hemisphere -o a.png
-    want 2 "raytrace is not there yet" -t raytrace -o a.png
     want 2 '"fancy"' -t fancy -o a.png
     want 2 '"best"' --quality best -o a.png
     want 2 '"glx"' --context glx -o a.png

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+//
+// Writes the file back as a GLB. Its JSON is edited, not made anew, so that whatever it says stays as it was written:
+// names, extras, extensions nobody here knows. All buffers and images become one BIN chunk. No exception leaves this
+// file.
+#include "bake.h"
+
+#include "gltf_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <map>
+#include <new>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace
+{
+
+using json = nlohmann::ordered_json;
+
+struct output {
+    json root;
+    std::string bin;
+};
+
+size_t align(std::string *bin)
+{
+    bin->append((8 - bin->size() % 8) % 8, '\0');
+    return bin->size();
+}
+
+size_t append(output *out, const void *data, size_t size, int target)
+{
+    const size_t at = align(&out->bin);
+    out->bin.append(static_cast<const char *>(data), size);
+    json view = {{"buffer", 0}, {"byteOffset", at}, {"byteLength", size}};
+    if (target)
+        view["target"] = target;
+    json &views = out->root["bufferViews"];
+    views.push_back(std::move(view));
+    return views.size() - 1;
+}
+
+// Points an object's buffer into the one that all are put into.
+void move_into_bin(json *view, const std::vector<size_t> &offsets)
+{
+    const size_t buffer = view->value("buffer", size_t{0});
+    if (!view->contains("buffer") || buffer >= offsets.size())
+        return;
+    (*view)["byteOffset"] = view->value("byteOffset", size_t{0}) + offsets[buffer];
+    (*view)["buffer"] = 0;
+}
+
+void merge_buffers(const gltf_document &document, output *out)
+{
+    std::vector<size_t> offsets;
+    for (size_t i = 0; i < document.buffer_count; ++i) {
+        offsets.push_back(align(&out->bin));
+        out->bin.append(reinterpret_cast<const char *>(document.buffers[i].data), document.buffers[i].size);
+    }
+    if (!out->root.contains("bufferViews"))
+        return;
+    for (json &view : out->root["bufferViews"]) {
+        move_into_bin(&view, offsets);
+        if (view.contains("extensions")) // a compressed copy's bytes lie in a buffer, too
+            for (auto &extension : view["extensions"].items())
+                if (extension.value().is_object())
+                    move_into_bin(&extension.value(), offsets);
+    }
+}
+
+// What an image's first bytes tell; NULL where they don't.
+const char *mime_type(const gltf_image &image)
+{
+    const std::string begin(reinterpret_cast<const char *>(image.encoded), std::min<size_t>(image.encoded_size, 4));
+    return begin == "\x89PNG"                 ? "image/png"
+           : begin.substr(0, 2) == "\xff\xd8" ? "image/jpeg"
+           : begin == "RIFF"                  ? "image/webp"
+                                              : nullptr;
+}
+
+// An image of unknown kind stays where it was.
+void embed_images(const gltf_document &document, output *out)
+{
+    for (size_t i = 0; i < document.image_count; ++i) {
+        const gltf_image &image = document.images[i];
+        if (!image.encoded || !out->root["images"][i].contains("uri") || !mime_type(image))
+            continue;
+        const size_t view = append(out, image.encoded, image.encoded_size, 0);
+        json &to = out->root["images"][i]; // not before: the root may have moved to take its buffer views
+        to.erase("uri");
+        to["bufferView"] = view;
+        if (!to.contains("mimeType"))
+            to["mimeType"] = mime_type(image);
+    }
+}
+
+uint16_t to_unorm(float value)
+{
+    return static_cast<uint16_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 65535));
+}
+
+size_t add_colors(const bake_part &part, bool accessibility_only, output *out)
+{
+    std::string bytes;
+    for (uint32_t i = 0; i < part.vertex_count; ++i) {
+        for (int c = 0; c < 4; ++c) {
+            const float given = part.colors && !(accessibility_only && c < 3) ? part.colors[i][c] : 1;
+            const uint16_t value = to_unorm(c < 3 ? given * part.accessibility[i] : given);
+            bytes += static_cast<char>(value & 0xff);
+            bytes += static_cast<char>(value >> 8);
+        }
+    }
+    const int unsigned_short = 5123, array_buffer = 34962;
+    const size_t view = append(out, bytes.data(), bytes.size(), array_buffer);
+    json &accessors = out->root["accessors"];
+    accessors.push_back({{"bufferView", view},
+                         {"componentType", unsigned_short},
+                         {"normalized", true},
+                         {"count", part.vertex_count},
+                         {"type", "VEC4"}});
+    return accessors.size() - 1;
+}
+
+void set_color(json *primitive, size_t accessor)
+{
+    (*primitive)["attributes"]["COLOR_0"] = accessor;
+    // A viewer that knows Draco would take its vertices, in another order, instead of those that were read here.
+    if (primitive->contains("extensions")) {
+        json &extensions = (*primitive)["extensions"];
+        extensions.erase("KHR_draco_mesh_compression");
+        if (extensions.empty())
+            primitive->erase("extensions");
+    }
+}
+
+// The mesh that a node is to have: the one it had, for the first of the nodes, or a copy. A node that is not shown
+// keeps the mesh as it was.
+class mesh_copies
+{
+  public:
+    mesh_copies(const bake_model &model, output *out) : out_(out), original_(out->root.value("meshes", json::array()))
+    {
+        std::vector<bool> shown(model.document.node_count, false);
+        for (size_t i = 0; i < model.part_count; ++i)
+            shown[model.parts[i].node] = true;
+        used_.resize(model.document.mesh_count, false);
+        for (size_t i = 0; i < model.document.node_count; ++i)
+            if (!shown[i] && model.document.nodes[i].mesh >= 0)
+                used_[static_cast<size_t>(model.document.nodes[i].mesh)] = true;
+    }
+
+    json &of_node(const gltf_document &document, size_t node)
+    {
+        const auto found = of_node_.find(node);
+        if (found != of_node_.end())
+            return out_->root["meshes"][found->second];
+        const auto mesh = static_cast<size_t>(document.nodes[node].mesh);
+        size_t number = mesh;
+        json &meshes = out_->root["meshes"];
+        if (used_[mesh]) {
+            meshes.push_back(original_[mesh]);
+            number = meshes.size() - 1;
+            out_->root["nodes"][node]["mesh"] = number;
+        }
+        used_[mesh] = true;
+        of_node_[node] = number;
+        return meshes[number];
+    }
+
+  private:
+    output *out_;
+    json original_;
+    std::vector<bool> used_;
+    std::map<size_t, size_t> of_node_;
+};
+
+void put_u32(std::string *to, size_t value)
+{
+    for (int i = 0; i < 4; ++i)
+        *to += static_cast<char>(value >> 8 * i & 0xff);
+}
+
+bool write_glb(const std::string &text, const std::string &bin, const char *path, scene_fault *fault)
+{
+    const size_t size = 12 + 8 + text.size() + (bin.empty() ? 0 : 8 + bin.size());
+    if (size > UINT32_MAX)
+        return scene_fail(fault, "%zu bytes are more than a GLB holds", size);
+    std::string head = "glTF", second;
+    put_u32(&head, 2);
+    put_u32(&head, size);
+    put_u32(&head, text.size());
+    head += "JSON";
+    put_u32(&second, bin.size());
+    second.append("BIN\0", 4);
+    FILE *file = std::fopen(path, "wb");
+    if (!file)
+        return scene_fail(fault, "it can't be opened for writing");
+    bool ok = std::fwrite(head.data(), 1, head.size(), file) == head.size() &&
+              std::fwrite(text.data(), 1, text.size(), file) == text.size();
+    if (!bin.empty())
+        ok = ok && std::fwrite(second.data(), 1, second.size(), file) == second.size() &&
+             std::fwrite(bin.data(), 1, bin.size(), file) == bin.size();
+    if (std::fclose(file) != 0 || !ok) {
+        std::remove(path);
+        return scene_fail(fault, "it could not be written in full");
+    }
+    return true;
+}
+
+bool write(const bake_model &model, const bake_options &options, const gltf_file &file, scene_fault *fault)
+{
+    output out;
+    const char *text = reinterpret_cast<const char *>(file.data) + file.json_begin;
+    out.root = json::parse(text, text + file.json_size);
+    merge_buffers(model.document, &out);
+    embed_images(model.document, &out);
+    mesh_copies copies(model, &out);
+    for (size_t i = 0; i < model.part_count; ++i) {
+        const bake_part &part = model.parts[i];
+        const size_t accessor = add_colors(part, options.accessibility_only, &out);
+        json &mesh = copies.of_node(model.document, part.node);
+        for (size_t k = 0; k < part.primitive_count; ++k)
+            set_color(&mesh["primitives"][part.primitives[k]], accessor);
+    }
+    align(&out.bin);
+    if (!out.bin.empty()) {
+        json buffer = out.root.contains("buffers") && !out.root["buffers"].empty() ? out.root["buffers"][0] : json();
+        if (buffer.is_object())
+            buffer.erase("uri");
+        buffer["byteLength"] = out.bin.size();
+        out.root["buffers"] = json::array({buffer});
+    }
+    std::string written = out.root.dump(-1, ' ', false, json::error_handler_t::replace);
+    written.append((4 - written.size() % 4) % 4, ' ');
+    return write_glb(written, out.bin, options.output, fault);
+}
+
+} // namespace
+
+extern "C" bool bake_write(const bake_model *m, const bake_options *o, scene_fault *fault)
+{
+    gltf_file file;
+    if (!gltf_file_open(&file, o->input, fault))
+        return false;
+    scene_fault output_fault = *fault;
+    output_fault.file = o->output;
+    bool written = false;
+    try {
+        written = write(*m, *o, file, &output_fault);
+    } catch (const std::bad_alloc &) {
+        scene_fail_memory(&output_fault);
+    } catch (const std::exception &e) {
+        scene_fail(&output_fault, "it can't be made: %s", e.what());
+    }
+    std::free(file.data);
+    return written;
+}

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT */
+#include "truth.h"
+
+#include "trace_progress.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+bool truth_open(truth *t, const scene *s, int width, int height, char *error, size_t error_size)
+{
+    *t = (truth){.width = width, .height = height};
+    t->accessibility = malloc((size_t)width * (size_t)height * sizeof *t->accessibility);
+    if (!t->accessibility) {
+        snprintf(error, error_size, "--size %dx%d: out of memory", width, height);
+        return false;
+    }
+    gl.GenTextures(1, &t->map);
+    gl.BindTexture(GL_TEXTURE_2D, t->map);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, width, height, 0, GL_RED, GL_FLOAT, NULL);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* the default wants mipmaps */
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    t->scene = trace_scene_create(s, error, error_size);
+    return t->scene;
+}
+
+void truth_close(truth *t)
+{
+    if (t->map) {
+        gl.DeleteTextures(1, &t->map);
+    }
+    trace_scene_destroy(t->scene);
+    free(t->accessibility);
+    *t = (truth){0};
+}
+
+bool truth_trace(truth *t, const scene_view *view, const glssao_settings *settings, uint32_t seed, char *error,
+                 size_t error_size)
+{
+    trace_progress bar = trace_progress_start("tracing");
+    const trace_options options = {.radius = settings->radius,
+                                   .samples = settings->sample_count,
+                                   .seed = seed,
+                                   .progress = trace_progress_report,
+                                   .progress_user = &bar};
+    trace_stats stats;
+    if (!trace_accessibility(t->scene, view, &options, t->accessibility, NULL, &stats, error, error_size)) {
+        return false;
+    }
+    trace_progress_end(&bar);
+    t->stats.rays += stats.rays;
+    t->stats.seconds += stats.seconds;
+    const size_t count = (size_t)t->width * (size_t)t->height;
+    for (size_t i = 0; settings->power != 1 && i < count; i++) {
+        t->accessibility[i] = powf(t->accessibility[i], settings->power);
+    }
+    gl.BindTexture(GL_TEXTURE_2D, t->map);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, t->width, t->height, 0, GL_RED, GL_FLOAT, t->accessibility);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    return true;
+}

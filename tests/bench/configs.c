@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * To measure one more choice, add a row to `changes`.
+ */
+#include "configs.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const char *const technique_names[BENCH_TECHNIQUES] = {"classic", "hemisphere", "horizon"};
+static const char *const level_names[] = {"low", "medium", "high", "ultra"};
+
+enum { SAME = -1, ANY = -1 };
+
+/* What differs from the level: SAME where nothing. */
+static const struct change {
+    const char *suffix;
+    int technique;    /* ANY: each */
+    bool every_level; /* or the default one alone */
+    int half, blur, rounds, samples;
+    bool no_angle_weight;
+} changes[] = {
+    {"", ANY, true, SAME, SAME, SAME, SAME, false},
+    {"-full", ANY, true, false, SAME, SAME, SAME, false},
+    {"-half", ANY, true, true, SAME, SAME, SAME, false},
+    {"-noblur", ANY, false, SAME, GLSSAO_BLUR_NONE, 0, SAME, false},
+    {"-gaussian-1", ANY, false, SAME, GLSSAO_BLUR_GAUSSIAN, 1, SAME, false},
+    {"-gaussian-2", ANY, false, SAME, GLSSAO_BLUR_GAUSSIAN, 2, SAME, false},
+    {"-gaussian-3", ANY, false, SAME, GLSSAO_BLUR_GAUSSIAN, 3, SAME, false},
+    {"-gaussian-4", ANY, false, SAME, GLSSAO_BLUR_GAUSSIAN, 4, SAME, false},
+    {"-bilateral-1", ANY, false, SAME, GLSSAO_BLUR_BILATERAL, 1, SAME, false},
+    {"-bilateral-2", ANY, false, SAME, GLSSAO_BLUR_BILATERAL, 2, SAME, false},
+    {"-bilateral-3", ANY, false, SAME, GLSSAO_BLUR_BILATERAL, 3, SAME, false},
+    {"-bilateral-4", ANY, false, SAME, GLSSAO_BLUR_BILATERAL, 4, SAME, false},
+    {"-box-1", ANY, false, SAME, GLSSAO_BLUR_BOX, 1, SAME, false},
+    {"-box-2", ANY, false, SAME, GLSSAO_BLUR_BOX, 2, SAME, false},
+    {"-box-3", ANY, false, SAME, GLSSAO_BLUR_BOX, 3, SAME, false},
+    {"-box-4", ANY, false, SAME, GLSSAO_BLUR_BOX, 4, SAME, false},
+    {"-4samples", GLSSAO_CLASSIC, false, SAME, SAME, SAME, 4, false},
+    {"-8samples", GLSSAO_CLASSIC, false, SAME, SAME, SAME, 8, false},
+    {"-noangle", GLSSAO_CLASSIC, false, SAME, SAME, SAME, SAME, true},
+};
+
+static glssao_settings apply(const struct change *c, glssao_technique technique, glssao_quality level)
+{
+    glssao_settings s = glssao_default_settings(technique, level);
+    if (c->half != SAME)
+        s.half_resolution = c->half;
+    if (c->blur != SAME)
+        s.blur = (glssao_blur)c->blur;
+    if (c->rounds != SAME)
+        s.blur_rounds = c->rounds;
+    if (c->samples != SAME)
+        s.sample_count = c->samples;
+    s.no_angle_weight |= c->no_angle_weight;
+    return s;
+}
+
+/* A change that changes nothing would only be measured twice. */
+static bool changes_nothing(const glssao_settings *a, const glssao_settings *b)
+{
+    return a->half_resolution == b->half_resolution && a->blur == b->blur && a->blur_rounds == b->blur_rounds &&
+           a->sample_count == b->sample_count && a->no_angle_weight == b->no_angle_weight;
+}
+
+static bool taken(const glssao_effect *effect, const glssao_settings *settings)
+{
+    glssao_frame frame = {.depth_texture = 1, .normal_texture = 1}; /* names are not looked at in a plan */
+    for (int i = 0; i < 16; i += 5)
+        frame.projection[i] = 1;
+    return glssao_plan_frame(effect, &frame, settings).passes[GLSSAO_PASS_ESTIMATE].run;
+}
+
+int bench_configs_list(const options *o, const glssao_effect *effect, bench_config out[BENCH_CONFIGS_MAX])
+{
+    int count = 0;
+    for (int t = 0; t < BENCH_TECHNIQUES; t++) {
+        for (int level = GLSSAO_LOW; level <= GLSSAO_ULTRA; level++) {
+            const glssao_settings base = glssao_default_settings((glssao_technique)t, (glssao_quality)level);
+            for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
+                const struct change *c = &changes[i];
+                if ((c->technique != ANY && c->technique != t) || (!c->every_level && level != GLSSAO_HIGH))
+                    continue;
+                bench_config config = {.settings = apply(c, (glssao_technique)t, (glssao_quality)level),
+                                       .level = c->suffix[0] == '\0'};
+                snprintf(config.id, sizeof config.id, "%s-%s%s", technique_names[t], level_names[level], c->suffix);
+                if ((config.level || !changes_nothing(&config.settings, &base)) && options_match(o->only, config.id) &&
+                    count < BENCH_CONFIGS_MAX && taken(effect, &config.settings))
+                    out[count++] = config;
+            }
+        }
+    }
+    return count;
+}
+
+const char *bench_technique_name(glssao_technique technique)
+{
+    return technique_names[technique];
+}
+
+bool bench_has_contrast(glssao_technique technique)
+{
+    return technique != GLSSAO_HORIZON;
+}
+
+glssao_settings bench_scale_settings(const glssao_settings *settings, float radius)
+{
+    glssao_settings s = *settings;
+    const float scale = radius / s.radius;
+    s.radius = radius;
+    s.fade_start *= scale;
+    s.fade_end *= scale;
+    s.surface_epsilon *= scale;
+    s.blur_depth_threshold *= scale;
+    return s;
+}

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Effects made when first needed, and accessibility read back at full size.
+ */
+#include "effects.h"
+
+#include <stdio.h>
+
+bool map_reader_create(map_reader *m, int width, int height, char *error, size_t error_size)
+{
+    *m = (map_reader){.width = width, .height = height};
+    m->scene = scene_make("plane", error, error_size);
+    m->renderer = m->scene ? scene_renderer_create(m->scene, error, error_size) : NULL;
+    if (!m->renderer)
+        return false;
+    gl.GenTextures(1, &m->texture);
+    gl.BindTexture(GL_TEXTURE_2D, m->texture);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, width, height, 0, GL_RED, GL_FLOAT, NULL);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* the default wants mipmaps */
+    gl.GenFramebuffers(1, &m->framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, m->framebuffer);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, m->texture, 0);
+    if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+        snprintf(error, error_size, "no float framebuffer of %dx%d", width, height);
+        return false;
+    }
+    return true;
+}
+
+void map_reader_destroy(map_reader *m)
+{
+    if (m->renderer) {
+        gl.DeleteFramebuffers(1, &m->framebuffer);
+        gl.DeleteTextures(1, &m->texture);
+        scene_renderer_destroy(m->renderer);
+    }
+    scene_destroy(m->scene);
+    *m = (map_reader){0};
+}
+
+void effects_destroy(effects *e)
+{
+    for (int t = 0; t < BENCH_TECHNIQUES; t++) {
+        for (int half = 0; half < 2; half++) {
+            glssao_destroy(e->of[t][half]);
+            e->of[t][half] = NULL;
+        }
+    }
+}
+
+glssao_effect *effects_get(effects *e, const glssao_settings *settings, char *error, size_t error_size)
+{
+    glssao_effect **slot = &e->of[settings->technique][settings->half_resolution];
+    if (!*slot) {
+        const glssao_config config = {.load = context_load,
+                                      .load_user = e->context,
+                                      .log = glssao_log_to_stderr,
+                                      .width = e->width,
+                                      .height = e->height,
+                                      .seed = e->seed};
+        const glssao_result result = glssao_create(&config, slot);
+        if (result != GLSSAO_OK)
+            snprintf(error, error_size, "no effect of %dx%d: %s", e->width, e->height, glssao_result_string(result));
+    }
+    return *slot;
+}
+
+bool effects_run(effects *e, map_reader *m, const gbuffer *g, float radius, const glssao_settings *settings, float *out,
+                 char *error, size_t error_size)
+{
+    glssao_effect *effect = effects_get(e, settings, error, error_size);
+    if (!effect)
+        return false;
+    const glssao_settings scaled = bench_scale_settings(settings, radius);
+    const glssao_frame frame = gbuffer_frame(g);
+    const glssao_result result = glssao_compute(effect, &frame, &scaled);
+    if (result != GLSSAO_OK) {
+        snprintf(error, error_size, "glssao_compute: %s", glssao_result_string(result));
+        return false;
+    }
+    gl.BindFramebuffer(GL_FRAMEBUFFER, m->framebuffer);
+    gl.Viewport(0, 0, m->width, m->height);
+    scene_draw_map(m->renderer, glssao_map(effect, GLSSAO_MAP_AMBIENT, NULL, NULL), m->width, m->height, true, 1, 0);
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl.ReadPixels(0, 0, m->width, m->height, GL_RED, GL_FLOAT, out);
+    return true;
+}

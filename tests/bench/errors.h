@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The error of every configuration on every view.
+ */
+#ifndef GLSSAO_BENCH_ERRORS_H
+#define GLSSAO_BENCH_ERRORS_H
+
+#include "effects.h"
+#include "results.h"
+
+/* Fills the error figures of r->configs. False, with one line in `error`. */
+bool errors_measure(results *r, effects *e, map_reader *m, char *error, size_t error_size);
+
+#endif

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Depth and view-space normals of one view, as textures: what a host hands to the effect. The scene is needed only
+ * while they are drawn.
+ */
+#ifndef GLSSAO_BENCH_GBUFFER_H
+#define GLSSAO_BENCH_GBUFFER_H
+
+#include "draw.h"
+#include "gl.h"
+
+#include <glssao/glssao.h>
+
+typedef struct gbuffer {
+    scene_view view;
+    GLuint depth;   /* 24 bits, window depth */
+    GLuint normals; /* RGBA16F */
+} gbuffer;
+
+/* False, with one line in `error`; gbuffer_destroy is due in either case. */
+bool gbuffer_draw(gbuffer *g, const scene *s, const scene_view *view, char *error, size_t error_size);
+void gbuffer_destroy(gbuffer *g);
+
+glssao_frame gbuffer_frame(const gbuffer *g);
+
+/* View distances (0: nothing there) and normals (three floats a pixel), rows bottom to top; the caller frees both.
+ * NULL in both where memory is short. */
+void gbuffer_read(const gbuffer *g, float **out_distance, float **out_normals);
+
+/* Scene units of view distance that one step of the depth buffer stands for, at that view distance. */
+double gbuffer_depth_step(const gbuffer *g, double distance);
+
+#endif

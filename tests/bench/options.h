@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The command line of glssao-bench, parsed and checked.
+ */
+#ifndef GLSSAO_BENCH_OPTIONS_H
+#define GLSSAO_BENCH_OPTIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct options {
+    const char *scenes;      /* folder of glTF scenes; NULL: the built-in ones alone */
+    const char *pick, *only; /* words separated by commas; NULL: all */
+    const char *cache, *out, *doc, *time_scene;
+    int size[2], time_size[2]; /* pixels */
+    int rays, frames;
+    int oracle_step, oracle_rays, split_seeds;
+    int context; /* context_kind */
+    uint32_t seed;
+    bool all_views, time_all, quick, check, help;
+    char command[1024]; /* as typed, without the program's folder */
+} options;
+
+typedef enum options_result { OPTIONS_RUN, OPTIONS_DONE, OPTIONS_WRONG } options_result;
+
+/* OPTIONS_DONE: help was printed to stdout. OPTIONS_WRONG: one line in `error` names the option and the value. The
+ * strings live as long as argv. */
+options_result options_parse(int argc, char **argv, options *out, char *error, size_t error_size);
+
+/* True where one of the comma-separated words occurs in `text`, or `words` is NULL. */
+bool options_match(const char *words, const char *text);
+
+#endif

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The progress line.
+ */
+#define _POSIX_C_SOURCE 200809L
+#include "progress.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <unistd.h>
+
+static const char *const erase_line = "\r\033[K";
+
+void progress_show(const char *format, ...)
+{
+    va_list arguments;
+    if (!isatty(STDERR_FILENO))
+        return;
+    va_start(arguments, format);
+    fputs(erase_line, stderr);
+    vfprintf(stderr, format, arguments);
+    va_end(arguments);
+}
+
+void progress_clear(void)
+{
+    if (isatty(STDERR_FILENO))
+        fputs(erase_line, stderr);
+}

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Questions that several writers ask of the results.
+ */
+#include "results.h"
+
+#include <stdio.h>
+#include <string.h>
+
+const config_result *results_find(const results *r, const char *id)
+{
+    for (int i = 0; i < r->config_count; i++)
+        if (strcmp(r->configs[i].config.id, id) == 0)
+            return &r->configs[i];
+    return NULL;
+}
+
+const config_result *results_default(const results *r, glssao_technique technique)
+{
+    char id[48];
+    snprintf(id, sizeof id, "%s-high", bench_technique_name(technique));
+    return results_find(r, id);
+}
+
+double results_rmse(const config_result *c)
+{
+    return bench_has_contrast(c->config.settings.technique) ? c->rmse_fit : c->as_is.rmse;
+}
+
+double results_ratio(const results *r, const config_result *c)
+{
+    const config_result *base = results_default(r, GLSSAO_CLASSIC);
+    return base && base->time.median_ms > 0 && c->time.median_ms > 0 ? c->time.median_ms / base->time.median_ms : -1;
+}
+
+bool results_on_front(const results *r, const config_result *c)
+{
+    for (int i = 0; i < r->config_count; i++) {
+        const config_result *other = &r->configs[i];
+        const double rmse = results_rmse(other), own = results_rmse(c);
+        if (other != c && other->time.median_ms <= c->time.median_ms && rmse <= own &&
+            (other->time.median_ms < c->time.median_ms || rmse < own))
+            return false;
+    }
+    return c->time.median_ms > 0;
+}

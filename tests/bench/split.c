@@ -1,0 +1,312 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Runs every seed once over all techniques and views, and sums up on the sampled pixels alone, so that memory stays
+ * small. An estimate at convergence is the mean over the seeds, taken before the exponent.
+ */
+#include "split.h"
+
+#include "oracle.h"
+#include "progress.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* How the estimate of one technique is run for the split, all with power 1 but the last. */
+typedef enum variant { FULL = 0, HALF, BLURRED, SHIPPED, VARIANT_COUNT } variant;
+enum { SINGLE_SEEDS = 4 }; /* seeds whose pictures are looked at one by one */
+
+typedef struct accumulator { /* of one technique on one view; a value a sampled pixel */
+    double *sum[2];          /* FULL, HALF */
+    float *single[SINGLE_SEEDS][VARIANT_COUNT];
+} accumulator;
+
+typedef struct splitter {
+    results *results;
+    map_reader *reader;
+    float *picture;
+    sampled_pixels *pixels; /* a view */
+    float **truth;          /* a view, on the sampled pixels */
+    float *(*oracle)[THICKNESS_COUNT];
+    accumulator *accumulators; /* technique-major */
+} splitter;
+
+static const double thickness_of_radius[THICKNESS_COUNT] = {0.05, 0.1, 0.25, 0.5, 0.75, 1, 1.5, INFINITY};
+
+static accumulator *accumulator_of(const splitter *s, int technique, int view)
+{
+    return &s->accumulators[technique * s->results->view_count + view];
+}
+
+/* The size that the technique itself works at. */
+static variant own_size(const split_result *split)
+{
+    return split->of->config.settings.half_resolution ? HALF : FULL;
+}
+
+static glssao_settings variant_settings(const split_result *split, variant v)
+{
+    glssao_settings s = split->of->config.settings;
+    if (v != SHIPPED)
+        s.power = 1;
+    if (v == FULL || v == HALF) {
+        s.blur = GLSSAO_BLUR_NONE;
+        s.blur_rounds = 0;
+        s.half_resolution = v == HALF;
+    }
+    return s;
+}
+
+static bool allocate(splitter *s)
+{
+    results *r = s->results;
+    const size_t views = (size_t)r->view_count;
+    s->picture = malloc((size_t)s->reader->width * (size_t)s->reader->height * sizeof *s->picture);
+    s->pixels = calloc(views, sizeof *s->pixels);
+    s->truth = calloc(views, sizeof *s->truth);
+    s->oracle = calloc(views, sizeof *s->oracle);
+    s->accumulators = calloc(views * (size_t)r->split_count, sizeof *s->accumulators);
+    r->oracle.view_rmse = calloc(views, sizeof *r->oracle.view_rmse);
+    bool ok = s->picture && s->pixels && s->truth && s->oracle && s->accumulators && r->oracle.view_rmse;
+    for (int i = 0; i < r->split_count; i++) {
+        r->splits[i].view_total = calloc(views, sizeof *r->splits[i].view_total);
+        ok = ok && r->splits[i].view_total;
+    }
+    for (int v = 0; ok && v < r->view_count; v++) {
+        s->pixels[v] = oracle_pixels(&r->views[v], r->options->oracle_step, r->options->seed);
+        const size_t count = (size_t)s->pixels[v].count + 1; /* a view may show nothing */
+        ok = s->pixels[v].index && (s->truth[v] = calloc(count, sizeof(float)));
+        for (int k = 0; ok && k < THICKNESS_COUNT; k++)
+            ok = (s->oracle[v][k] = calloc(count, sizeof(float))) != NULL;
+        for (int i = 0; ok && i < r->split_count; i++) {
+            accumulator *a = accumulator_of(s, i, v);
+            for (int size = 0; ok && size < 2; size++)
+                ok = (a->sum[size] = calloc(count, sizeof(double))) != NULL;
+            for (int k = 0; ok && k < SINGLE_SEEDS * VARIANT_COUNT; k++)
+                ok = (a->single[k / VARIANT_COUNT][k % VARIANT_COUNT] = calloc(count, sizeof(float))) != NULL;
+        }
+        for (int i = 0; ok && i < s->pixels[v].count; i++)
+            s->truth[v][i] = r->views[v].truth.accessibility[s->pixels[v].index[i]];
+    }
+    return ok;
+}
+
+static void release(splitter *s)
+{
+    const results *r = s->results;
+    for (int v = 0; v < r->view_count; v++) {
+        if (s->pixels)
+            free(s->pixels[v].index);
+        if (s->truth)
+            free(s->truth[v]);
+        for (int k = 0; s->oracle && k < THICKNESS_COUNT; k++)
+            free(s->oracle[v][k]);
+        for (int i = 0; s->accumulators && i < r->split_count; i++) {
+            accumulator *a = accumulator_of(s, i, v);
+            free(a->sum[0]);
+            free(a->sum[1]);
+            for (int k = 0; k < SINGLE_SEEDS * VARIANT_COUNT; k++)
+                free(a->single[k / VARIANT_COUNT][k % VARIANT_COUNT]);
+        }
+    }
+    free(s->accumulators);
+    free(s->oracle);
+    free(s->truth);
+    free(s->pixels);
+    free(s->picture);
+}
+
+/* Mean square over pixels that both sides know. */
+static double mean_square(const float *a, const float *b, int count)
+{
+    double sum = 0;
+    for (int i = 0; i < count; i++)
+        sum += ((double)a[i] - (double)b[i]) * ((double)a[i] - (double)b[i]);
+    return count > 0 ? sum / count : 0;
+}
+
+static bool measure_oracle(splitter *s)
+{
+    results *r = s->results;
+    oracle_result *o = &r->oracle;
+    memcpy(o->thickness, thickness_of_radius, sizeof o->thickness);
+    double sum[THICKNESS_COUNT] = {0}, sum_own = 0;
+    for (int v = 0; v < r->view_count; v++) {
+        progress_show("marching through the depth map: %s", r->views[v].name);
+        if (!oracle_march(&r->views[v], &s->pixels[v], r->options->oracle_rays, r->cores, r->options->seed,
+                          o->thickness, s->oracle[v]))
+            return false;
+        double own = INFINITY;
+        for (int k = 0; k < THICKNESS_COUNT; k++) {
+            const double square = mean_square(s->oracle[v][k], s->truth[v], s->pixels[v].count);
+            o->view_rmse[v][k] = sqrt(square);
+            sum[k] += square;
+            own = fmin(own, square);
+        }
+        sum_own += own;
+    }
+    for (int k = 0; k < THICKNESS_COUNT; k++) {
+        o->rmse[k] = sqrt(sum[k] / r->view_count);
+        o->best = o->rmse[k] < o->rmse[o->best] ? k : o->best;
+    }
+    o->rmse_own = sqrt(sum_own / r->view_count);
+    return true;
+}
+
+/* One view, one seed, one technique. */
+static bool run_variants(splitter *s, effects *e, int technique, int view, int seed, char *error, size_t error_size)
+{
+    const results *r = s->results;
+    const split_result *split = &r->splits[technique];
+    accumulator *a = accumulator_of(s, technique, view);
+    const sampled_pixels *pixels = &s->pixels[view];
+    for (int v = 0; v < VARIANT_COUNT; v++) {
+        if (v > HALF && seed >= SINGLE_SEEDS)
+            break;
+        const glssao_settings settings = variant_settings(split, (variant)v);
+        if (!effects_run(e, s->reader, &r->views[view].gbuffer, r->views[view].radius, &settings, s->picture, error,
+                         error_size))
+            return false;
+        for (int i = 0; i < pixels->count; i++) {
+            const float value = s->picture[pixels->index[i]];
+            if (v <= HALF)
+                a->sum[v][i] += (double)value;
+            if (seed < SINGLE_SEEDS)
+                a->single[seed][v][i] = value;
+        }
+    }
+    return true;
+}
+
+static bool run_seeds(splitter *s, context *c, char *error, size_t error_size)
+{
+    const results *r = s->results;
+    for (int seed = 0; seed < r->options->split_seeds; seed++) {
+        effects e = {.context = c,
+                     .width = s->reader->width,
+                     .height = s->reader->height,
+                     .seed = r->options->seed + (uint32_t)seed};
+        bool ran = true;
+        progress_show("split: seed %d/%d", seed + 1, r->options->split_seeds);
+        for (int t = 0; ran && t < r->split_count; t++)
+            for (int v = 0; ran && v < r->view_count; v++)
+                ran = run_variants(s, &e, t, v, seed, error, error_size);
+        effects_destroy(&e);
+        if (!ran)
+            return false;
+    }
+    return true;
+}
+
+static void raise(float *values, int count, double exponent)
+{
+    for (int i = 0; i < count; i++)
+        values[i] = (float)pow((double)values[i], exponent);
+}
+
+static double mean_of_seeds(const double *squares, int seeds)
+{
+    double sum = 0;
+    for (int i = 0; i < seeds; i++)
+        sum += squares[i];
+    return sum / seeds;
+}
+
+/* Adds the view's mean squares to `alone` and `total`. */
+static bool add_view(splitter *s, split_result *split, int technique, int view, double alone[STEP_COUNT],
+                     double total[STEP_COUNT])
+{
+    const results *r = s->results;
+    accumulator *a = accumulator_of(s, technique, view);
+    const int count = s->pixels[view].count, seeds = r->options->split_seeds;
+    const int singles = seeds < SINGLE_SEEDS ? seeds : SINGLE_SEEDS;
+    const float *truth = s->truth[view], *oracle = s->oracle[view][r->oracle.best];
+    float *converged[2] = {calloc((size_t)count + 1, sizeof(float)), calloc((size_t)count + 1, sizeof(float))};
+    const bool ok = converged[0] && converged[1];
+    for (int size = 0; ok && size < 2; size++) {
+        for (int i = 0; i < count; i++)
+            converged[size][i] = (float)(a->sum[size][i] / seeds);
+        raise(converged[size], count, split->exponent);
+    }
+    const variant own = own_size(split);
+    double square[STEP_COUNT] = {0}, step[STEP_COUNT] = {0};
+    if (ok) {
+        double noise[SINGLE_SEEDS], noise_step[SINGLE_SEEDS], blurred[SINGLE_SEEDS], blurred_step[SINGLE_SEEDS];
+        double shipped[SINGLE_SEEDS], shipped_step[SINGLE_SEEDS];
+        for (int k = 0; k < singles; k++) {
+            float **single = a->single[k];
+            raise(single[own], count, split->exponent);
+            raise(single[BLURRED], count, split->exponent);
+            noise[k] = mean_square(single[own], truth, count);
+            /* The mean holds the seed itself: its distance from a mean of others is that much larger. */
+            noise_step[k] = mean_square(single[own], converged[own], count) * (seeds > 1 ? seeds / (seeds - 1.0) : 1);
+            blurred[k] = mean_square(single[BLURRED], truth, count);
+            blurred_step[k] = mean_square(single[BLURRED], converged[own], count);
+            shipped[k] = mean_square(single[SHIPPED], truth, count);
+            shipped_step[k] = mean_square(single[SHIPPED], single[BLURRED], count);
+        }
+        step[STEP_LAYER] = square[STEP_LAYER] = mean_square(oracle, truth, count);
+        step[STEP_ESTIMATOR] = mean_square(converged[FULL], oracle, count);
+        square[STEP_ESTIMATOR] = mean_square(converged[FULL], truth, count);
+        step[STEP_HALF] = mean_square(converged[HALF], converged[FULL], count);
+        square[STEP_HALF] = mean_square(converged[HALF], truth, count);
+        step[STEP_NOISE] = mean_of_seeds(noise_step, singles);
+        square[STEP_NOISE] = mean_of_seeds(noise, singles);
+        step[STEP_DENOISE] = mean_of_seeds(blurred_step, singles);
+        square[STEP_DENOISE] = mean_of_seeds(blurred, singles);
+        step[STEP_CONTRAST] = mean_of_seeds(shipped_step, singles);
+        square[STEP_CONTRAST] = mean_of_seeds(shipped, singles);
+    }
+    for (int k = 0; k < STEP_COUNT; k++) {
+        alone[k] += step[k];
+        total[k] += square[k];
+        split->view_total[view][k] = sqrt(square[k]);
+    }
+    free(converged[0]);
+    free(converged[1]);
+    return ok;
+}
+
+static bool finish(splitter *s)
+{
+    const results *r = s->results;
+    for (int t = 0; t < r->split_count; t++) {
+        split_result *split = &s->results->splits[t];
+        for (int v = 0; v < r->view_count; v++)
+            if (!add_view(s, split, t, v, split->alone, split->total))
+                return false;
+        for (int k = 0; k < STEP_COUNT; k++) {
+            split->alone[k] = sqrt(split->alone[k] / r->view_count);
+            split->total[k] = sqrt(split->total[k] / r->view_count);
+        }
+        if (own_size(split) == FULL)
+            split->total[STEP_HALF] = -1;
+        if (!bench_has_contrast(split->of->config.settings.technique))
+            split->total[STEP_CONTRAST] = -1;
+    }
+    return true;
+}
+
+bool split_measure(results *r, context *c, map_reader *m, char *error, size_t error_size)
+{
+    splitter s = {.results = r, .reader = m};
+    for (int t = 0; t < BENCH_TECHNIQUES; t++) {
+        const config_result *of = results_default(r, (glssao_technique)t);
+        if (of)
+            r->splits[r->split_count++] =
+                (split_result){.of = of, .exponent = bench_has_contrast((glssao_technique)t) ? of->exponent : 1};
+    }
+    snprintf(error, error_size, "out of memory, or of threads");
+    r->split = allocate(&s) && measure_oracle(&s) && run_seeds(&s, c, error, error_size) && finish(&s);
+    progress_clear();
+    release(&s);
+    return r->split;
+}
+
+void split_destroy(results *r)
+{
+    free(r->oracle.view_rmse);
+    for (int i = 0; i < r->split_count; i++)
+        free(r->splits[i].view_total);
+}

@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Pictures of truth, result and signed error side by side, each panel at half the measuring size, over a scale of the
+ * error's colours. A second row shows the result with the best exponent. Blue: too dark; orange: too bright.
+ */
+#include "reports.h"
+
+#include "picture.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { COLUMNS = 3, GAP = 4, BAR_HEIGHT = 12, FOOT = 40, GLYPH_SCALE = 2 };
+static const double error_range = 0.5; /* the colours end here */
+
+typedef struct canvas {
+    int width, height;
+    uint8_t *rgb; /* bottom to top */
+} canvas;
+
+static uint8_t to_byte(double v)
+{
+    return (uint8_t)lrint(255 * fmin(fmax(v, 0), 1));
+}
+
+static void put(canvas *c, int x, int y, const double rgb[3])
+{
+    if (x < 0 || y < 0 || x >= c->width || y >= c->height)
+        return;
+    for (int k = 0; k < 3; k++)
+        c->rgb[3 * ((size_t)y * (size_t)c->width + (size_t)x) + (size_t)k] = to_byte(rgb[k]);
+}
+
+static void error_color(double error, double rgb[3])
+{
+    static const double dark[3] = {0.02, 0.19, 0.50}, bright[3] = {0.65, 0.22, 0.00}, none[3] = {0.97, 0.97, 0.97};
+    const double t = fmin(fabs(error) / error_range, 1), shape = sqrt(t); /* small errors show */
+    for (int k = 0; k < 3; k++)
+        rgb[k] = none[k] + shape * ((error < 0 ? dark[k] : bright[k]) - none[k]);
+}
+
+/* 3 x 5 cells, the top row first, its left cell the highest bit. */
+static void draw_text(canvas *c, int x, int y, const char *text)
+{
+    static const struct {
+        char letter;
+        uint16_t cells;
+    } glyphs[] = {{'0', 075557}, {'1', 026227}, {'2', 071747}, {'3', 071717}, {'4', 055711},
+                  {'5', 074717}, {'6', 074757}, {'7', 071111}, {'8', 075757}, {'9', 075717},
+                  {'-', 000700}, {'+', 002720}, {'.', 000002}};
+    const double ink[3] = {0.2, 0.2, 0.2};
+    for (; *text; text++, x += 4 * GLYPH_SCALE) {
+        uint16_t cells = 0;
+        for (size_t i = 0; i < sizeof glyphs / sizeof glyphs[0]; i++)
+            cells = glyphs[i].letter == *text ? glyphs[i].cells : cells;
+        for (int i = 0; i < 15 * GLYPH_SCALE * GLYPH_SCALE; i++) {
+            const int cx = i % (3 * GLYPH_SCALE), cy = i / (3 * GLYPH_SCALE);
+            if (cells >> (14 - (cy / GLYPH_SCALE * 3 + cx / GLYPH_SCALE)) & 1)
+                put(c, x + cx, y - cy, ink);
+        }
+    }
+}
+
+static void draw_scale(canvas *c, int left, int width)
+{
+    for (int x = 0; x < width; x++) {
+        double rgb[3];
+        error_color((2.0 * x / (width - 1) - 1) * error_range, rgb);
+        for (int y = 0; y < BAR_HEIGHT; y++)
+            put(c, left + x, FOOT - GAP - 2 - y, rgb);
+    }
+    for (int k = 0; k <= 4; k += width < 300 ? 2 : 1) { /* no room for all in a small one */
+        char text[16];
+        const double value = (k / 2.0 - 1) * error_range;
+        snprintf(text, sizeof text, k == 2 ? "0" : "%+.2f", value);
+        const int at = left + k * (width - 1) / 4, wide = (int)strlen(text) * 4 * GLYPH_SCALE;
+        draw_text(c, k == 0 ? at : k == 4 ? at - wide : at - wide / 2, FOOT - GAP - BAR_HEIGHT - 7, text);
+    }
+}
+
+typedef struct panel {
+    const float *picture; /* result or truth */
+    double exponent;
+    bool error; /* against the truth, instead of the picture itself */
+    int column, row;
+} panel;
+
+static void pixel_color(const bench_view *v, const panel *p, size_t i, double rgb[3])
+{
+    static const double sky[3] = {0.82, 0.88, 0.95};
+    if (v->classes[i] == PIXEL_NONE) {
+        memcpy(rgb, sky, sizeof sky);
+        return;
+    }
+    const double value = pow((double)p->picture[i], p->exponent);
+    for (int k = 0; k < 3; k++)
+        rgb[k] = value;
+    if (p->error)
+        error_color(value - (double)v->truth.accessibility[i], rgb);
+}
+
+/* Each pixel of the panel is the mean of 2 x 2. */
+static void draw_panel(canvas *c, const bench_view *v, const panel *p, int left, int bottom)
+{
+    const int w = v->gbuffer.view.width, h = v->gbuffer.view.height;
+    for (int y = 0; y < h / 2; y++) {
+        for (int x = 0; x < w / 2; x++) {
+            double sum[3] = {0, 0, 0};
+            for (int k = 0; k < 4; k++) {
+                double rgb[3];
+                pixel_color(v, p, (size_t)(2 * y + k / 2) * (size_t)w + (size_t)(2 * x + k % 2), rgb);
+                for (int n = 0; n < 3; n++)
+                    sum[n] += rgb[n] / 4;
+            }
+            put(c, left + x, bottom + y, sum);
+        }
+    }
+}
+
+static bool draw_strip(const bench_view *v, const config_result *c, const float *as_is, const float *plain,
+                       const char *path, char *error, size_t error_size)
+{
+    const panel panels[] = {{v->truth.accessibility, 1, false, 0, 0},
+                            {as_is, 1, false, 1, 0},
+                            {as_is, 1, true, 2, 0},
+                            {plain, c->exponent, false, 1, 1},
+                            {plain, c->exponent, true, 2, 1}};
+    const int rows = bench_has_contrast(c->config.settings.technique) ? 2 : 1, count = rows == 2 ? 5 : 3;
+    const int wide = v->gbuffer.view.width / 2, high = v->gbuffer.view.height / 2;
+    canvas image = {.width = COLUMNS * (wide + GAP) - GAP, .height = rows * (high + GAP) - GAP + FOOT};
+    const size_t bytes = 3 * (size_t)image.width * (size_t)image.height;
+    image.rgb = malloc(bytes);
+    if (!image.rgb) {
+        snprintf(error, error_size, "out of memory");
+        return false;
+    }
+    memset(image.rgb, 255, bytes);
+    for (int i = 0; i < count; i++)
+        draw_panel(&image, v, &panels[i], panels[i].column * (wide + GAP),
+                   FOOT + (rows - 1 - panels[i].row) * (high + GAP));
+    draw_scale(&image, 2 * (wide + GAP), wide);
+    const bool written = picture_write_png(path, image.width, image.height, 3, image.rgb, error, error_size);
+    free(image.rgb);
+    return written;
+}
+
+bool report_strips(const results *r, effects *e, map_reader *m, const char *folder, char *error, size_t error_size)
+{
+    const size_t count = (size_t)m->width * (size_t)m->height;
+    float *as_is = malloc(2 * count * sizeof *as_is);
+    if (!as_is) {
+        snprintf(error, error_size, "out of memory");
+        return false;
+    }
+    float *plain = as_is + count;
+    bool written = true;
+    for (int t = 0; written && t < BENCH_TECHNIQUES; t++) {
+        const config_result *c = results_default(r, (glssao_technique)t);
+        for (int i = 0; written && c && i < r->view_count; i++) {
+            const bench_view *v = &r->views[i];
+            char path[2048];
+            snprintf(path, sizeof path, "%s/strip-%s-%s.png", folder, v->name,
+                     bench_technique_name((glssao_technique)t));
+            glssao_settings settings = c->config.settings;
+            written = effects_run(e, m, &v->gbuffer, v->radius, &settings, as_is, error, error_size);
+            settings.power = 1;
+            written = written && effects_run(e, m, &v->gbuffer, v->radius, &settings, plain, error, error_size) &&
+                      draw_strip(v, c, as_is, plain, path, error, error_size);
+        }
+    }
+    free(as_is);
+    return written;
+}
+
+const char *report_worst_built_in(const results *r, const config_result *c)
+{
+    static const char *const built_ins[] = {"columns", "cornell", "steps", "plane"};
+    const char *worst = NULL;
+    double worst_rmse = -1;
+    for (int i = 0; i < r->view_count; i++) {
+        for (size_t k = 0; k < sizeof built_ins / sizeof built_ins[0]; k++) {
+            if (strcmp(r->views[i].name, built_ins[k]) == 0 && c->views[i].rmse_fit > worst_rmse) {
+                worst_rmse = c->views[i].rmse_fit;
+                worst = r->views[i].name;
+            }
+        }
+    }
+    return worst;
+}

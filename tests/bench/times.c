@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Turns, clocks and medians.
+ */
+#include "times.h"
+
+#include "clock.h"
+#include "progress.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { WARM_UP_FRAMES = 2, ROWS = 2 + GLSSAO_PASS_COUNT }; /* frame, CPU, passes */
+
+/* values[row]: this frame's. */
+static bool time_frame(bool software, effects *e, const gbuffer *g, float radius, const glssao_settings *settings,
+                       double values[ROWS], char *error, size_t error_size)
+{
+    glssao_effect *effect = effects_get(e, settings, error, error_size);
+    if (!effect)
+        return false;
+    const glssao_settings scaled = bench_scale_settings(settings, radius);
+    const glssao_frame frame = gbuffer_frame(g);
+    gl.Finish();
+    const double wall = clock_wall_ms(), cpu = clock_cpu_ms();
+    const glssao_result result = glssao_compute(effect, &frame, &scaled);
+    gl.Finish();
+    values[0] = clock_wall_ms() - wall;
+    values[1] = clock_cpu_ms() - cpu;
+    if (result != GLSSAO_OK) {
+        snprintf(error, error_size, "glssao_compute: %s", glssao_result_string(result));
+        return false;
+    }
+    const glssao_stats stats = glssao_get_stats(effect);
+    for (int i = 0; i < GLSSAO_PASS_COUNT; i++)
+        /* A software rasteriser defers drawing past the queries: their differences mean nothing there. */
+        values[2 + i] = software ? -1 : stats.passes[i].gpu_ms;
+    if (!software && stats.gpu_ms >= 0)
+        values[0] = stats.gpu_ms;
+    return true;
+}
+
+static timing summarise(double *values, int frames)
+{
+    timing t;
+    t.median_ms = measure_percentile(values, frames, 50);
+    t.p95_ms = measure_percentile(values, frames, 95);
+    t.cpu_ms = measure_percentile(values + frames, frames, 50);
+    for (int i = 0; i < GLSSAO_PASS_COUNT; i++)
+        t.pass_ms[i] = measure_percentile(values + (ptrdiff_t)(2 + i) * frames, frames, 50);
+    return t;
+}
+
+/* values: for each configuration, ROWS rows of `frames`. */
+static bool take_turns(results *r, effects *e, const gbuffer *g, float radius, double *values, char *error,
+                       size_t error_size)
+{
+    const int frames = r->options->frames;
+    for (int f = -WARM_UP_FRAMES; f < frames; f++) {
+        progress_show("times: frame %d/%d", f < 0 ? 0 : f + 1, frames);
+        for (int i = 0; i < r->config_count; i++) {
+            double row[ROWS];
+            if (!time_frame(r->software, e, g, radius, &r->configs[i].config.settings, row, error, error_size))
+                return false;
+            for (int k = 0; f >= 0 && k < ROWS; k++)
+                values[((ptrdiff_t)i * ROWS + k) * frames + f] = row[k];
+        }
+    }
+    return true;
+}
+
+bool times_measure(results *r, effects *e, const bench_scene *on, int of_view, char *error, size_t error_size)
+{
+    const ptrdiff_t per_config = (ptrdiff_t)ROWS * r->options->frames;
+    double *values = calloc((size_t)r->config_count * (size_t)per_config, sizeof *values);
+    if (!values) {
+        snprintf(error, error_size, "out of memory");
+        return false;
+    }
+    scene_view view;
+    float radius;
+    gbuffer g = {.depth = 0};
+    scene *s = bench_scene_open(on, e->width, e->height, &view, &radius, error, error_size);
+    const bool timed =
+        s && gbuffer_draw(&g, s, &view, error, error_size) && take_turns(r, e, &g, radius, values, error, error_size);
+    for (int i = 0; timed && i < r->config_count; i++) {
+        const timing t = summarise(values + i * per_config, r->options->frames);
+        *(of_view < 0 ? &r->configs[i].time : &r->configs[i].views[of_view].time) = t;
+    }
+    progress_clear();
+    gbuffer_destroy(&g);
+    scene_destroy(s);
+    free(values);
+    return timed;
+}

@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The hash covers the scene as loaded, not the file's bytes: a .gltf file names others, and a change of the loader can
+ * change the scene too. The truth is a PFM file, its foreground a grey PNG beside it.
+ */
+#define _POSIX_C_SOURCE 200809L
+#include "truth.h"
+
+#include "picture.h"
+#include "progress.h"
+#include "trace.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { FORMAT_VERSION = 1, PATH_LENGTH = 2048 };
+
+/* FNV-1a, over words where there are whole ones. */
+static void hash(uint64_t *h, const void *data, size_t size)
+{
+    const unsigned char *bytes = data;
+    for (; size >= sizeof(uint64_t); size -= sizeof(uint64_t), bytes += sizeof(uint64_t)) {
+        uint64_t word;
+        memcpy(&word, bytes, sizeof word);
+        *h = (*h ^ word) * UINT64_C(1099511628211);
+        *h ^= *h >> 32; /* the multiplication only carries upwards */
+    }
+    for (; size > 0; size--)
+        *h = (*h ^ *bytes++) * UINT64_C(1099511628211);
+}
+
+static void hash_number(uint64_t *h, double value)
+{
+    hash(h, &value, sizeof value);
+}
+
+/* What blocks a ray or shows a surface; colours don't. */
+static void hash_material(uint64_t *h, const scene *s, const scene_material *m)
+{
+    hash_number(h, m->alpha);
+    hash_number(h, m->double_sided);
+    if (m->alpha != SCENE_ALPHA_MASK)
+        return;
+    hash_number(h, (double)m->alpha_cutoff);
+    hash_number(h, (double)m->base_color[3]);
+    hash_number(h, m->base_color_uv);
+    hash(h, m->base_color_uv_from_uv, sizeof m->base_color_uv_from_uv);
+    if (m->base_color_texture >= 0) {
+        const scene_texture *t = &s->textures[m->base_color_texture];
+        const scene_image *image = &s->images[t->image];
+        hash_number(h, t->wrap_u);
+        hash_number(h, t->wrap_v);
+        hash_number(h, t->mag_nearest);
+        hash_number(h, image->width);
+        hash(h, image->rgba, 4 * (size_t)image->width * (size_t)image->height);
+    }
+}
+
+static uint64_t hash_request(const truth_request *r, const scene *s, const scene_view *view)
+{
+    uint64_t h = UINT64_C(14695981039346656037);
+    const double numbers[] = {FORMAT_VERSION, (double)r->radius, r->rays, r->seed, view->width, view->height};
+    hash(&h, numbers, sizeof numbers);
+    hash(&h, view->view_from_world, sizeof view->view_from_world);
+    hash(&h, view->clip_from_view, sizeof view->clip_from_view);
+    hash(&h, s->vertices, s->vertex_count * sizeof *s->vertices);
+    hash(&h, s->indices, s->index_count * sizeof *s->indices);
+    hash(&h, s->instances, s->instance_count * sizeof *s->instances);
+    for (uint32_t i = 0; i < s->primitive_count; i++) {
+        const scene_primitive *p = &s->primitives[i];
+        const double range[] = {p->first_index, p->index_count, p->material};
+        hash(&h, range, sizeof range);
+    }
+    for (uint32_t i = 0; i < s->mesh_count; i++) {
+        const scene_mesh *m = &s->meshes[i];
+        const double range[] = {m->first_primitive, m->primitive_count, m->first_instance, m->instance_count};
+        hash(&h, range, sizeof range);
+    }
+    for (uint32_t i = 0; i < s->material_count; i++)
+        hash_material(&h, s, &s->materials[i]);
+    return h;
+}
+
+bool make_folder(const char *path)
+{
+    char part[PATH_LENGTH];
+    const size_t length = strlen(path);
+    if (length >= sizeof part)
+        return false;
+    for (size_t i = 1; i <= length; i++) {
+        if (path[i] != '/' && path[i] != '\0')
+            continue;
+        memcpy(part, path, i);
+        part[i] = '\0';
+        if (mkdir(part, 0777) != 0 && errno != EEXIST)
+            return false;
+    }
+    return true;
+}
+
+static bool read_cached(const char *truth_path, const char *mask_path, const scene_view *view, bench_truth *out)
+{
+    char ignored[256];
+    int w, h, channels, mask_w, mask_h;
+    out->accessibility = picture_read_pfm(truth_path, &w, &h, &channels, ignored, sizeof ignored);
+    uint8_t *mask = picture_read_png(mask_path, &mask_w, &mask_h, ignored, sizeof ignored);
+    const bool good = out->accessibility && mask && w == view->width && h == view->height && channels == 1 &&
+                      mask_w == w && mask_h == h;
+    if (good) {
+        const size_t count = (size_t)w * (size_t)h;
+        for (size_t i = 0; i < count; i++) /* RGBA, in place */
+            mask[i] = mask[4 * i] > 127;
+        out->foreground = mask;
+        return true;
+    }
+    free(mask);
+    free(out->accessibility);
+    out->accessibility = NULL;
+    return false;
+}
+
+static bool write_cached(const char *truth_path, const char *mask_path, const scene_view *view, const bench_truth *t,
+                         char *error, size_t error_size)
+{
+    const size_t count = (size_t)view->width * (size_t)view->height;
+    uint8_t *mask = malloc(count);
+    if (!mask) {
+        snprintf(error, error_size, "out of memory");
+        return false;
+    }
+    for (size_t i = 0; i < count; i++)
+        mask[i] = t->foreground[i] ? 255 : 0;
+    /* The mask first: a truth that is there is complete. */
+    const bool written =
+        picture_write_png(mask_path, view->width, view->height, 1, mask, error, error_size) &&
+        picture_write_pfm(truth_path, view->width, view->height, 1, t->accessibility, error, error_size);
+    free(mask);
+    return written;
+}
+
+static void show_progress(double done, void *user)
+{
+    progress_show("tracing %s: %3.0f %%", (const char *)user, 100 * done);
+}
+
+static bool trace(const truth_request *r, const scene *s, const scene_view *view, bench_truth *out, char *error,
+                  size_t error_size)
+{
+    const size_t count = (size_t)view->width * (size_t)view->height;
+    char name[128];
+    snprintf(name, sizeof name, "%s", r->name);
+    out->accessibility = malloc(count * sizeof *out->accessibility);
+    out->foreground = malloc(count);
+    if (!out->accessibility || !out->foreground) {
+        snprintf(error, error_size, "out of memory");
+        return false;
+    }
+    trace_scene *t = trace_scene_create(s, error, error_size);
+    if (!t)
+        return false;
+    const trace_options options = {
+        .radius = r->radius, .samples = r->rays, .seed = r->seed, .progress = show_progress, .progress_user = name};
+    trace_stats stats = {0, 0};
+    const bool traced =
+        trace_accessibility(t, view, &options, out->accessibility, out->foreground, &stats, error, error_size);
+    progress_clear();
+    trace_scene_destroy(t);
+    out->rays = stats.rays;
+    out->seconds = stats.seconds;
+    return traced;
+}
+
+bool truth_get(const truth_request *r, const scene *s, const scene_view *view, bench_truth *out, char *error,
+               size_t error_size)
+{
+    *out = (bench_truth){0};
+    if (!r->cache)
+        return trace(r, s, view, out, error, error_size);
+    const uint64_t h = hash_request(r, s, view);
+    char truth_path[PATH_LENGTH], mask_path[PATH_LENGTH];
+    snprintf(truth_path, sizeof truth_path, "%s/%s-%016" PRIx64 ".pfm", r->cache, r->name, h);
+    snprintf(mask_path, sizeof mask_path, "%s/%s-%016" PRIx64 "-mask.png", r->cache, r->name, h);
+    if (read_cached(truth_path, mask_path, view, out))
+        return true;
+    if (!make_folder(r->cache)) {
+        snprintf(error, error_size, "%s: no such folder can be made", r->cache);
+        return false;
+    }
+    return trace(r, s, view, out, error, error_size) &&
+           write_cached(truth_path, mask_path, view, out, error, error_size);
+}
+
+void truth_destroy(bench_truth *t)
+{
+    free(t->accessibility);
+    free(t->foreground);
+    *t = (bench_truth){0};
+}
