@@ -7,4 +7,5 @@ float gSkyDepth;            // the window depth, or the least view distance, tha
 float gPower;               // accessibility is raised to this
 float gBlurNormalThreshold; // cosine
 float gBlurDepthThreshold;  // scene units of view distance
-int gSampleCount;           // offset vectors in use, 1..14
+int gSampleCount;           // offset vectors or kernel samples in use
+int gFactor;                // full-size texels per texel of the estimate: 1 or 2

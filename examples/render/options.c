@@ -47,13 +47,13 @@ static const option table[] = {
      "WxH with sides from 1 to 16384"},
     {'q', "quality", "NAME", "low, medium, high or ultra (high)", KIND_WORD, AT(quality), 0, 0,
      "low|medium|high|ultra"},
-    {'t', "technique", "NAME", "classic or raytrace; hemisphere and horizon are not there yet (classic)", KIND_WORD,
-     AT(technique), 0, 0, "classic|hemisphere|horizon|raytrace"},
+    {'t', "technique", "NAME", "classic, hemisphere, horizon or raytrace (horizon)", KIND_WORD, AT(technique), 0, 0,
+     "classic|hemisphere|horizon|raytrace"},
     {0, "radius", "R", "occlusion radius in scene units (suits the scene)", KIND_NUMBER, AT(radius), 0, FLT_MAX,
      "a number, 0 or more"},
     {0, "power", "P", "contrast, 0 to 64", KIND_NUMBER, AT(power), 0, 64, "a number from 0 to 64"},
-    {0, "samples", "N", "samples a pixel, 1 to 14; rays with raytrace, 1 to 65536 (512)", KIND_INT, AT(sample_count), 1,
-     65536, "a whole number from 1 to 65536"},
+    {0, "samples", "N", "classic 1 to 14, hemisphere 1 to 64, horizon 12, 16, 24, 32, 48 or 64, raytrace rays (512)",
+     KIND_INT, AT(sample_count), 1, 65536, "a whole number from 1 to 65536"},
     {0, "blur-rounds", "N", "0 to 16", KIND_INT, AT(blur_rounds), 0, 16, "a whole number from 0 to 16"},
     {0, "eye", "X,Y,Z", "where the camera stands (default: frames the scene)", KIND_VECTOR, AT(eye), 0, 0,
      "three numbers X,Y,Z"},
@@ -291,23 +291,27 @@ static bool same_file(const options *o, char *error, size_t error_size)
     return false;
 }
 
+static bool is_horizon_count(int n)
+{
+    return n == 12 || n == 16 || n == 24 || n == 32 || n == 48 || n == 64;
+}
+
 /* What no value alone tells: options that need or exclude each other. */
 static bool check_together(const options *o, char *error, size_t error_size)
 {
     const bool traced = o->technique == OPTIONS_RAYTRACE;
-    if (o->technique != GLSSAO_CLASSIC && !traced) {
-        static const char *const names[] = {"classic", "hemisphere", "horizon"};
-        snprintf(error, error_size, "--technique %s is not there yet; this version has classic", names[o->technique]);
-    } else if (traced && !GLSSAO_HAS_EMBREE) {
+    const int most_samples = o->technique == GLSSAO_CLASSIC ? 14 : 64;
+    if (traced && !GLSSAO_HAS_EMBREE) {
         snprintf(error, error_size, "--technique raytrace: this glssao-render was built without Embree");
     } else if (traced && o->bench) {
         snprintf(error, error_size, "--technique raytrace and --bench %d exclude each other; --stats has rays a second",
                  o->bench);
     } else if (traced && o->blur_rounds >= 0) {
         snprintf(error, error_size, "--blur-rounds %d: traced accessibility is not blurred", o->blur_rounds);
-    } else if (!traced && o->sample_count > 14) {
-        snprintf(error, error_size, "--samples \"%d\": must be a whole number from 1 to 14, save with raytrace",
-                 o->sample_count);
+    } else if (!traced && o->sample_count > most_samples) {
+        snprintf(error, error_size, "--samples \"%d\": this technique takes at most %d", o->sample_count, most_samples);
+    } else if (o->technique == GLSSAO_HORIZON && o->sample_count && !is_horizon_count(o->sample_count)) {
+        snprintf(error, error_size, "--samples \"%d\": horizon takes 12, 16, 24, 32, 48 or 64", o->sample_count);
     } else if (o->scene_path && o->scene_name) {
         snprintf(error, error_size, "--scene %s and the file %s exclude each other", o->scene_name, o->scene_path);
     } else if (o->scene_name && find_word("columns|cornell|steps|plane", o->scene_name) < 0) {
@@ -336,7 +340,7 @@ static bool check_together(const options *o, char *error, size_t error_size)
 options_result options_parse(int argc, char **argv, options *out, char *error, size_t error_size)
 {
     *out =
-        (options){.width = 1280, .height = 720, .quality = GLSSAO_HIGH, .technique = GLSSAO_CLASSIC, .blur_rounds = -1};
+        (options){.width = 1280, .height = 720, .quality = GLSSAO_HIGH, .technique = GLSSAO_HORIZON, .blur_rounds = -1};
     bool options_end = false;
     for (int at = 1; at < argc;) {
         if (!options_end && argv[at][0] == '-' && argv[at][1] != '\0') {

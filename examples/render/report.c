@@ -172,7 +172,7 @@ static void print_settings(FILE *f, const report *r)
 {
     static const char *const techniques[] = {"classic", "hemisphere", "horizon"};
     static const char *const qualities[] = {"low", "medium", "high", "ultra"};
-    static const char *const blurs[] = {"none", "gaussian", "bilateral", "box"};
+    static const char *const blurs[] = {"none", "gaussian", "bilateral", "box", "planar"};
     const glssao_settings *s = r->settings;
     if (!s) {
         fputs("  \"settings\": null,\n", f);

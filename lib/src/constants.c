@@ -42,6 +42,7 @@ SAME(block_frame, glssao__frame_constants, gPower);
 SAME(block_frame, glssao__frame_constants, gBlurNormalThreshold);
 SAME(block_frame, glssao__frame_constants, gBlurDepthThreshold);
 SAME(block_frame, glssao__frame_constants, gSampleCount);
+SAME(block_frame, glssao__frame_constants, gFactor);
 SAME(block_hemisphere, glssao__hemisphere_constants, gKernel);
 SAME(block_hemisphere, glssao__hemisphere_constants, gRotations);
 _Static_assert(sizeof(struct block_ssao) == 488 && sizeof(glssao_constants) == 496, "cbSsao has another size");
@@ -155,4 +156,5 @@ void glssao__constants_fill_frame(glssao__frame_constants *c, const glssao_frame
     c->gBlurNormalThreshold = settings->blur_normal_threshold;
     c->gBlurDepthThreshold = settings->blur_depth_threshold;
     c->gSampleCount = settings->sample_count;
+    c->gFactor = settings->half_resolution ? 2 : 1;
 }

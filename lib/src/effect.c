@@ -14,7 +14,7 @@ static bool check_size(const glssao__log_sink *log, int width, int height, int m
     return false;
 }
 
-static glssao_result make_sized(glssao_effect *effect, int width, int height, glssao__normal_map *out_normal,
+static glssao_result make_sized(glssao_effect *effect, int width, int height, glssao__target *out_normal,
                                 glssao__ambient_maps *out_ambient)
 {
     glssao_result result = glssao__maps_make_normal(effect, width, height, out_normal);
@@ -22,7 +22,7 @@ static glssao_result make_sized(glssao_effect *effect, int width, int height, gl
         return result;
     result = glssao__maps_make_ambient(effect, (width + 1) / 2, (height + 1) / 2, out_ambient);
     if (result != GLSSAO_OK)
-        glssao__maps_delete_normal(&effect->gl, out_normal);
+        glssao__maps_delete_target(&effect->gl, out_normal);
     return result;
 }
 
@@ -30,7 +30,7 @@ static glssao_result make_objects(glssao_effect *effect)
 {
     const glssao__gl *gl = &effect->gl;
     /* Compiling a pass checks the driver's layout of the blocks that it reads. */
-    const glssao__program_object *program;
+    glssao__program_object program;
     glssao_result result = glssao__program_get(effect, SHADER_CLASSIC, 0, &program);
     if (result == GLSSAO_OK)
         result = glssao__maps_make_random_vector(effect);
@@ -106,12 +106,13 @@ void glssao_destroy(glssao_effect *effect)
     const glssao__gl *gl = &effect->gl;
     if (effect->between_normals)
         (void)glssao_end_normals(effect); /* the host's framebuffer comes back; deleting a bound one would bind 0 */
-    for (int shader = 0; shader < SHADER_COUNT; ++shader)
-        for (int variant = 0; variant < VARIANT_COUNT; ++variant)
-            if (effect->programs[shader][variant].name)
-                gl->DeleteProgram(effect->programs[shader][variant].name);
-    glssao__maps_delete_normal(gl, &effect->normal_map); /* names of 0 are ignored, here and below */
+    for (int i = 0; i < effect->program_count; ++i)
+        gl->DeleteProgram(effect->programs[i].object.name);
+    free(effect->programs);
+    glssao__maps_delete_target(gl, &effect->normal_map); /* names of 0 are ignored, here and below */
     glssao__maps_delete_ambient(gl, &effect->ambient);
+    glssao__maps_delete_target(gl, &effect->distance_map);
+    glssao__maps_delete_target(gl, &effect->full_map);
     gl->DeleteTextures(1, &effect->random_vector_map);
     gl->DeleteSamplers(SAMPLER_COUNT, effect->samplers);
     gl->DeleteVertexArrays(1, &effect->vertex_array);
@@ -133,7 +134,7 @@ glssao_result glssao_resize(glssao_effect *effect, int width, int height)
         return GLSSAO_INVALID_ARGUMENT;
     if (width == effect->width && height == effect->height)
         return GLSSAO_OK;
-    glssao__normal_map normal;
+    glssao__target normal;
     glssao__ambient_maps ambient;
     glssao__host_state host;
     glssao__state_save(&effect->gl, &host);
@@ -141,8 +142,11 @@ glssao_result glssao_resize(glssao_effect *effect, int width, int height)
     glssao__state_restore(&effect->gl, &host);
     if (result != GLSSAO_OK)
         return result;
-    glssao__maps_delete_normal(&effect->gl, &effect->normal_map);
+    glssao__maps_delete_target(&effect->gl, &effect->normal_map);
     glssao__maps_delete_ambient(&effect->gl, &effect->ambient);
+    glssao__maps_delete_target(&effect->gl, &effect->distance_map); /* made again when next needed */
+    glssao__maps_delete_target(&effect->gl, &effect->full_map);
+    effect->result_is_full = false;
     effect->normal_map = normal;
     effect->ambient = ambient;
     effect->ambient_is_one = true;
@@ -158,8 +162,10 @@ uint32_t glssao_map(const glssao_effect *effect, glssao_map_id id, int *out_widt
     if (effect)
         switch (id) {
         case GLSSAO_MAP_AMBIENT:
+            texture = glssao__maps_result(effect, &width, &height);
+            break;
         case GLSSAO_MAP_AMBIENT_OTHER:
-            texture = effect->ambient.texture[id == GLSSAO_MAP_AMBIENT ? 0 : 1];
+            texture = effect->ambient.texture[1];
             width = effect->ambient.width;
             height = effect->ambient.height;
             break;

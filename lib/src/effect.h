@@ -17,7 +17,7 @@
 #endif
 
 /* Texture units that the passes read through; the shaders' samplers are tied to them once. */
-enum glssao__unit { UNIT_NORMAL = 0, UNIT_DEPTH, UNIT_RANDOM_VECTOR, UNIT_AMBIENT, UNIT_COUNT };
+enum glssao__unit { UNIT_NORMAL = 0, UNIT_DEPTH, UNIT_RANDOM_VECTOR, UNIT_AMBIENT, UNIT_DISTANCE, UNIT_COUNT };
 
 /* The D3D12 demo's static samplers. */
 enum glssao__sampler {
@@ -36,7 +36,18 @@ enum glssao__block {
 }; /* also the uniform buffer binding points used */
 
 /* What is drawn; with the flags below it names one program. program.c holds the tables of both. */
-enum glssao__shader { SHADER_NORMALS = 0, SHADER_CLASSIC, SHADER_HEMISPHERE, SHADER_BLUR, SHADER_APPLY, SHADER_COUNT };
+enum glssao__shader {
+    SHADER_NORMALS = 0,
+    SHADER_DISTANCE,
+    SHADER_CLASSIC,
+    SHADER_HEMISPHERE,
+    SHADER_HORIZON,
+    SHADER_BLUR,
+    SHADER_PLANAR_BLUR,
+    SHADER_UPSAMPLE,
+    SHADER_APPLY,
+    SHADER_COUNT
+};
 
 /* Variants: each flag is a macro that is 0 or 1 in the shaders that test it. */
 enum glssao__variant {
@@ -47,7 +58,10 @@ enum glssao__variant {
     VARIANT_NO_ANGLE_WEIGHT = 16,
     VARIANT_BOX = 32,
     VARIANT_EDGE_AWARE = 64,
-    VARIANT_FLAGS = 7, /* how many there are */
+    VARIANT_STEPS_8 = 128,
+    VARIANT_SLICES_2 = 256,
+    VARIANT_SLICES_4 = 512,
+    VARIANT_FLAGS = 10, /* how many there are */
     VARIANT_COUNT = 1 << VARIANT_FLAGS
 };
 
@@ -79,7 +93,8 @@ typedef struct glssao__frame_constants {
     float gBlurNormalThreshold;
     float gBlurDepthThreshold;
     int gSampleCount;
-    float padding[3]; /* std140 rounds the block up to 80 bytes */
+    int gFactor;
+    float padding[2]; /* std140 rounds the block up to 80 bytes */
 } glssao__frame_constants;
 
 /* glsl/cb_hemisphere.glsl in C. */
@@ -101,12 +116,14 @@ typedef struct glssao__ambient_maps {
     int width, height;
 } glssao__ambient_maps;
 
-typedef struct glssao__normal_map {
+/* A texture and the framebuffer that draws into it; 0 where it is not made. */
+typedef struct glssao__target {
     gl_uint texture, framebuffer;
-} glssao__normal_map;
+    int width, height;
+} glssao__target;
 
 typedef struct glssao__program_object {
-    gl_uint name;               /* 0: not compiled yet */
+    gl_uint name;
     gl_int horizontal_location; /* of gHorizontalBlur, -1 where there is none */
 } glssao__program_object;
 
@@ -143,7 +160,10 @@ struct glssao_effect {
     bool has_timers;
     int width, height;
 
-    glssao__normal_map normal_map;
+    glssao__target normal_map;
+    glssao__target distance_map; /* at the estimate's size; made when first needed */
+    glssao__target full_map;     /* the upsampled result; made when first needed */
+    bool result_is_full;         /* the last result lies in full_map */
     glssao__ambient_maps ambient;
     bool ambient_is_one; /* both ambient maps hold 1 everywhere: nothing to clear */
     gl_uint random_vector_map;
@@ -151,7 +171,12 @@ struct glssao_effect {
     gl_uint samplers[SAMPLER_COUNT];
     gl_uint vertex_array;
     gl_uint uniform_buffers[BLOCK_COUNT];
-    glssao__program_object programs[SHADER_COUNT][VARIANT_COUNT];
+    struct glssao__compiled {
+        enum glssao__shader shader;
+        unsigned variant;
+        glssao__program_object object;
+    } * programs; /* those compiled so far */
+    int program_count;
 
     glssao_constants constants;
     glssao__frame_constants frame_constants;
@@ -211,15 +236,20 @@ void glssao__state_set_viewport(const glssao__gl *gl, const gl_float viewport[4]
 /* maps.c */
 glssao_result glssao__maps_make_ambient(glssao_effect *effect, int width, int height, glssao__ambient_maps *out_maps);
 void glssao__maps_delete_ambient(const glssao__gl *gl, glssao__ambient_maps *maps);
-glssao_result glssao__maps_make_normal(glssao_effect *effect, int width, int height, glssao__normal_map *out_map);
-void glssao__maps_delete_normal(const glssao__gl *gl, glssao__normal_map *map);
+glssao_result glssao__maps_make_normal(glssao_effect *effect, int width, int height, glssao__target *out_map);
+/* Makes or remakes the map where it has another size; on failure it is as it was. */
+glssao_result glssao__maps_fit_distance(glssao_effect *effect, int width, int height);
+glssao_result glssao__maps_fit_full(glssao_effect *effect);
+void glssao__maps_delete_target(const glssao__gl *gl, glssao__target *target);
+/* The texture that holds the result. */
+gl_uint glssao__maps_result(const glssao_effect *effect, int *out_width, int *out_height);
 glssao_result glssao__maps_make_random_vector(glssao_effect *effect);
 void glssao__maps_clear_ambient(glssao_effect *effect);
 void glssao__maps_make_samplers(glssao_effect *effect);
 glssao_result glssao__maps_check_texture(glssao_effect *effect, gl_uint texture, bool needs_depth, const char *field);
 
 /* program.c */
-enum { GLSSAO__PROGRAM_MAX_SOURCES = 3 * VARIANT_FLAGS + 11 }; /* three a macro, eight about blocks, three files */
+enum { GLSSAO__PROGRAM_MAX_SOURCES = 3 * VARIANT_FLAGS + 11 }; /* three a macro, seven about blocks, four files */
 /* Pieces of a shader stage of a variant, in the order that the driver gets them; returns how many. */
 int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enum stage,
                             const char *out_sources[GLSSAO__PROGRAM_MAX_SOURCES]);
@@ -228,7 +258,7 @@ bool glssao__program_exists(enum glssao__shader shader, unsigned variant);
 const char *glssao__program_shader_name(enum glssao__shader shader);
 /* The program, compiled on first use; flags that the shader does not test are dropped. */
 glssao_result glssao__program_get(glssao_effect *effect, enum glssao__shader shader, unsigned variant,
-                                  const glssao__program_object **out);
+                                  glssao__program_object *out);
 
 /* stats.c */
 void glssao__stats_begin_frame(glssao_effect *effect);

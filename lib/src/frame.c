@@ -123,7 +123,7 @@ glssao_result glssao_end_normals(glssao_effect *effect)
 /* ---- the passes ---- */
 
 typedef struct frame_programs {
-    const glssao__program_object *normals, *estimate, *blur;
+    glssao__program_object normals, distance, estimate, blur, upsample;
 } frame_programs;
 
 /* How the host stores what the passes read. */
@@ -141,6 +141,22 @@ static unsigned input_variant(const glssao_frame *frame)
     return variant;
 }
 
+static enum glssao__shader estimate_shader(const glssao_settings *settings)
+{
+    return settings->technique == GLSSAO_CLASSIC      ? SHADER_CLASSIC
+           : settings->technique == GLSSAO_HEMISPHERE ? SHADER_HEMISPHERE
+                                                      : SHADER_HORIZON;
+}
+
+static unsigned estimate_variant(const glssao_settings *settings)
+{
+    if (settings->technique != GLSSAO_HORIZON)
+        return settings->no_angle_weight ? VARIANT_NO_ANGLE_WEIGHT : 0u;
+    int steps = settings->sample_count % 16 == 0 && settings->sample_count != 48 ? 8 : 6;
+    int slices = settings->sample_count / (2 * steps);
+    return (steps == 8 ? VARIANT_STEPS_8 : 0u) | (slices == 4 ? VARIANT_SLICES_4 : slices == 2 ? VARIANT_SLICES_2 : 0u);
+}
+
 /* The texture that holds depth. */
 static gl_uint depth_source(const glssao_frame *frame)
 {
@@ -152,35 +168,47 @@ static glssao_result get_programs(glssao_effect *effect, const glssao_frame *fra
                                   const glssao_plan *plan, frame_programs *out)
 {
     unsigned inputs = input_variant(frame);
+    unsigned blur = inputs | (settings->blur == GLSSAO_BLUR_BILATERAL ? VARIANT_EDGE_AWARE : 0u) |
+                    (settings->blur == GLSSAO_BLUR_BOX ? VARIANT_BOX : 0u);
+    const struct {
+        glssao_pass pass;
+        enum glssao__shader shader;
+        unsigned variant;
+        glssao__program_object *out;
+    } needed[] = {
+        {GLSSAO_PASS_NORMALS, SHADER_NORMALS, inputs, &out->normals},
+        {GLSSAO_PASS_DISTANCE, SHADER_DISTANCE, inputs, &out->distance},
+        {GLSSAO_PASS_ESTIMATE, estimate_shader(settings), inputs | estimate_variant(settings), &out->estimate},
+        {GLSSAO_PASS_BLUR, settings->blur == GLSSAO_BLUR_PLANAR ? SHADER_PLANAR_BLUR : SHADER_BLUR, blur, &out->blur},
+        {GLSSAO_PASS_UPSAMPLE, SHADER_UPSAMPLE, inputs, &out->upsample},
+    };
     glssao_result result = GLSSAO_OK;
-    if (plan->passes[GLSSAO_PASS_NORMALS].run)
-        result = glssao__program_get(effect, SHADER_NORMALS, inputs, &out->normals);
-    if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_ESTIMATE].run) {
-        bool classic = settings->technique == GLSSAO_CLASSIC;
-        unsigned variant = inputs | (settings->no_angle_weight ? VARIANT_NO_ANGLE_WEIGHT : 0u);
-        result = glssao__program_get(effect, classic ? SHADER_CLASSIC : SHADER_HEMISPHERE, variant, &out->estimate);
-    }
-    if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_BLUR].run) {
-        unsigned variant = inputs | (settings->blur == GLSSAO_BLUR_BILATERAL ? VARIANT_EDGE_AWARE : 0u) |
-                           (settings->blur == GLSSAO_BLUR_BOX ? VARIANT_BOX : 0u);
-        result = glssao__program_get(effect, SHADER_BLUR, variant, &out->blur);
-    }
+    for (size_t i = 0; i < sizeof needed / sizeof *needed && result == GLSSAO_OK; ++i)
+        if (plan->passes[needed[i].pass].run)
+            result = glssao__program_get(effect, needed[i].shader, needed[i].variant, needed[i].out);
     return result;
 }
 
-static glssao_result fit_ambient(glssao_effect *effect, const glssao_settings *settings)
+/* Makes the maps that the plan draws into, at its sizes. */
+static glssao_result fit_maps(glssao_effect *effect, const glssao_settings *settings, const glssao_plan *plan)
 {
     int width, height;
     glssao__plan_ambient_size(effect, settings, &width, &height);
-    if (width == effect->ambient.width && height == effect->ambient.height)
-        return GLSSAO_OK;
+    glssao_result result = GLSSAO_OK;
+    if (plan->passes[GLSSAO_PASS_DISTANCE].run)
+        result = glssao__maps_fit_distance(effect, width, height);
+    if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_UPSAMPLE].run)
+        result = glssao__maps_fit_full(effect);
+    if (result != GLSSAO_OK || (width == effect->ambient.width && height == effect->ambient.height))
+        return result;
     glssao__ambient_maps maps;
-    glssao_result result = glssao__maps_make_ambient(effect, width, height, &maps);
+    result = glssao__maps_make_ambient(effect, width, height, &maps);
     if (result != GLSSAO_OK)
         return result;
     glssao__maps_delete_ambient(&effect->gl, &effect->ambient);
     effect->ambient = maps;
     effect->ambient_is_one = true;
+    effect->result_is_full = false; /* until the upsampling has run */
     return GLSSAO_OK;
 }
 
@@ -203,6 +231,13 @@ static void rebuild_normals(glssao_effect *effect, const glssao__program_object 
     draw(effect, effect->normal_map.framebuffer, effect->width, effect->height);
 }
 
+static void map_distance(glssao_effect *effect, const glssao__program_object *program)
+{
+    effect->gl.UseProgram(program->name);
+    draw(effect, effect->distance_map.framebuffer, effect->distance_map.width, effect->distance_map.height);
+    bind_input(effect, UNIT_DISTANCE, effect->distance_map.texture, SAMPLER_POINT_CLAMP);
+}
+
 static void estimate(glssao_effect *effect, const glssao__program_object *program)
 {
     bind_input(effect, UNIT_RANDOM_VECTOR, effect->random_vector_map, SAMPLER_LINEAR_WRAP);
@@ -221,6 +256,49 @@ static void blur(glssao_effect *effect, const glssao__program_object *program, i
     }
 }
 
+static void upsample(glssao_effect *effect, const glssao__program_object *program)
+{
+    effect->gl.UseProgram(program->name);
+    bind_input(effect, UNIT_AMBIENT, effect->ambient.texture[0], SAMPLER_POINT_CLAMP);
+    draw(effect, effect->full_map.framebuffer, effect->full_map.width, effect->full_map.height);
+}
+
+/* The plan's passes, in order. */
+static void run_passes(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
+                       const glssao_plan *plan, const frame_programs *programs)
+{
+    for (int i = 0; i < GLSSAO_PASS_COUNT; ++i) {
+        glssao_pass pass = (glssao_pass)i;
+        if (!plan->passes[pass].run)
+            continue;
+        glssao__stats_begin_pass(effect, pass);
+        switch (pass) {
+        case GLSSAO_PASS_NORMALS:
+            rebuild_normals(effect, &programs->normals);
+            break;
+        case GLSSAO_PASS_DISTANCE:
+            map_distance(effect, &programs->distance);
+            break;
+        case GLSSAO_PASS_ESTIMATE:
+            bind_input(effect, UNIT_NORMAL, frame->normal_texture ? frame->normal_texture : effect->normal_map.texture,
+                       SAMPLER_POINT_CLAMP);
+            estimate(effect, &programs->estimate);
+            break;
+        case GLSSAO_PASS_BLUR:
+            blur(effect, &programs->blur, settings->blur_rounds);
+            break;
+        case GLSSAO_PASS_UPSAMPLE:
+            upsample(effect, &programs->upsample);
+            break;
+        case GLSSAO_PASS_APPLY: /* glssao_apply's own */
+        case GLSSAO_PASS_COUNT:
+            break;
+        }
+        glssao__stats_end_pass(effect, pass, plan->passes[pass].draw_calls);
+        check_gl(effect, plan->passes[pass].name);
+    }
+}
+
 static glssao_result compute(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
                              const glssao__projection *projection)
 {
@@ -234,7 +312,7 @@ static glssao_result compute(glssao_effect *effect, const glssao_frame *frame, c
     if (result == GLSSAO_OK)
         result = get_programs(effect, frame, settings, &plan, &programs);
     if (result == GLSSAO_OK)
-        result = fit_ambient(effect, settings);
+        result = fit_maps(effect, settings, &plan);
     if (result != GLSSAO_OK)
         return result;
 
@@ -248,6 +326,7 @@ static glssao_result compute(glssao_effect *effect, const glssao_frame *frame, c
     glssao__stats_begin_frame(effect);
     if (!plan.passes[GLSSAO_PASS_ESTIMATE].run) {
         glssao__maps_clear_ambient(effect);
+        effect->result_is_full = false;
         return GLSSAO_OK;
     }
     effect->ambient_is_one = false;
@@ -255,24 +334,8 @@ static glssao_result compute(glssao_effect *effect, const glssao_frame *frame, c
     effect->gl.SamplerParameterfv(effect->samplers[SAMPLER_DEPTH], GL_TEXTURE_BORDER_COLOR,
                                   (const gl_float[4]){sky, sky, sky, sky});
     bind_input(effect, UNIT_DEPTH, depth_source(frame), SAMPLER_DEPTH);
-    if (plan.passes[GLSSAO_PASS_NORMALS].run) {
-        glssao__stats_begin_pass(effect, GLSSAO_PASS_NORMALS);
-        rebuild_normals(effect, programs.normals);
-        glssao__stats_end_pass(effect, GLSSAO_PASS_NORMALS, plan.passes[GLSSAO_PASS_NORMALS].draw_calls);
-        check_gl(effect, "rebuilding normals");
-    }
-    bind_input(effect, UNIT_NORMAL, frame->normal_texture ? frame->normal_texture : effect->normal_map.texture,
-               SAMPLER_POINT_CLAMP);
-    glssao__stats_begin_pass(effect, GLSSAO_PASS_ESTIMATE);
-    estimate(effect, programs.estimate);
-    glssao__stats_end_pass(effect, GLSSAO_PASS_ESTIMATE, plan.passes[GLSSAO_PASS_ESTIMATE].draw_calls);
-    check_gl(effect, "the estimate");
-    if (plan.passes[GLSSAO_PASS_BLUR].run) {
-        glssao__stats_begin_pass(effect, GLSSAO_PASS_BLUR);
-        blur(effect, programs.blur, settings->blur_rounds);
-        glssao__stats_end_pass(effect, GLSSAO_PASS_BLUR, plan.passes[GLSSAO_PASS_BLUR].draw_calls);
-        check_gl(effect, "the blur");
-    }
+    run_passes(effect, frame, settings, &plan, &programs);
+    effect->result_is_full = plan.passes[GLSSAO_PASS_UPSAMPLE].run;
     return GLSSAO_OK;
 }
 
@@ -293,7 +356,7 @@ glssao_result glssao_compute(glssao_effect *effect, const glssao_frame *frame, c
 static glssao_result apply(glssao_effect *effect, gl_uint framebuffer)
 {
     const glssao__gl *gl = &effect->gl;
-    const glssao__program_object *program;
+    glssao__program_object program;
     glssao_result result = glssao__program_get(effect, SHADER_APPLY, 0, &program);
     if (result != GLSSAO_OK)
         return result;
@@ -306,8 +369,9 @@ static glssao_result apply(glssao_effect *effect, gl_uint framebuffer)
     }
     glssao__stats_begin_pass(effect, GLSSAO_PASS_APPLY);
     gl->Enablei(GL_BLEND, 0);
-    gl->UseProgram(program->name);
-    bind_input(effect, UNIT_AMBIENT, effect->ambient.texture[0], SAMPLER_LINEAR_CLAMP);
+    gl->UseProgram(program.name);
+    int width, height;
+    bind_input(effect, UNIT_AMBIENT, glssao__maps_result(effect, &width, &height), SAMPLER_LINEAR_CLAMP);
     draw(effect, framebuffer, effect->width, effect->height);
     glssao__stats_end_pass(effect, GLSSAO_PASS_APPLY, 1);
     return GLSSAO_OK;

@@ -22,8 +22,9 @@ static gl_uint make_texture(const glssao__gl *gl, gl_enum format, int width, int
     gl->GenTextures(1, &texture);
     gl->ActiveTexture(GL_TEXTURE0 + UNIT_AMBIENT);
     gl->BindTexture(GL_TEXTURE_2D, texture);
-    gl->TexImage2D(GL_TEXTURE_2D, 0, (gl_int)format, width, height, 0, format == GL_R16 ? GL_RED : GL_RGBA,
-                   rgba8 ? GL_UNSIGNED_BYTE : GL_FLOAT, rgba8);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, (gl_int)format, width, height, 0,
+                   format == GL_R16 || format == GL_R32F ? GL_RED : GL_RGBA, rgba8 ? GL_UNSIGNED_BYTE : GL_FLOAT,
+                   rgba8);
     /* Hosts may read the maps with a sampler of their own or with none: complete either way. */
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
@@ -37,42 +38,72 @@ static gl_uint make_texture(const glssao__gl *gl, gl_enum format, int width, int
 }
 
 static glssao_result make_target(glssao_effect *effect, gl_enum format, int width, int height, const char *what,
-                                 gl_uint *out_texture, gl_uint *out_framebuffer)
+                                 glssao__target *out_target)
 {
     const glssao__gl *gl = &effect->gl;
-    *out_texture = make_texture(gl, format, width, height, NULL);
-    if (!*out_texture) {
+    *out_target =
+        (glssao__target){.texture = make_texture(gl, format, width, height, NULL), .width = width, .height = height};
+    if (!out_target->texture) {
         glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "no memory for the %s map of %d x %d", what, width, height);
         return GLSSAO_OUT_OF_MEMORY;
     }
-    gl->GenFramebuffers(1, out_framebuffer);
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, *out_framebuffer);
-    gl->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *out_texture, 0);
+    gl->GenFramebuffers(1, &out_target->framebuffer);
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, out_target->framebuffer);
+    gl->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, out_target->texture, 0);
     gl_enum status = gl->CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
     if (status == GL_FRAMEBUFFER_COMPLETE)
         return GLSSAO_OK;
     glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "the framebuffer of the %s map of %d x %d is refused: 0x%04X",
                       what, width, height, status);
+    glssao__maps_delete_target(gl, out_target);
     return GLSSAO_FRAMEBUFFER_ERROR;
 }
 
-glssao_result glssao__maps_make_normal(glssao_effect *effect, int width, int height, glssao__normal_map *out_map)
+void glssao__maps_delete_target(const glssao__gl *gl, glssao__target *target)
 {
-    *out_map = (glssao__normal_map){0};
-    glssao_result result =
-        make_target(effect, GL_RGBA16F, width, height, "normal", &out_map->texture, &out_map->framebuffer);
+    gl->DeleteFramebuffers(1, &target->framebuffer); /* names of 0 are ignored */
+    gl->DeleteTextures(1, &target->texture);
+    *target = (glssao__target){0};
+}
+
+glssao_result glssao__maps_make_normal(glssao_effect *effect, int width, int height, glssao__target *out_map)
+{
+    glssao_result result = make_target(effect, GL_RGBA16F, width, height, "normal", out_map);
     if (result == GLSSAO_OK)
         effect->gl.ClearBufferfv(GL_COLOR, 0, (const gl_float[4]){0.0f, 0.0f, 1.0f, 0.0f});
-    else
-        glssao__maps_delete_normal(&effect->gl, out_map);
     return result;
 }
 
-void glssao__maps_delete_normal(const glssao__gl *gl, glssao__normal_map *map)
+static glssao_result fit_target(glssao_effect *effect, gl_enum format, int width, int height, const char *what,
+                                glssao__target *target)
 {
-    gl->DeleteFramebuffers(1, &map->framebuffer); /* names of 0 are ignored */
-    gl->DeleteTextures(1, &map->texture);
-    *map = (glssao__normal_map){0};
+    if (target->width == width && target->height == height)
+        return GLSSAO_OK;
+    glssao__target made;
+    glssao_result result = make_target(effect, format, width, height, what, &made);
+    if (result != GLSSAO_OK)
+        return result;
+    glssao__maps_delete_target(&effect->gl, target);
+    *target = made;
+    return GLSSAO_OK;
+}
+
+glssao_result glssao__maps_fit_distance(glssao_effect *effect, int width, int height)
+{
+    return fit_target(effect, GL_R32F, width, height, "distance", &effect->distance_map);
+}
+
+glssao_result glssao__maps_fit_full(glssao_effect *effect)
+{
+    return fit_target(effect, GL_R16, effect->width, effect->height, "full-size ambient", &effect->full_map);
+}
+
+gl_uint glssao__maps_result(const glssao_effect *effect, int *out_width, int *out_height)
+{
+    bool full = effect->result_is_full;
+    *out_width = full ? effect->full_map.width : effect->ambient.width;
+    *out_height = full ? effect->full_map.height : effect->ambient.height;
+    return full ? effect->full_map.texture : effect->ambient.texture[0];
 }
 
 static void clear_to_one(const glssao__gl *gl, const glssao__ambient_maps *maps)
@@ -87,9 +118,12 @@ glssao_result glssao__maps_make_ambient(glssao_effect *effect, int width, int he
 {
     *out_maps = (glssao__ambient_maps){.width = width, .height = height};
     glssao_result result = GLSSAO_OK;
-    for (int i = 0; i < 2 && result == GLSSAO_OK; ++i)
-        result =
-            make_target(effect, GL_R16, width, height, "ambient", &out_maps->texture[i], &out_maps->framebuffer[i]);
+    for (int i = 0; i < 2 && result == GLSSAO_OK; ++i) {
+        glssao__target target;
+        result = make_target(effect, GL_R16, width, height, "ambient", &target);
+        out_maps->texture[i] = target.texture;
+        out_maps->framebuffer[i] = target.framebuffer;
+    }
     if (result == GLSSAO_OK)
         clear_to_one(&effect->gl, out_maps);
     else

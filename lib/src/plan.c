@@ -55,18 +55,42 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
     normals->width = effect->width;
     normals->height = effect->height;
 
+    int width, height;
+    glssao__plan_ambient_size(effect, settings, &width, &height);
     struct glssao_planned_pass *estimate = &plan.passes[GLSSAO_PASS_ESTIMATE];
     *estimate = planned(GLSSAO_PASS_ESTIMATE, true, settings->half_resolution ? "at half size" : "at full size");
-    estimate->draw_calls = 1;
-    glssao__plan_ambient_size(effect, settings, &estimate->width, &estimate->height);
 
     struct glssao_planned_pass *blur = &plan.passes[GLSSAO_PASS_BLUR];
     if (settings->blur == GLSSAO_BLUR_NONE || settings->blur_rounds == 0)
         *blur = planned(GLSSAO_PASS_BLUR, false, "no blur asked for");
     else
         *blur = planned(GLSSAO_PASS_BLUR, true, "smooths the estimate's noise");
-    blur->draw_calls = blur->run ? 2 * settings->blur_rounds : 0;
-    blur->width = estimate->width;
-    blur->height = estimate->height;
+
+    struct glssao_planned_pass *upsample = &plan.passes[GLSSAO_PASS_UPSAMPLE];
+    if (!settings->half_resolution)
+        *upsample = planned(GLSSAO_PASS_UPSAMPLE, false, "the estimate is at full size");
+    else if (!settings->upsample)
+        *upsample = planned(GLSSAO_PASS_UPSAMPLE, false, "the host takes the half-size map");
+    else
+        *upsample = planned(GLSSAO_PASS_UPSAMPLE, true, "half size to full along surfaces");
+
+    struct glssao_planned_pass *distance = &plan.passes[GLSSAO_PASS_DISTANCE];
+    if (settings->technique == GLSSAO_HORIZON)
+        *distance = planned(GLSSAO_PASS_DISTANCE, true, "the estimate reads it");
+    else if (blur->run && settings->blur == GLSSAO_BLUR_PLANAR)
+        *distance = planned(GLSSAO_PASS_DISTANCE, true, "the blur reads it");
+    else if (upsample->run)
+        *distance = planned(GLSSAO_PASS_DISTANCE, true, "upsampling reads it");
+    else
+        *distance = planned(GLSSAO_PASS_DISTANCE, false, "no pass reads it");
+
+    static const glssao_pass sized[] = {GLSSAO_PASS_ESTIMATE, GLSSAO_PASS_BLUR, GLSSAO_PASS_UPSAMPLE,
+                                        GLSSAO_PASS_DISTANCE};
+    for (int i = 0; i < 4; ++i) {
+        struct glssao_planned_pass *pass = &plan.passes[sized[i]];
+        pass->draw_calls = !pass->run ? 0 : pass == blur ? 2 * settings->blur_rounds : 1;
+        pass->width = pass == upsample ? effect->width : width;
+        pass->height = pass == upsample ? effect->height : height;
+    }
     return plan;
 }

@@ -6,24 +6,27 @@
 #include "effect.h"
 #include "shaders.h"
 
-#include <stdio.h>
-#include <string.h>
+#include <stdlib.h>
 
 static const char *const macros[VARIANT_FLAGS] = {
-    "UNSIGNED_NORMALS", "OCTAHEDRAL_NORMALS", "DEPTH_IS_DISTANCE", "DEPTH_IN_ALPHA", "NO_ANGLE_WEIGHT", "BOX",
-    "EDGE_AWARE",
+    "UNSIGNED_NORMALS",  "OCTAHEDRAL_NORMALS",
+    "DEPTH_IS_DISTANCE", "DEPTH_IN_ALPHA",
+    "NO_ANGLE_WEIGHT",   "BOX",
+    "EDGE_AWARE",        "STEPS_8",
+    "SLICES_2",          "SLICES_4",
 };
 
 enum {
     NORMAL_FLAGS = VARIANT_UNSIGNED_NORMALS | VARIANT_OCTAHEDRAL_NORMALS,
-    DEPTH_FLAGS = VARIANT_DEPTH_IS_DISTANCE | VARIANT_DEPTH_IN_ALPHA
+    DEPTH_FLAGS = VARIANT_DEPTH_IS_DISTANCE | VARIANT_DEPTH_IN_ALPHA,
+    STEP_FLAGS = VARIANT_STEPS_8 | VARIANT_SLICES_2 | VARIANT_SLICES_4
 };
 
-/* What each shader is compiled from, and which flags it tests: every one of those is defined, as 0 or 1. */
+/* What each shader is compiled from, and which flags it tests. All flags are defined in all, as 0 or 1. */
 static const struct shader {
     const char *name;
     unsigned flags;
-    const char *files[3]; /* after the blocks, in order; the last is the pass itself */
+    const char *files[4]; /* after the blocks, in order; the last is the pass itself */
 } shaders[SHADER_COUNT] = {
     [SHADER_NORMALS] = {"normals", DEPTH_FLAGS, {shader_view_glsl, shader_normals_frag}},
     [SHADER_CLASSIC] = {"classic",
@@ -32,6 +35,12 @@ static const struct shader {
     [SHADER_HEMISPHERE] = {"hemisphere",
                            NORMAL_FLAGS | DEPTH_FLAGS,
                            {shader_view_glsl, shader_normal_map_glsl, shader_hemisphere_frag}},
+    [SHADER_DISTANCE] = {"distance", DEPTH_FLAGS, {shader_view_glsl, shader_distance_frag}},
+    [SHADER_HORIZON] = {"horizon",
+                        NORMAL_FLAGS | STEP_FLAGS,
+                        {shader_view_glsl, shader_distance_map_glsl, shader_normal_map_glsl, shader_horizon_frag}},
+    [SHADER_PLANAR_BLUR] = {"planar-blur", 0, {shader_view_glsl, shader_distance_map_glsl, shader_planar_blur_frag}},
+    [SHADER_UPSAMPLE] = {"upsample", DEPTH_FLAGS, {shader_view_glsl, shader_distance_map_glsl, shader_upsample_frag}},
     [SHADER_BLUR] = {"blur",
                      NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_BOX | VARIANT_EDGE_AWARE,
                      {shader_view_glsl, shader_normal_map_glsl, shader_blur_frag}},
@@ -46,9 +55,10 @@ const char *glssao__program_shader_name(enum glssao__shader shader)
 bool glssao__program_exists(enum glssao__shader shader, unsigned variant)
 {
     bool both_encodings = (variant & NORMAL_FLAGS) == NORMAL_FLAGS;
+    bool both_slices = (variant & VARIANT_SLICES_2) && (variant & VARIANT_SLICES_4);
     bool alpha_alone = (variant & VARIANT_DEPTH_IN_ALPHA) && !(variant & VARIANT_DEPTH_IS_DISTANCE);
     bool edges_needed = (variant & (NORMAL_FLAGS | DEPTH_FLAGS)) == 0 || (variant & VARIANT_EDGE_AWARE);
-    return (variant & ~shaders[shader].flags) == 0 && !both_encodings && !alpha_alone &&
+    return (variant & ~shaders[shader].flags) == 0 && !both_encodings && !both_slices && !alpha_alone &&
            (shader != SHADER_BLUR || edges_needed);
 }
 
@@ -61,12 +71,11 @@ int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enu
         out_sources[n++] = shader_fullscreen_vert;
         return n;
     }
-    for (int i = 0; i < VARIANT_FLAGS; ++i)
-        if (shaders[shader].flags & 1u << i) {
-            out_sources[n++] = "#define ";
-            out_sources[n++] = macros[i];
-            out_sources[n++] = variant & 1u << i ? " 1\n" : " 0\n";
-        }
+    for (int i = 0; i < VARIANT_FLAGS; ++i) {
+        out_sources[n++] = "#define ";
+        out_sources[n++] = macros[i];
+        out_sources[n++] = variant & 1u << i ? " 1\n" : " 0\n";
+    }
     out_sources[n++] = "layout(std140) uniform cbSsao {\n";
     out_sources[n++] = shader_cb_ssao_glsl;
     out_sources[n++] = "};\nlayout(std140) uniform cbFrame {\n";
@@ -76,7 +85,7 @@ int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enu
         out_sources[n++] = shader_cb_hemisphere_glsl;
     }
     out_sources[n++] = "};\n";
-    for (int i = 0; i < 3 && shaders[shader].files[i]; ++i)
+    for (int i = 0; i < 4 && shaders[shader].files[i]; ++i)
         out_sources[n++] = shaders[shader].files[i];
     return n;
 }
@@ -154,6 +163,7 @@ static const struct member {
     FRAME(gBlurNormalThreshold),
     FRAME(gBlurDepthThreshold),
     FRAME(gSampleCount),
+    FRAME(gFactor),
 #undef FRAME
     {BLOCK_HEMISPHERE, "gKernel", offsetof(glssao__hemisphere_constants, gKernel)},
     {BLOCK_HEMISPHERE, "gRotations", offsetof(glssao__hemisphere_constants, gRotations)},
@@ -228,36 +238,58 @@ static void tie_samplers(const glssao__gl *gl, gl_uint program)
         const char *name;
         enum glssao__unit unit;
     } samplers[] = {
-        {"u_normal_map", UNIT_NORMAL},
-        {"u_depth_map", UNIT_DEPTH},
-        {"u_random_vector_map", UNIT_RANDOM_VECTOR},
-        {"u_ambient_map", UNIT_AMBIENT},
+        {"u_normal_map", UNIT_NORMAL},   {"u_depth_map", UNIT_DEPTH},       {"u_random_vector_map", UNIT_RANDOM_VECTOR},
+        {"u_ambient_map", UNIT_AMBIENT}, {"u_distance_map", UNIT_DISTANCE},
     };
     gl->UseProgram(program);
     for (size_t i = 0; i < sizeof samplers / sizeof *samplers; ++i)
         gl->Uniform1i(gl->GetUniformLocation(program, samplers[i].name), (gl_int)samplers[i].unit); /* -1 is ignored */
 }
 
+static const glssao__program_object *find(const glssao_effect *effect, enum glssao__shader shader, unsigned variant)
+{
+    for (int i = 0; i < effect->program_count; ++i)
+        if (effect->programs[i].shader == shader && effect->programs[i].variant == variant)
+            return &effect->programs[i].object;
+    return NULL;
+}
+
+static glssao_result make(glssao_effect *effect, enum glssao__shader shader, unsigned variant,
+                          glssao__program_object *out)
+{
+    const glssao__gl *gl = &effect->gl;
+    gl_uint vertex = compile(effect, shader, variant, GL_VERTEX_SHADER);
+    gl_uint fragment = vertex ? compile(effect, shader, variant, GL_FRAGMENT_SHADER) : 0;
+    *out = (glssao__program_object){.name = fragment ? link(effect, shader, vertex, fragment) : 0};
+    gl->DeleteShader(vertex); /* names of 0 are ignored; an attached shader lives as long as its program */
+    gl->DeleteShader(fragment);
+    if (!out->name)
+        return GLSSAO_SHADER_ERROR;
+    tie_samplers(gl, out->name);
+    out->horizontal_location = gl->GetUniformLocation(out->name, "gHorizontalBlur");
+    return GLSSAO_OK;
+}
+
 glssao_result glssao__program_get(glssao_effect *effect, enum glssao__shader shader, unsigned variant,
-                                  const glssao__program_object **out)
+                                  glssao__program_object *out)
 {
     variant &= shaders[shader].flags;
     if (shader == SHADER_BLUR && !(variant & VARIANT_EDGE_AWARE))
         variant &= VARIANT_BOX; /* it reads neither normals nor depth */
-    glssao__program_object *object = &effect->programs[shader][variant];
-    *out = object;
-    if (object->name)
+    const glssao__program_object *found = find(effect, shader, variant);
+    if (found) {
+        *out = *found;
         return GLSSAO_OK;
-    const glssao__gl *gl = &effect->gl;
-    gl_uint vertex = compile(effect, shader, variant, GL_VERTEX_SHADER);
-    gl_uint fragment = vertex ? compile(effect, shader, variant, GL_FRAGMENT_SHADER) : 0;
-    if (fragment)
-        object->name = link(effect, shader, vertex, fragment);
-    gl->DeleteShader(vertex); /* names of 0 are ignored; an attached shader lives as long as its program */
-    gl->DeleteShader(fragment);
-    if (!object->name)
-        return GLSSAO_SHADER_ERROR;
-    tie_samplers(gl, object->name);
-    object->horizontal_location = gl->GetUniformLocation(object->name, "gHorizontalBlur");
-    return GLSSAO_OK;
+    }
+    struct glssao__compiled *grown =
+        realloc(effect->programs, ((size_t)effect->program_count + 1) * sizeof *effect->programs);
+    if (!grown) {
+        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "no memory for another program");
+        return GLSSAO_OUT_OF_MEMORY;
+    }
+    effect->programs = grown;
+    glssao_result result = make(effect, shader, variant, out);
+    if (result == GLSSAO_OK)
+        grown[effect->program_count++] = (struct glssao__compiled){shader, variant, *out};
+    return result;
 }

@@ -20,6 +20,18 @@ static glssao_settings hemisphere_settings(glssao_settings s, glssao_quality qua
     return s;
 }
 
+static glssao_settings horizon_settings(glssao_settings s, glssao_quality quality)
+{
+    s.technique = GLSSAO_HORIZON;
+    s.power = 1.0f;
+    s.sample_count = quality == GLSSAO_LOW ? 12 : quality == GLSSAO_MEDIUM ? 24 : quality == GLSSAO_ULTRA ? 64 : 16;
+    s.half_resolution = quality == GLSSAO_LOW || quality == GLSSAO_MEDIUM;
+    s.upsample = true;
+    s.blur = GLSSAO_BLUR_PLANAR;
+    s.blur_rounds = 1;
+    return s;
+}
+
 glssao_settings glssao_default_settings(glssao_technique technique, glssao_quality quality)
 {
     /* Luna's first edition of the effect; HIGH is what the book ships. */
@@ -41,7 +53,7 @@ glssao_settings glssao_default_settings(glssao_technique technique, glssao_quali
     if (technique == GLSSAO_HEMISPHERE)
         return hemisphere_settings(s, quality);
     if (technique == GLSSAO_HORIZON)
-        s.technique = technique;
+        return horizon_settings(s, quality);
     switch (quality) {
     case GLSSAO_LOW:
         s.sample_count = 8;
@@ -87,9 +99,7 @@ static bool refuse(const glssao__log_sink *log, const char *field, long long val
 
 bool glssao__settings_check(const glssao_settings *settings, const glssao__log_sink *log)
 {
-    if (settings->technique == GLSSAO_HORIZON)
-        return refuse(log, "settings.technique", settings->technique, "not there yet; take GLSSAO_CLASSIC");
-    if (settings->technique != GLSSAO_CLASSIC && settings->technique != GLSSAO_HEMISPHERE)
+    if ((unsigned)settings->technique > GLSSAO_HORIZON)
         return refuse(log, "settings.technique", settings->technique, "unknown");
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; ++i) {
         const struct number *n = &numbers[i];
@@ -103,6 +113,9 @@ bool glssao__settings_check(const glssao_settings *settings, const glssao__log_s
     }
     if (settings->technique == GLSSAO_CLASSIC && settings->sample_count > 14)
         return refuse(log, "settings.sample_count", settings->sample_count, "classic has 14 offset vectors");
+    int n = settings->sample_count;
+    if (settings->technique == GLSSAO_HORIZON && n != 12 && n != 16 && n != 24 && n != 32 && n != 48 && n != 64)
+        return refuse(log, "settings.sample_count", n, "horizon takes 12, 16, 24, 32, 48 or 64");
     if (settings->fade_end < settings->fade_start) {
         glssao__log_write(log, GLSSAO_LOG_ERROR, "settings.fade_end = %g: less than fade_start = %g",
                           (double)settings->fade_end, (double)settings->fade_start);
@@ -113,6 +126,7 @@ bool glssao__settings_check(const glssao_settings *settings, const glssao__log_s
     case GLSSAO_BLUR_GAUSSIAN:
     case GLSSAO_BLUR_BILATERAL:
     case GLSSAO_BLUR_BOX:
+    case GLSSAO_BLUR_PLANAR:
         return true;
     }
     return refuse(log, "settings.blur", settings->blur, "unknown");
@@ -130,9 +144,11 @@ static bool check_frame(const glssao_effect *effect, const glssao_frame *frame, 
         return refuse(log, "frame.normal_texture", 0, "no texture, and GLSSAO_DEPTH_NORMAL_ALPHA reads depth from it");
     if (!in_alpha && frame->depth_texture == 0)
         return refuse(log, "frame.depth_texture", 0, "no texture");
-    for (int i = 0; i < 2; ++i)
-        if (frame->depth_texture == effect->ambient.texture[i] || frame->normal_texture == effect->ambient.texture[i])
-            return refuse(log, "frame texture", effect->ambient.texture[i], "an ambient map can't be its own input");
+    const gl_uint written[] = {effect->ambient.texture[0], effect->ambient.texture[1], effect->distance_map.texture,
+                               effect->full_map.texture};
+    for (int i = 0; i < 4; ++i)
+        if (written[i] && (frame->depth_texture == written[i] || frame->normal_texture == written[i]))
+            return refuse(log, "frame texture", written[i], "the effect's own map can't be its input");
     return glssao__projection_analyse(frame->projection, frame->clip_zero_to_one, log, out_projection);
 }
 

@@ -79,8 +79,8 @@ static void transformed_instances_shade_like_baked_triangles(void **state)
                       .near_plane = 0.5f,
                       .far_plane = 12};
     const scene_view view = camera_view(&c, WIDTH, HEIGHT);
-    static const glssao_technique techniques[] = {GLSSAO_CLASSIC, GLSSAO_HEMISPHERE};
-    for (int t = 0; t < 2; t++) {
+    static const glssao_technique techniques[] = {GLSSAO_CLASSIC, GLSSAO_HEMISPHERE, GLSSAO_HORIZON};
+    for (int t = 0; t < 3; t++) {
         shaded instanced = shade(*state, s, &view, techniques[t]), baked = shade(*state, b, &view, techniques[t]);
         int other_normal = 0, other_value = 0, occluded = 0;
         double mean = 0;

@@ -60,8 +60,8 @@ size="-s 65x37"
     want 2 ".png" -o .png
     want 2 "--depth" --depth d.png
     want 2 "--ao" --ao a.exr
-    want 2 "horizon is not there yet" -t horizon -o a.png
-    want 2 "hemisphere is not there yet" -t hemisphere -o a.png
+    want 2 "horizon takes" -t horizon --samples 14 -o a.png
+    want 2 "--samples" -t hemisphere --samples 65 -o a.png
     want 2 '"fancy"' -t fancy -o a.png
     want 2 '"best"' --quality best -o a.png
     want 2 '"glx"' --context glx -o a.png
@@ -73,7 +73,7 @@ size="-s 65x37"
         want 2 "--radius \"$bad\"" --radius "$bad" -o a.png
     done
     want 2 "--power" --power 65 -o a.png
-    want 2 "--samples" --samples 15 -o a.png
+    want 2 "--samples" -t classic --samples 15 -o a.png
     want 2 "--samples" --samples 1.5 -o a.png
     want 2 "--blur-rounds" --blur-rounds 17 -o a.png
     want 2 "--fov" --fov 180 -o a.png
@@ -138,7 +138,7 @@ size="-s 65x37"
     # Settings arrive.
     want 0 "" $size --ao p1.pfm --power 0
     ! cmp -s a1.pfm p1.pfm || fail "--power changes nothing"
-    for options in "--radius 0.1" "--samples 3" "--blur-rounds 0" "--quality low" "--eye 3,2,5" "--fov 20"; do
+    for options in "--radius 0.1" "--samples 32" "--blur-rounds 0" "--quality low" "--eye 3,2,5" "--fov 20"; do
         want 0 "" $size --ao p2.pfm $options --seed 7
         ! cmp -s a1.pfm p2.pfm || fail "$options changes nothing"
     done

@@ -244,10 +244,12 @@ static void compute_refuses_bad_settings(void **state)
     REFUSED(blur_normal_threshold, 1.5f);
     REFUSED(blur_depth_threshold, -1.0f);
     REFUSED(technique, (glssao_technique)7);
-    REFUSED(technique, GLSSAO_HORIZON);
     REFUSED(blur, (glssao_blur)9);
 #undef REFUSED
     s = in.settings;
+    s.technique = GLSSAO_HORIZON;
+    s.sample_count = 14;
+    check_refused(f, &in, &in.frame, &s, "settings.sample_count");
     s.technique = GLSSAO_HEMISPHERE;
     s.sample_count = 65;
     check_refused(f, &in, &in.frame, &s, "settings.sample_count");

@@ -247,8 +247,11 @@ static void default_settings_pass_the_checks(void **state)
 {
     (void)state;
     for (int quality = -1; quality < 6; ++quality) {
-        glssao_settings s = glssao_default_settings(GLSSAO_CLASSIC, (glssao_quality)quality);
-        assert_true(glssao__settings_check(&s, &silent));
+        for (int technique = 0; technique < 3; ++technique) {
+            glssao_settings s = glssao_default_settings((glssao_technique)technique, (glssao_quality)quality);
+            assert_true(glssao__settings_check(&s, &silent));
+            assert_int_equal(s.technique, technique);
+        }
     }
     assert_int_equal(glssao_default_settings((glssao_technique)9, GLSSAO_HIGH).technique, GLSSAO_CLASSIC);
     assert_int_equal(glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH).technique, GLSSAO_HORIZON);

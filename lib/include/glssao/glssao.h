@@ -82,7 +82,7 @@ typedef struct glssao_config {
 typedef enum glssao_technique {
     GLSSAO_CLASSIC = 0, /* 14 offsets about the point, distance fade, bilateral blur (Luna, D3D12 book, ch. 21) */
     GLSSAO_HEMISPHERE,  /* samples in the half ball about the normal, 4x4 tile of rotations (Chapman 2013) */
-    GLSSAO_HORIZON      /* cosine-weighted visibility by slices; not there yet: GLSSAO_INVALID_ARGUMENT */
+    GLSSAO_HORIZON      /* cosine-weighted visibility by slices: nearest to ray-traced truth (Jimenez 2016, Therrien 2023) */
 } glssao_technique;
 
 typedef enum glssao_quality { GLSSAO_LOW = 0, GLSSAO_MEDIUM, GLSSAO_HIGH, GLSSAO_ULTRA } glssao_quality;
@@ -91,7 +91,8 @@ typedef enum glssao_blur {
     GLSSAO_BLUR_NONE = 0,
     GLSSAO_BLUR_GAUSSIAN,  /* separable, 11 taps, crosses edges */
     GLSSAO_BLUR_BILATERAL, /* the same taps, kept only where normal and view distance agree */
-    GLSSAO_BLUR_BOX        /* separable, 4 x 4: one period of the hemisphere technique's tile; crosses edges */
+    GLSSAO_BLUR_BOX,       /* separable, 4 x 4: one period of the hemisphere technique's tile; crosses edges */
+    GLSSAO_BLUR_PLANAR     /* separable box over a 4 x 4 tile that follows surfaces: the horizon technique's own */
 } glssao_blur;
 
 typedef struct glssao_settings {   /* fill with glssao_default_settings() first, then change what you like */
@@ -102,8 +103,11 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     float surface_epsilon;         /* scene units, >= 0: an occluder less than this nearer does not count: than the
                                       point (classic), than the sample (hemisphere) */
     float power;                   /* 0 to 64: accessibility is raised to this; more is darker */
-    int sample_count;              /* classic: 1 to 14 offset vectors, the 8 cube corners first; hemisphere: 1 to 64 */
+    int sample_count;              /* classic: 1 to 14 offset vectors, the 8 cube corners first; hemisphere: 1 to 64;
+                                      horizon: samples of depth, 12 (one slice of 6 a side), 16 (1 x 8), 24 (2 x 6),
+                                      32 (2 x 8), 48 (4 x 6) or 64 (4 x 8) */
     bool half_resolution;          /* estimate at half the size, (w + 1) / 2 by (h + 1) / 2 */
+    bool upsample;                 /* a half-size result is brought to full size along surfaces; else it stays half size */
     glssao_blur blur;
     int blur_rounds;               /* 0 to 16: each is one horizontal and one vertical pass */
     float blur_sigma;              /* pixels of the ambient map, above 0 to 2.5 */
@@ -139,8 +143,8 @@ typedef struct glssao_frame {
 /* ---- what the effect tells ------------------------------------------------------------------------------ */
 
 typedef enum glssao_map_id {
-    GLSSAO_MAP_AMBIENT = 0,   /* the result: accessibility in red, R16, half or full size */
-    GLSSAO_MAP_AMBIENT_OTHER, /* the other of the two ping-pong maps: the last horizontal blur */
+    GLSSAO_MAP_AMBIENT = 0,   /* the result: accessibility in red, R16; half size where it was estimated so and not upsampled */
+    GLSSAO_MAP_AMBIENT_OTHER, /* the second of the two ping-pong maps: the last horizontal blur */
     GLSSAO_MAP_NORMAL,        /* the effect's own normal map, RGBA16F, full size */
     GLSSAO_MAP_RANDOM_VECTOR, /* RGBA8, 256 x 256 */
     GLSSAO_MAP_DEPTH          /* the host's depth texture as last handed over; 0 before the first */
@@ -160,8 +164,10 @@ typedef struct glssao_constants {
 
 typedef enum glssao_pass {
     GLSSAO_PASS_NORMALS = 0, /* normals rebuilt from depth */
+    GLSSAO_PASS_DISTANCE,    /* view distance at the estimate's size */
     GLSSAO_PASS_ESTIMATE,    /* raw accessibility */
     GLSSAO_PASS_BLUR,        /* all rounds */
+    GLSSAO_PASS_UPSAMPLE,    /* a half-size result brought to full size */
     GLSSAO_PASS_APPLY,       /* accessibility multiplied into colour, by glssao_apply */
     GLSSAO_PASS_COUNT
 } glssao_pass;
