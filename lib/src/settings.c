@@ -20,12 +20,13 @@ static glssao_settings hemisphere_settings(glssao_settings s, glssao_quality qua
     return s;
 }
 
+/* Half size is brought to full along surfaces; ULTRA estimates at full size. */
 static glssao_settings horizon_settings(glssao_settings s, glssao_quality quality)
 {
     s.technique = GLSSAO_HORIZON;
     s.power = 1.0f;
-    s.sample_count = quality == GLSSAO_LOW ? 12 : quality == GLSSAO_MEDIUM ? 24 : quality == GLSSAO_ULTRA ? 64 : 16;
-    s.half_resolution = quality == GLSSAO_LOW || quality == GLSSAO_MEDIUM;
+    s.sample_count = quality == GLSSAO_LOW ? 12 : quality == GLSSAO_MEDIUM ? 24 : quality == GLSSAO_ULTRA ? 16 : 32;
+    s.half_resolution = quality != GLSSAO_ULTRA;
     s.upsample = true;
     s.blur = GLSSAO_BLUR_PLANAR;
     s.blur_rounds = 1;

@@ -138,7 +138,7 @@ static void scaling_scene_and_radius_together_changes_nothing(void **state)
 static void depth_conventions_agree(void **state)
 {
     picture standard = shade_room(*state, PERSPECTIVE, 1.0, true);
-    assert_true(least(&standard) < 0.5f);
+    assert_true(least(&standard) < 0.7f);
     static const analytic_projection others[] = {PERSPECTIVE_INFINITE, PERSPECTIVE_REVERSED_ZERO_TO_ONE,
                                                  PERSPECTIVE_INFINITE_REVERSED_ZERO_TO_ONE};
     for (int i = 0; i < 3; ++i) {
@@ -440,9 +440,10 @@ int main(void)
         glssao_technique technique;
         glssao_quality quality;
     } groups[] = {
-        {"classic", GLSSAO_CLASSIC, GLSSAO_HIGH},       {"hemisphere", GLSSAO_HEMISPHERE, GLSSAO_MEDIUM},
-        {"horizon, low", GLSSAO_HORIZON, GLSSAO_LOW},   {"horizon, medium", GLSSAO_HORIZON, GLSSAO_MEDIUM},
-        {"horizon, high", GLSSAO_HORIZON, GLSSAO_HIGH}, {"horizon, ultra", GLSSAO_HORIZON, GLSSAO_ULTRA},
+        {"classic", GLSSAO_CLASSIC, GLSSAO_HIGH},
+        {"hemisphere", GLSSAO_HEMISPHERE, GLSSAO_LOW},
+        {"horizon at half size", GLSSAO_HORIZON, GLSSAO_LOW},
+        {"horizon at full size", GLSSAO_HORIZON, GLSSAO_ULTRA},
     };
     int failed = 0;
     for (size_t i = 0; i < sizeof groups / sizeof *groups; ++i) {

@@ -123,7 +123,7 @@ void analytic_render(const analytic_view *view, const analytic_shape *shapes, in
             }
             double nearest = HUGE_VAL, normal[3] = {0.0, 0.0, 1.0};
             for (int i = 0; i < shape_count; ++i) {
-                double candidate[3], t = hit(&shapes[i], o, d, candidate);
+                double candidate[3] = {0.0}, t = hit(&shapes[i], o, d, candidate);
                 if (t > 0.0 && t < nearest) {
                     nearest = t;
                     memcpy(normal, candidate, sizeof normal);
