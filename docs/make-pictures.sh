@@ -10,4 +10,4 @@ out=$(dirname "$(realpath "$0")")/pictures
 mkdir -p "$out"
 view=(-s 960x540 --eye 0.5,1.6,1.5 --target -0.5,0.9,-3 --fov 70 --radius 0.5 "$garage")
 "$render" --no-ao -o "$out/garage-off.png" "${view[@]}"
-"$render" -o "$out/garage-on.png" "${view[@]}"
+"$render" --power 2 -o "$out/garage-on.png" "${view[@]}" # contrast, so that a small picture tells
