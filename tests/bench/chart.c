@@ -118,7 +118,7 @@ static void print_labels(FILE *f, const results *r, const axes *a)
             const bool first = c->config.level || results_on_front(r, c);
             const bool second = strstr(c->config.id, "noblur") || strstr(c->config.id, "noangle") ||
                                 strstr(c->config.id, "high-full") || strstr(c->config.id, "high-half") ||
-                                strstr(c->config.id, "gaussian") || strstr(c->config.id, "bilateral");
+                                strstr(c->config.id, "gaussian-1") || strstr(c->config.id, "bilateral-1");
             if (!charted(c) || (round == 0 ? !first : first || !second) ||
                 !place_label(a, c, taken, count, &taken[count]))
                 continue;

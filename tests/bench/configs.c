@@ -8,6 +8,11 @@
 #include <string.h>
 
 static const char *const technique_names[BENCH_TECHNIQUES] = {"classic", "hemisphere", "horizon"};
+static const char *const blur_names[] = {[GLSSAO_BLUR_NONE] = "none",
+                                         [GLSSAO_BLUR_GAUSSIAN] = "gaussian",
+                                         [GLSSAO_BLUR_BILATERAL] = "bilateral",
+                                         [GLSSAO_BLUR_BOX] = "box",
+                                         [GLSSAO_BLUR_PLANAR] = "planar"};
 static const char *const level_names[] = {"low", "medium", "high", "ultra"};
 
 enum { SAME = -1, ANY = -1 };
@@ -17,28 +22,37 @@ static const struct change {
     const char *suffix;
     int technique;    /* ANY: each */
     bool every_level; /* or the default one alone */
-    int half, blur, rounds, samples;
+    int half, upsample, blur, rounds, samples;
     bool no_angle_weight;
 } changes[] = {
-    {"", ANY, true, SAME, SAME, SAME, SAME, false},
-    {"-full", ANY, true, false, SAME, SAME, SAME, false},
-    {"-half", ANY, true, true, SAME, SAME, SAME, false},
-    {"-noblur", ANY, false, SAME, GLSSAO_BLUR_NONE, 0, SAME, false},
-    {"-gaussian-1", ANY, false, SAME, GLSSAO_BLUR_GAUSSIAN, 1, SAME, false},
-    {"-gaussian-2", ANY, false, SAME, GLSSAO_BLUR_GAUSSIAN, 2, SAME, false},
-    {"-gaussian-3", ANY, false, SAME, GLSSAO_BLUR_GAUSSIAN, 3, SAME, false},
-    {"-gaussian-4", ANY, false, SAME, GLSSAO_BLUR_GAUSSIAN, 4, SAME, false},
-    {"-bilateral-1", ANY, false, SAME, GLSSAO_BLUR_BILATERAL, 1, SAME, false},
-    {"-bilateral-2", ANY, false, SAME, GLSSAO_BLUR_BILATERAL, 2, SAME, false},
-    {"-bilateral-3", ANY, false, SAME, GLSSAO_BLUR_BILATERAL, 3, SAME, false},
-    {"-bilateral-4", ANY, false, SAME, GLSSAO_BLUR_BILATERAL, 4, SAME, false},
-    {"-box-1", ANY, false, SAME, GLSSAO_BLUR_BOX, 1, SAME, false},
-    {"-box-2", ANY, false, SAME, GLSSAO_BLUR_BOX, 2, SAME, false},
-    {"-box-3", ANY, false, SAME, GLSSAO_BLUR_BOX, 3, SAME, false},
-    {"-box-4", ANY, false, SAME, GLSSAO_BLUR_BOX, 4, SAME, false},
-    {"-4samples", GLSSAO_CLASSIC, false, SAME, SAME, SAME, 4, false},
-    {"-8samples", GLSSAO_CLASSIC, false, SAME, SAME, SAME, 8, false},
-    {"-noangle", GLSSAO_CLASSIC, false, SAME, SAME, SAME, SAME, true},
+    {"", ANY, true, SAME, SAME, SAME, SAME, SAME, false},
+    {"-full", ANY, true, false, SAME, SAME, SAME, SAME, false},
+    {"-half", ANY, true, true, SAME, SAME, SAME, SAME, false},
+    {"-noblur", ANY, false, SAME, SAME, GLSSAO_BLUR_NONE, 0, SAME, false},
+    {"-gaussian-1", ANY, false, SAME, SAME, GLSSAO_BLUR_GAUSSIAN, 1, SAME, false},
+    {"-gaussian-2", ANY, false, SAME, SAME, GLSSAO_BLUR_GAUSSIAN, 2, SAME, false},
+    {"-gaussian-3", ANY, false, SAME, SAME, GLSSAO_BLUR_GAUSSIAN, 3, SAME, false},
+    {"-gaussian-4", ANY, false, SAME, SAME, GLSSAO_BLUR_GAUSSIAN, 4, SAME, false},
+    {"-bilateral-1", ANY, false, SAME, SAME, GLSSAO_BLUR_BILATERAL, 1, SAME, false},
+    {"-bilateral-2", ANY, false, SAME, SAME, GLSSAO_BLUR_BILATERAL, 2, SAME, false},
+    {"-bilateral-3", ANY, false, SAME, SAME, GLSSAO_BLUR_BILATERAL, 3, SAME, false},
+    {"-bilateral-4", ANY, false, SAME, SAME, GLSSAO_BLUR_BILATERAL, 4, SAME, false},
+    {"-box-1", ANY, false, SAME, SAME, GLSSAO_BLUR_BOX, 1, SAME, false},
+    {"-box-2", ANY, false, SAME, SAME, GLSSAO_BLUR_BOX, 2, SAME, false},
+    {"-box-3", ANY, false, SAME, SAME, GLSSAO_BLUR_BOX, 3, SAME, false},
+    {"-box-4", ANY, false, SAME, SAME, GLSSAO_BLUR_BOX, 4, SAME, false},
+    {"-4samples", GLSSAO_CLASSIC, false, SAME, SAME, SAME, SAME, 4, false},
+    {"-8samples", GLSSAO_CLASSIC, false, SAME, SAME, SAME, SAME, 8, false},
+    {"-noangle", GLSSAO_CLASSIC, false, SAME, SAME, SAME, SAME, SAME, true},
+    {"-planar-1", ANY, false, SAME, SAME, GLSSAO_BLUR_PLANAR, 1, SAME, false},
+    {"-planar-2", ANY, false, SAME, SAME, GLSSAO_BLUR_PLANAR, 2, SAME, false},
+    {"-upsample", ANY, false, true, true, SAME, SAME, SAME, false},
+    {"-noupsample", ANY, false, true, false, SAME, SAME, SAME, false},
+    {"-12samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 12, false},
+    {"-16samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 16, false},
+    {"-24samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 24, false},
+    {"-48samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 48, false},
+    {"-64samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 64, false},
 };
 
 static glssao_settings apply(const struct change *c, glssao_technique technique, glssao_quality level)
@@ -46,6 +60,8 @@ static glssao_settings apply(const struct change *c, glssao_technique technique,
     glssao_settings s = glssao_default_settings(technique, level);
     if (c->half != SAME)
         s.half_resolution = c->half;
+    if (c->upsample != SAME)
+        s.upsample = c->upsample;
     if (c->blur != SAME)
         s.blur = (glssao_blur)c->blur;
     if (c->rounds != SAME)
@@ -59,8 +75,23 @@ static glssao_settings apply(const struct change *c, glssao_technique technique,
 /* A change that changes nothing would only be measured twice. */
 static bool changes_nothing(const glssao_settings *a, const glssao_settings *b)
 {
-    return a->half_resolution == b->half_resolution && a->blur == b->blur && a->blur_rounds == b->blur_rounds &&
-           a->sample_count == b->sample_count && a->no_angle_weight == b->no_angle_weight;
+    const bool same_result_size = a->upsample == b->upsample || !a->half_resolution;
+    return a->half_resolution == b->half_resolution && same_result_size && a->blur == b->blur &&
+           a->blur_rounds == b->blur_rounds && a->sample_count == b->sample_count &&
+           a->no_angle_weight == b->no_angle_weight;
+}
+
+/* Under another id: to add upsampling can be the same as to halve the size. */
+static bool measured(const bench_config *configs, int count, const bench_config *config)
+{
+    const glssao_settings *s = &config->settings;
+    for (int i = 0; i < count; i++) {
+        const bench_config *other = &configs[i];
+        if (!config->level && !other->level && other->settings.technique == s->technique &&
+            changes_nothing(&other->settings, s))
+            return true;
+    }
+    return false;
 }
 
 static bool taken(const glssao_effect *effect, const glssao_settings *settings)
@@ -84,8 +115,8 @@ int bench_configs_list(const options *o, const glssao_effect *effect, bench_conf
                 bench_config config = {.settings = apply(c, (glssao_technique)t, (glssao_quality)level),
                                        .level = c->suffix[0] == '\0'};
                 snprintf(config.id, sizeof config.id, "%s-%s%s", technique_names[t], level_names[level], c->suffix);
-                if ((config.level || !changes_nothing(&config.settings, &base)) && options_match(o->only, config.id) &&
-                    count < BENCH_CONFIGS_MAX && taken(effect, &config.settings))
+                if ((config.level || !changes_nothing(&config.settings, &base)) && !measured(out, count, &config) &&
+                    options_match(o->only, config.id) && count < BENCH_CONFIGS_MAX && taken(effect, &config.settings))
                     out[count++] = config;
             }
         }
@@ -96,6 +127,11 @@ int bench_configs_list(const options *o, const glssao_effect *effect, bench_conf
 const char *bench_technique_name(glssao_technique technique)
 {
     return technique_names[technique];
+}
+
+const char *bench_blur_name(glssao_blur blur)
+{
+    return blur_names[blur];
 }
 
 bool bench_has_contrast(glssao_technique technique)

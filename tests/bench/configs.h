@@ -23,6 +23,8 @@ typedef struct bench_config {
 int bench_configs_list(const options *o, const glssao_effect *effect, bench_config out[BENCH_CONFIGS_MAX]);
 
 const char *bench_technique_name(glssao_technique technique);
+enum { BENCH_BLURS = GLSSAO_BLUR_PLANAR + 1 };
+const char *bench_blur_name(glssao_blur blur);
 
 /* True where power is a matter of taste, so that the exponent which fits best is reported too. */
 bool bench_has_contrast(glssao_technique technique);

@@ -39,11 +39,11 @@ static void print_head(FILE *f, const results *r, bool has_chart)
 
 static void print_columns(FILE *f, const results *r)
 {
-    fputs("- *ms*, *p95 ms*: median and 95th percentile of the frames' times; *to classic-high*: the median beside "
-          "that of `classic-high` in the same run, which a busy machine changes least.\n",
+    fputs("- *ms*, *p95 ms*: median and 95th percentile of the frames' times; *to classic-high*: ", f);
+    fputs(r->software ? "processor time beside that of `classic-high` in the same run, which a busy machine changes "
+                        "least.\n- *CPU ms*: median of the processor time of all threads.\n"
+                      : "the median beside that of `classic-high` in the same run.\n",
           f);
-    if (r->software)
-        fputs("- *CPU ms*: processor time of all threads.\n", f);
     fputs("- *RMSE*, *mean*, *p95*: of the error with the settings as they come; a mean below 0 is too dark.\n"
           "- *exponent*, *RMSE with it*: classic and hemisphere leave contrast to taste (`power`), so a result with "
           "power 1 is also raised to the one exponent that fits best over all scenes. The chart shows this RMSE for "
@@ -95,7 +95,8 @@ static void print_configs(FILE *f, const results *r)
     fprintf(f, "\nShare of pixels that are no finite number, summed over all configurations: %g.\n\n", nonfinite);
     fputs(
         "## Everything else that was measured\n\nOne choice of a level made otherwise. `full`, `half`: the size of the "
-        "estimate; `gaussian-2`: that blur, two rounds; `8samples`: fewer samples; `noangle`: classic without its "
+        "estimate; `gaussian-2`: that blur, two rounds; `upsample`, `noupsample`: brought to full size along surfaces "
+        "or left to the host; `8samples`: fewer samples; `noangle`: classic without its "
         "angle weight, which shows the self-occlusion that the weight prevents.\n\n",
         f);
     print_config_head(f, r);
@@ -115,11 +116,12 @@ static void print_scenes(FILE *f, const results *r)
     if (count == 0)
         return;
     fputs(
-        "\n## Scenes, the worst first\n\nRMSE of each technique's level `high`: as it is / with the exponent that fits "
-        "all scenes / with the one that fits this scene alone. *One layer* is the oracle below with the best "
-        "thickness. *Near edges*: share of the pixels within reach of a blur of an edge.\n\n| scene | radius | "
-        "triangles "
-        "| seen | near edges |",
+        "\n## Scenes, the worst first\n\n"
+        "RMSE of each technique's level `high`: as it is / with the exponent that fits all scenes / with the one that "
+        "fits this scene alone. *One layer* is the oracle above with the best thickness. *Near edges*: share of the "
+        "pixels within reach of a blur of an edge. *Tilted*: share of the others whose shading normal is more than 45 "
+        "degrees off the surface, which makes the truth itself doubtful.\n\n"
+        "| scene | radius | triangles | seen | near edges | tilted |",
         f);
     for (int i = 0; i < count; i++)
         fprintf(f, " %s |", bench_technique_name(defaults[i]->config.settings.technique));

@@ -7,8 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-static const char *const blur_names[] = {"none", "gaussian", "bilateral", "box"};
-
 /* The default level with that blur, under whichever id: the level itself has one of them. NULL: not measured. */
 static const config_result *find_blur(const results *r, const config_result *base, glssao_blur blur, int rounds)
 {
@@ -19,7 +17,7 @@ static const config_result *find_blur(const results *r, const config_result *bas
         same.blur_rounds = b->blur_rounds;
         if (s->technique == b->technique && s->blur == blur && s->blur_rounds == rounds &&
             same.sample_count == b->sample_count && same.half_resolution == b->half_resolution &&
-            same.no_angle_weight == b->no_angle_weight &&
+            same.upsample == b->upsample && same.no_angle_weight == b->no_angle_weight &&
             strncmp(r->configs[i].config.id, base->config.id, strlen(base->config.id)) == 0)
             return &r->configs[i];
     }
@@ -29,7 +27,7 @@ static const config_result *find_blur(const results *r, const config_result *bas
 static void print_blur_row(FILE *f, const config_result *c)
 {
     const glssao_settings *s = &c->config.settings;
-    fprintf(f, "| %s | %d | %.4f | %.4f | %.4f |", blur_names[s->blur], s->blur_rounds, c->rmse_fit, c->smooth_fit,
+    fprintf(f, "| %s | %d | %.4f | %.4f | %.4f |", bench_blur_name(s->blur), s->blur_rounds, c->rmse_fit, c->smooth_fit,
             c->edge_fit);
     if (c->time.median_ms > 0)
         fprintf(f, " %.1f |\n", c->time.median_ms);
@@ -37,43 +35,42 @@ static void print_blur_row(FILE *f, const config_result *c)
         fputs(" |\n", f);
 }
 
-static double percent_less(double a, double b)
+static void print_comparison(FILE *f, const char *where, double a, double b)
 {
-    return b > 0 ? 100 * (b - a) / b : 0;
+    fprintf(f, "%s %.4f against %.4f (%.1f %% %s)", where, a, b, b > 0 ? fabs(100 * (b - a) / b) : 0,
+            a <= b ? "less" : "more");
 }
 
 static void print_verdict(FILE *f, const config_result *gaussian, const config_result *bilateral)
 {
     const bool keeps = bilateral->rmse_fit < gaussian->rmse_fit;
     const config_result *better = keeps ? bilateral : gaussian, *worse = keeps ? gaussian : bilateral;
-    fprintf(
-        f,
-        "\nEach at its best number of rounds, %s (%d) is better than %s (%d): RMSE %.4f against %.4f, %.1f %% less; "
-        "away from edges %.4f against %.4f (%.1f %% less), near edges %.4f against %.4f (%.1f %% less).\n",
-        blur_names[better->config.settings.blur], better->config.settings.blur_rounds,
-        blur_names[worse->config.settings.blur], worse->config.settings.blur_rounds, better->rmse_fit, worse->rmse_fit,
-        percent_less(better->rmse_fit, worse->rmse_fit), better->smooth_fit, worse->smooth_fit,
-        percent_less(better->smooth_fit, worse->smooth_fit), better->edge_fit, worse->edge_fit,
-        percent_less(better->edge_fit, worse->edge_fit));
+    fprintf(f, "\nEach at its best number of rounds, %s (%d) is better than %s (%d): ",
+            bench_blur_name(better->config.settings.blur), better->config.settings.blur_rounds,
+            bench_blur_name(worse->config.settings.blur), worse->config.settings.blur_rounds);
+    print_comparison(f, "RMSE", better->rmse_fit, worse->rmse_fit);
+    print_comparison(f, "; away from edges", better->smooth_fit, worse->smooth_fit);
+    print_comparison(f, ", near edges", better->edge_fit, worse->edge_fit);
+    fputs(".\n", f);
 }
 
 void document_blur(FILE *f, const results *r)
 {
     fputs(
         "\n## Blur: across edges or not\n\nThe level `high` with each blur, RMSE with each row's best exponent. *Near "
-        "edges*: within 10 pixels of a place where normals turn by more than 37 degrees or view distances jump by more "
+        "edges*: within 10 pixels of a place where normals turn by more than 37 degrees or the surface jumps by more "
         "than 0.4 of the radius. A blur takes noise away and adds an error of its own: it flattens contact shadows, "
         "and, where it crosses edges, mixes surfaces that have nothing to do with each other. The columns tell which "
         "of the two wins where.\n",
         f);
     for (int t = 0; t < BENCH_TECHNIQUES; t++) {
-        const config_result *base = results_default(r, (glssao_technique)t), *best[4] = {NULL};
+        const config_result *base = results_default(r, (glssao_technique)t), *best[BENCH_BLURS] = {NULL};
         if (!base)
             continue;
         fprintf(f,
                 "\n**%s**\n\n| blur | rounds | RMSE | away from edges | near edges | ms |\n|---|---|---|---|---|---|\n",
                 bench_technique_name((glssao_technique)t));
-        for (int blur = GLSSAO_BLUR_NONE; blur <= GLSSAO_BLUR_BOX; blur++) {
+        for (int blur = GLSSAO_BLUR_NONE; blur < BENCH_BLURS; blur++) {
             for (int rounds = 0; rounds <= 4; rounds++) {
                 const config_result *c = find_blur(r, base, (glssao_blur)blur, rounds);
                 if (!c)

@@ -87,7 +87,9 @@ static bool make_views(run *r)
 static bool make_configs(run *r)
 {
     static bench_config configs[BENCH_CONFIGS_MAX];
-    static const timing no_time = {-1, -1, -1, {-1, -1, -1, -1}};
+    timing no_time = {.median_ms = -1, .p95_ms = -1, .cpu_ms = -1};
+    for (int i = 0; i < GLSSAO_PASS_COUNT; i++)
+        no_time.pass_ms[i] = -1;
     results *out = &r->results;
     /* Silent, as it is asked for what it may refuse. */
     const glssao_config config = {

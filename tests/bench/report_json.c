@@ -42,10 +42,10 @@ static void print_measure(FILE *f, const error_measure *m)
 
 static void print_timing(FILE *f, const timing *t)
 {
-    static const char *const passes[GLSSAO_PASS_COUNT] = {[GLSSAO_PASS_NORMALS] = "normals_ms",
-                                                          [GLSSAO_PASS_ESTIMATE] = "estimate_ms",
-                                                          [GLSSAO_PASS_BLUR] = "blur_ms",
-                                                          [GLSSAO_PASS_APPLY] = "apply_ms"};
+    static const char *const passes[GLSSAO_PASS_COUNT] = {
+        [GLSSAO_PASS_NORMALS] = "normals_ms",   [GLSSAO_PASS_DISTANCE] = "distance_ms",
+        [GLSSAO_PASS_ESTIMATE] = "estimate_ms", [GLSSAO_PASS_BLUR] = "blur_ms",
+        [GLSSAO_PASS_UPSAMPLE] = "upsample_ms", [GLSSAO_PASS_APPLY] = "apply_ms"};
     if (t->median_ms < 0)
         return;
     fprintf(f, ", \"time\": {\"median_ms\": %.4f, \"p95_ms\": %.4f, \"cpu_median_ms\": %.4f", t->median_ms, t->p95_ms,
@@ -87,16 +87,16 @@ static void print_head(FILE *f, const results *r)
 
 static void print_settings(FILE *f, const glssao_settings *s)
 {
-    static const char *const blurs[] = {"none", "gaussian", "bilateral", "box"};
     fprintf(f,
             "\"settings\": {\"technique\": \"%s\", \"radius\": %g, \"fade_start\": %g, \"fade_end\": %g, "
-            "\"surface_epsilon\": %g, \"power\": %g, \"sample_count\": %d, \"half_resolution\": %s, \"blur\": \"%s\", "
+            "\"surface_epsilon\": %g, \"power\": %g, \"sample_count\": %d, \"half_resolution\": %s, \"upsample\": %s, "
+            "\"blur\": \"%s\", "
             "\"blur_rounds\": %d, \"blur_sigma\": %g, \"blur_normal_threshold\": %g, \"blur_depth_threshold\": %g, "
             "\"no_angle_weight\": %s}",
             bench_technique_name(s->technique), (double)s->radius, (double)s->fade_start, (double)s->fade_end,
             (double)s->surface_epsilon, (double)s->power, s->sample_count, s->half_resolution ? "true" : "false",
-            blurs[s->blur], s->blur_rounds, (double)s->blur_sigma, (double)s->blur_normal_threshold,
-            (double)s->blur_depth_threshold, s->no_angle_weight ? "true" : "false");
+            s->upsample ? "true" : "false", bench_blur_name(s->blur), s->blur_rounds, (double)s->blur_sigma,
+            (double)s->blur_normal_threshold, (double)s->blur_depth_threshold, s->no_angle_weight ? "true" : "false");
 }
 
 static void print_config(FILE *f, const results *r, const config_result *c)

@@ -30,7 +30,11 @@ double results_rmse(const config_result *c)
 double results_ratio(const results *r, const config_result *c)
 {
     const config_result *base = results_default(r, GLSSAO_CLASSIC);
-    return base && base->time.median_ms > 0 && c->time.median_ms > 0 ? c->time.median_ms / base->time.median_ms : -1;
+    if (!base)
+        return -1;
+    const double own = r->software ? c->time.cpu_ms : c->time.median_ms;
+    const double of_base = r->software ? base->time.cpu_ms : base->time.median_ms;
+    return own > 0 && of_base > 0 ? own / of_base : -1;
 }
 
 bool results_on_front(const results *r, const config_result *c)

@@ -88,7 +88,8 @@ const config_result *results_default(const results *r, glssao_technique techniqu
 /* What the chart and the ranking go by: as it is, or with the best exponent for the contrast techniques. */
 double results_rmse(const config_result *c);
 
-/* The time beside that of classic-high in the same run; negative: not known. */
+/* The time beside that of classic-high in the same run, on a software rasteriser the processor's, which a busy machine
+ * changes least; negative: not known. */
 double results_ratio(const results *r, const config_result *c);
 
 /* True where no other configuration is both faster and nearer to the truth. */

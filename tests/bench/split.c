@@ -66,7 +66,7 @@ static bool allocate(splitter *s)
     s->pixels = calloc(views, sizeof *s->pixels);
     s->truth = calloc(views, sizeof *s->truth);
     s->oracle = calloc(views, sizeof *s->oracle);
-    s->accumulators = calloc(views * (size_t)r->split_count, sizeof *s->accumulators);
+    s->accumulators = calloc(views * (size_t)r->split_count + 1, sizeof *s->accumulators);
     r->oracle.view_rmse = calloc(views, sizeof *r->oracle.view_rmse);
     bool ok = s->picture && s->pixels && s->truth && s->oracle && s->accumulators && r->oracle.view_rmse;
     for (int i = 0; i < r->split_count; i++) {

@@ -122,12 +122,10 @@ static void draw_panel(canvas *c, const bench_view *v, const panel *p, int left,
 static bool draw_strip(const bench_view *v, const config_result *c, const float *as_is, const float *plain,
                        const char *path, char *error, size_t error_size)
 {
-    const panel panels[] = {{v->truth.accessibility, 1, false, 0, 0},
-                            {as_is, 1, false, 1, 0},
-                            {as_is, 1, true, 2, 0},
-                            {plain, c->exponent, false, 1, 1},
-                            {plain, c->exponent, true, 2, 1}};
-    const int rows = bench_has_contrast(c->config.settings.technique) ? 2 : 1, count = rows == 2 ? 5 : 3;
+    const panel panels[] = {
+        {v->truth.accessibility, 1, false, 0, 0}, {as_is, 1, false, 1, 0},           {as_is, 1, true, 2, 0},
+        {v->truth.accessibility, 1, false, 0, 1}, {plain, c->exponent, false, 1, 1}, {plain, c->exponent, true, 2, 1}};
+    const int rows = bench_has_contrast(c->config.settings.technique) ? 2 : 1, count = rows * COLUMNS;
     const int wide = v->gbuffer.view.width / 2, high = v->gbuffer.view.height / 2;
     canvas image = {.width = COLUMNS * (wide + GAP) - GAP, .height = rows * (high + GAP) - GAP + FOOT};
     const size_t bytes = 3 * (size_t)image.width * (size_t)image.height;
