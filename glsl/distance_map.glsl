@@ -13,17 +13,3 @@ vec3 position_view_from_map(ivec2 texel, float distance)
 {
     return position_view_from_uv(uv_from_texel(texel * gFactor), distance);
 }
-
-// A function of distance that is linear across the picture of a plane, and what an error of `length` (scene units) about
-// `distance` comes to in it.
-float linear_from_distance(float distance)
-{
-    bool orthographic = gRayDirection.x == 0.0;
-    return orthographic ? distance : 1.0 / distance;
-}
-
-float linear_error(float length, float distance)
-{
-    bool orthographic = gRayDirection.x == 0.0;
-    return orthographic ? length : length / (distance * distance);
-}

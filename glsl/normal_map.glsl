@@ -6,9 +6,8 @@ uniform sampler2D u_normal_map; // view space, any length
 
 // View-space unit normal, or 0 where the map holds none (length 0, infinite, not a number): a comparison with
 // something that is no number is false, so all three take the same way out, and normalize() never divides by 0.
-vec3 normal_view_from_map(ivec2 texel)
+vec3 normal_view_from_stored(vec3 normal)
 {
-    vec3 normal = texelFetch(u_normal_map, texel, 0).xyz;
 #if OCTAHEDRAL_NORMALS
     normal.z = 1.0 - abs(normal.x) - abs(normal.y);
     // The lower half is folded over the square's edges; a coordinate of 0 belongs to the positive side.
@@ -21,4 +20,15 @@ vec3 normal_view_from_map(ivec2 texel)
     if (!(length_squared > 1e-20 && length_squared < 1e20))
         return vec3(0.0);
     return normal * inversesqrt(length_squared);
+}
+
+vec3 normal_view_from_map(ivec2 texel)
+{
+    return normal_view_from_stored(texelFetch(u_normal_map, texel, 0).xyz);
+}
+
+// At a texel's centre; for maps bound to a sampler that does not filter.
+vec3 normal_view_at_uv(vec2 uv)
+{
+    return normal_view_from_stored(textureLod(u_normal_map, uv, 0.0).xyz);
 }

@@ -37,6 +37,24 @@ float distance_from_depth(float depth)
     return abs(distance) < FAR_AWAY ? distance : FAR_AWAY;
 }
 
+// A quantity that is linear across the picture of a plane: 1 / distance in perspective, distance itself where the
+// projection is orthographic.
+bool orthographic()
+{
+    return gRayDirection.x == 0.0;
+}
+
+float linear_from_distance(float distance)
+{
+    return orthographic() ? distance : 1.0 / distance;
+}
+
+// What an error of `length` (scene units) about a surface comes to in it.
+float linear_error(float length, float linear)
+{
+    return orthographic() ? length : length * linear * linear;
+}
+
 // Whether a stored depth means that nothing was drawn.
 bool is_sky(float depth)
 {

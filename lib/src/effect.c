@@ -111,6 +111,7 @@ void glssao_destroy(glssao_effect *effect)
     free(effect->programs);
     glssao__maps_delete_target(gl, &effect->normal_map); /* names of 0 are ignored, here and below */
     glssao__maps_delete_ambient(gl, &effect->ambient);
+    glssao__maps_delete_ambient(gl, &effect->paired);
     glssao__maps_delete_target(gl, &effect->distance_map);
     glssao__maps_delete_target(gl, &effect->full_map);
     gl->DeleteTextures(1, &effect->random_vector_map);
@@ -144,7 +145,8 @@ glssao_result glssao_resize(glssao_effect *effect, int width, int height)
         return result;
     glssao__maps_delete_target(&effect->gl, &effect->normal_map);
     glssao__maps_delete_ambient(&effect->gl, &effect->ambient);
-    glssao__maps_delete_target(&effect->gl, &effect->distance_map); /* made again when next needed */
+    glssao__maps_delete_ambient(&effect->gl, &effect->paired); /* made again when next needed, as are these: */
+    glssao__maps_delete_target(&effect->gl, &effect->distance_map);
     glssao__maps_delete_target(&effect->gl, &effect->full_map);
     effect->result_is_full = false;
     effect->normal_map = normal;
@@ -165,7 +167,7 @@ uint32_t glssao_map(const glssao_effect *effect, glssao_map_id id, int *out_widt
             texture = glssao__maps_result(effect, &width, &height);
             break;
         case GLSSAO_MAP_AMBIENT_OTHER:
-            texture = effect->ambient.texture[1];
+            texture = effect->is_paired ? effect->paired.texture[1] : effect->ambient.texture[1];
             width = effect->ambient.width;
             height = effect->ambient.height;
             break;

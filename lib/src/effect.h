@@ -165,6 +165,8 @@ struct glssao_effect {
     glssao__target full_map;     /* the upsampled result; made when first needed */
     bool result_is_full;         /* the last result lies in full_map */
     glssao__ambient_maps ambient;
+    glssao__ambient_maps paired; /* accessibility and the linear quantity of distance; made when first needed */
+    bool is_paired;              /* the last frame's passes drew into them */
     bool ambient_is_one; /* both ambient maps hold 1 everywhere: nothing to clear */
     gl_uint random_vector_map;
     gl_uint depth_texture; /* the host's, as last handed over */
@@ -240,6 +242,7 @@ glssao_result glssao__maps_make_normal(glssao_effect *effect, int width, int hei
 /* Makes or remakes the map where it has another size; on failure it is as it was. */
 glssao_result glssao__maps_fit_distance(glssao_effect *effect, int width, int height);
 glssao_result glssao__maps_fit_full(glssao_effect *effect);
+glssao_result glssao__maps_fit_paired(glssao_effect *effect, int width, int height);
 void glssao__maps_delete_target(const glssao__gl *gl, glssao__target *target);
 /* The texture that holds the result. */
 gl_uint glssao__maps_result(const glssao_effect *effect, int *out_width, int *out_height);

@@ -189,6 +189,13 @@ static glssao_result get_programs(glssao_effect *effect, const glssao_frame *fra
     return result;
 }
 
+/* Whether a pass reads the linear quantity of distance beside accessibility. */
+static bool is_paired(const glssao_settings *settings, const glssao_plan *plan)
+{
+    return plan->passes[GLSSAO_PASS_UPSAMPLE].run ||
+           (plan->passes[GLSSAO_PASS_BLUR].run && settings->blur == GLSSAO_BLUR_PLANAR);
+}
+
 /* Makes the maps that the plan draws into, at its sizes. */
 static glssao_result fit_maps(glssao_effect *effect, const glssao_settings *settings, const glssao_plan *plan)
 {
@@ -199,6 +206,8 @@ static glssao_result fit_maps(glssao_effect *effect, const glssao_settings *sett
         result = glssao__maps_fit_distance(effect, width, height);
     if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_UPSAMPLE].run)
         result = glssao__maps_fit_full(effect);
+    if (result == GLSSAO_OK && is_paired(settings, plan))
+        result = glssao__maps_fit_paired(effect, width, height);
     if (result != GLSSAO_OK || (width == effect->ambient.width && height == effect->ambient.height))
         return result;
     glssao__ambient_maps maps;
@@ -238,28 +247,43 @@ static void map_distance(glssao_effect *effect, const glssao__program_object *pr
     bind_input(effect, UNIT_DISTANCE, effect->distance_map.texture, SAMPLER_POINT_CLAMP);
 }
 
-static void estimate(glssao_effect *effect, const glssao__program_object *program)
+/* The two maps that the passes of a frame draw into by turns, and read from. */
+static const glssao__ambient_maps *turns(const glssao_effect *effect)
+{
+    return effect->is_paired ? &effect->paired : &effect->ambient;
+}
+
+/* Draws the `number`-th of the estimate (0) and the blur's passes; the last leaves the result, if it is not brought to
+ * full size, where the host looks for it. */
+static void draw_turn(glssao_effect *effect, int number, bool is_result)
+{
+    const glssao__ambient_maps *maps = is_result ? &effect->ambient : turns(effect);
+    if (number > 0)
+        bind_input(effect, UNIT_AMBIENT, turns(effect)->texture[(number - 1) % 2], SAMPLER_POINT_CLAMP);
+    draw(effect, maps->framebuffer[is_result ? 0 : number % 2], maps->width, maps->height);
+}
+
+static void estimate(glssao_effect *effect, const glssao__program_object *program, bool is_result)
 {
     bind_input(effect, UNIT_RANDOM_VECTOR, effect->random_vector_map, SAMPLER_LINEAR_WRAP);
     effect->gl.UseProgram(program->name);
-    draw(effect, effect->ambient.framebuffer[0], effect->ambient.width, effect->ambient.height);
+    draw_turn(effect, 0, is_result);
 }
 
-static void blur(glssao_effect *effect, const glssao__program_object *program, int rounds)
+static void blur(glssao_effect *effect, const glssao__program_object *program, int rounds, bool is_result)
 {
     effect->gl.UseProgram(program->name);
-    for (int i = 0; i < 2 * rounds; ++i) {
-        int from = i % 2; /* horizontal 0 to 1, vertical 1 to 0 */
-        effect->gl.Uniform1i(program->horizontal_location, from == 0);
-        bind_input(effect, UNIT_AMBIENT, effect->ambient.texture[from], SAMPLER_POINT_CLAMP);
-        draw(effect, effect->ambient.framebuffer[1 - from], effect->ambient.width, effect->ambient.height);
+    for (int i = 1; i <= 2 * rounds; ++i) {
+        effect->gl.Uniform1i(program->horizontal_location, i % 2); /* horizontal 0 to 1, vertical 1 to 0 */
+        draw_turn(effect, i, is_result && i == 2 * rounds);
     }
 }
 
-static void upsample(glssao_effect *effect, const glssao__program_object *program)
+static void upsample(glssao_effect *effect, const glssao_frame *frame, const glssao__program_object *program)
 {
     effect->gl.UseProgram(program->name);
-    bind_input(effect, UNIT_AMBIENT, effect->ambient.texture[0], SAMPLER_POINT_CLAMP);
+    bind_input(effect, UNIT_DEPTH, depth_source(frame), SAMPLER_POINT_CLAMP);
+    bind_input(effect, UNIT_AMBIENT, turns(effect)->texture[0], SAMPLER_POINT_CLAMP);
     draw(effect, effect->full_map.framebuffer, effect->full_map.width, effect->full_map.height);
 }
 
@@ -282,13 +306,14 @@ static void run_passes(glssao_effect *effect, const glssao_frame *frame, const g
         case GLSSAO_PASS_ESTIMATE:
             bind_input(effect, UNIT_NORMAL, frame->normal_texture ? frame->normal_texture : effect->normal_map.texture,
                        SAMPLER_POINT_CLAMP);
-            estimate(effect, &programs->estimate);
+            estimate(effect, &programs->estimate,
+                     !plan->passes[GLSSAO_PASS_BLUR].run && !plan->passes[GLSSAO_PASS_UPSAMPLE].run);
             break;
         case GLSSAO_PASS_BLUR:
-            blur(effect, &programs->blur, settings->blur_rounds);
+            blur(effect, &programs->blur, settings->blur_rounds, !plan->passes[GLSSAO_PASS_UPSAMPLE].run);
             break;
         case GLSSAO_PASS_UPSAMPLE:
-            upsample(effect, &programs->upsample);
+            upsample(effect, frame, &programs->upsample);
             break;
         case GLSSAO_PASS_APPLY: /* glssao_apply's own */
         case GLSSAO_PASS_COUNT:
@@ -333,7 +358,10 @@ static glssao_result compute(glssao_effect *effect, const glssao_frame *frame, c
     gl_float sky = frame->depth_kind == GLSSAO_DEPTH_WINDOW ? projection->sky_depth : SKY_DISTANCE;
     effect->gl.SamplerParameterfv(effect->samplers[SAMPLER_DEPTH], GL_TEXTURE_BORDER_COLOR,
                                   (const gl_float[4]){sky, sky, sky, sky});
-    bind_input(effect, UNIT_DEPTH, depth_source(frame), SAMPLER_DEPTH);
+    effect->is_paired = is_paired(settings, &plan);
+    /* Horizon fetches depth; the others read occluders filtered. */
+    bind_input(effect, UNIT_DEPTH, depth_source(frame),
+               settings->technique == GLSSAO_HORIZON ? SAMPLER_POINT_CLAMP : SAMPLER_DEPTH);
     run_passes(effect, frame, settings, &plan, &programs);
     effect->result_is_full = plan.passes[GLSSAO_PASS_UPSAMPLE].run;
     return GLSSAO_OK;

@@ -22,8 +22,8 @@ static gl_uint make_texture(const glssao__gl *gl, gl_enum format, int width, int
     gl->GenTextures(1, &texture);
     gl->ActiveTexture(GL_TEXTURE0 + UNIT_AMBIENT);
     gl->BindTexture(GL_TEXTURE_2D, texture);
-    gl->TexImage2D(GL_TEXTURE_2D, 0, (gl_int)format, width, height, 0,
-                   format == GL_R16 || format == GL_R32F ? GL_RED : GL_RGBA, rgba8 ? GL_UNSIGNED_BYTE : GL_FLOAT,
+    gl_enum channels = format == GL_RG32F ? GL_RG : format == GL_R16 || format == GL_R32F ? GL_RED : GL_RGBA;
+    gl->TexImage2D(GL_TEXTURE_2D, 0, (gl_int)format, width, height, 0, channels, rgba8 ? GL_UNSIGNED_BYTE : GL_FLOAT,
                    rgba8);
     /* Hosts may read the maps with a sampler of their own or with none: complete either way. */
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
@@ -114,21 +114,42 @@ static void clear_to_one(const glssao__gl *gl, const glssao__ambient_maps *maps)
     }
 }
 
-glssao_result glssao__maps_make_ambient(glssao_effect *effect, int width, int height, glssao__ambient_maps *out_maps)
+static glssao_result make_pair(glssao_effect *effect, gl_enum format, int width, int height, const char *what,
+                               glssao__ambient_maps *out_maps)
 {
     *out_maps = (glssao__ambient_maps){.width = width, .height = height};
-    glssao_result result = GLSSAO_OK;
-    for (int i = 0; i < 2 && result == GLSSAO_OK; ++i) {
+    for (int i = 0; i < 2; ++i) {
         glssao__target target;
-        result = make_target(effect, GL_R16, width, height, "ambient", &target);
+        glssao_result result = make_target(effect, format, width, height, what, &target);
         out_maps->texture[i] = target.texture;
         out_maps->framebuffer[i] = target.framebuffer;
+        if (result != GLSSAO_OK) {
+            glssao__maps_delete_ambient(&effect->gl, out_maps);
+            return result;
+        }
     }
+    return GLSSAO_OK;
+}
+
+glssao_result glssao__maps_make_ambient(glssao_effect *effect, int width, int height, glssao__ambient_maps *out_maps)
+{
+    glssao_result result = make_pair(effect, GL_R16, width, height, "ambient", out_maps);
     if (result == GLSSAO_OK)
         clear_to_one(&effect->gl, out_maps);
-    else
-        glssao__maps_delete_ambient(&effect->gl, out_maps);
     return result;
+}
+
+glssao_result glssao__maps_fit_paired(glssao_effect *effect, int width, int height)
+{
+    if (effect->paired.width == width && effect->paired.height == height)
+        return GLSSAO_OK;
+    glssao__ambient_maps made;
+    glssao_result result = make_pair(effect, GL_RG32F, width, height, "paired ambient", &made);
+    if (result != GLSSAO_OK)
+        return result;
+    glssao__maps_delete_ambient(&effect->gl, &effect->paired);
+    effect->paired = made;
+    return GLSSAO_OK;
 }
 
 void glssao__maps_delete_ambient(const glssao__gl *gl, glssao__ambient_maps *maps)

@@ -77,10 +77,6 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
     struct glssao_planned_pass *distance = &plan.passes[GLSSAO_PASS_DISTANCE];
     if (settings->technique == GLSSAO_HORIZON)
         *distance = planned(GLSSAO_PASS_DISTANCE, true, "the estimate reads it");
-    else if (blur->run && settings->blur == GLSSAO_BLUR_PLANAR)
-        *distance = planned(GLSSAO_PASS_DISTANCE, true, "the blur reads it");
-    else if (upsample->run)
-        *distance = planned(GLSSAO_PASS_DISTANCE, true, "upsampling reads it");
     else
         *distance = planned(GLSSAO_PASS_DISTANCE, false, "no pass reads it");
 

@@ -145,9 +145,9 @@ static bool check_frame(const glssao_effect *effect, const glssao_frame *frame, 
         return refuse(log, "frame.normal_texture", 0, "no texture, and GLSSAO_DEPTH_NORMAL_ALPHA reads depth from it");
     if (!in_alpha && frame->depth_texture == 0)
         return refuse(log, "frame.depth_texture", 0, "no texture");
-    const gl_uint written[] = {effect->ambient.texture[0], effect->ambient.texture[1], effect->distance_map.texture,
-                               effect->full_map.texture};
-    for (int i = 0; i < 4; ++i)
+    const gl_uint written[] = {effect->ambient.texture[0], effect->ambient.texture[1], effect->paired.texture[0],
+                               effect->paired.texture[1],  effect->distance_map.texture, effect->full_map.texture};
+    for (size_t i = 0; i < sizeof written / sizeof *written; ++i)
         if (written[i] && (frame->depth_texture == written[i] || frame->normal_texture == written[i]))
             return refuse(log, "frame texture", written[i], "the effect's own map can't be its input");
     return glssao__projection_analyse(frame->projection, frame->clip_zero_to_one, log, out_projection);
