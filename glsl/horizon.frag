@@ -3,39 +3,62 @@
 // Accurate Indirect Occlusion", 2016), gathered in a mask of sectors (O. Therrien et al., "Screen Space Indirect Lighting
 // with Visibility Bitmask", 2023) that are of equal cosine-weighted measure here. An occluder is taken to be as thick as
 // it is wide along the slice, and each sample is cut by the sphere of the radius, as the traced truth is.
-// in  u_normal_map     view space, fetched
-// in  u_distance_map   view distance at the estimate's size, fetched
-// in  u_depth_map      bound for its size alone
+// in  u_normal_map    view space; point sampled
+// in  u_distance_map  view distance at the estimate's size; point sampled, clamped
+// in  u_depth_map     bound for its size alone
 // out o_ambient       accessibility, and the linear quantity of distance
+// STEPS_8, STEPS_12, STEPS_16 1: that many samples on each side of a slice, else 6. SLICES_2 1: two slices, else one.
+//
+// In a slice, x is the distance along it from the point, outwards on either side, and y the height towards the eye, both
+// in units of the radius; angles are measured from y. Loops are written out by macros: Mesa's software rasteriser does
+// not unroll them, and a loop of a single turn still costs it a third of this pass.
 
 out vec2 o_ambient;
 
-#if STEPS_8
-const int STEPS = 8;
+#if STEPS_16
+#define STEPS 16
+#define EACH_STEP(f) f(0) f(1) f(2) f(3) f(4) f(5) f(6) f(7) f(8) f(9) f(10) f(11) f(12) f(13) f(14) f(15)
+#define EACH_STEP_BACK(f) f(15) f(14) f(13) f(12) f(11) f(10) f(9) f(8) f(7) f(6) f(5) f(4) f(3) f(2) f(1) f(0)
+#elif STEPS_12
+#define STEPS 12
+#define EACH_STEP(f) f(0) f(1) f(2) f(3) f(4) f(5) f(6) f(7) f(8) f(9) f(10) f(11)
+#define EACH_STEP_BACK(f) f(11) f(10) f(9) f(8) f(7) f(6) f(5) f(4) f(3) f(2) f(1) f(0)
+#elif STEPS_8
+#define STEPS 8
 #define EACH_STEP(f) f(0) f(1) f(2) f(3) f(4) f(5) f(6) f(7)
 #define EACH_STEP_BACK(f) f(7) f(6) f(5) f(4) f(3) f(2) f(1) f(0)
 #else
-const int STEPS = 6;
+#define STEPS 6
 #define EACH_STEP(f) f(0) f(1) f(2) f(3) f(4) f(5)
 #define EACH_STEP_BACK(f) f(5) f(4) f(3) f(2) f(1) f(0)
 #endif
-#if SLICES_4
-const int SLICES = 4;
-#elif SLICES_2
-const int SLICES = 2;
+#if SLICES_2
+#define SLICES 2
 #else
-const int SLICES = 1;
+#define SLICES 1
 #endif
 
 const float PI = 3.14159265;
 const float SECTORS = 31.0; // so that a full mask needs no shift by 32
+const float STEP = 1.0 / float(STEPS);
 
-const float JUMP = 0.4;
-const float OPEN_END = 1.25;
-const float CAP_BASE = 0.2;
-const float CAP_SLOPE = 1.5;
-const float VEIL = 0.15;
+// Tuned by glssao-tune; docs/decisions.md says on which scenes, and how the others fare.
+const float JUMP = 0.3;        // a step in height of more than this ends a run of samples ...
+const float ALIKE = 0.4;       // ... unless the step before or after it differs by less than this: a steep surface
+const float OPEN_END = 1.25;   // where a run ends that is not seen to end
+const float WIDTH = 1.0;       // thickness of a run that a jump separates from the point, in units of its width
+const float VEIL = 0.15;       // share of what lies hidden behind occluders that counts as occluded, however deep
+const float VEIL_WIDTH = 0.2;  // but not behind occluders thinner than this
+#if STEPS_16 || STEPS_12
+const float CALIBRATION = 1.0; // exponent that makes up for what few samples miss
+#elif STEPS_8
+const float CALIBRATION = 1.05;
+#else
 const float CALIBRATION = 1.1;
+#endif
+
+// Heights are lowered by this much, so that a sample which falls on the point's own texel lies below it.
+const float BIAS = 1e-4;
 
 uint count_bits(uint mask)
 {
@@ -44,170 +67,185 @@ uint count_bits(uint mask)
     return (((mask + (mask >> 4)) & 0x0F0F0F0Fu) * 0x01010101u) >> 24;
 }
 
-struct slice_frame {
-    vec2 center; // pixels
-    vec2 a, e;
-    float level, center_distance;
-    float jitter;
+// The cosine-weighted measure of the angles from 0 to acos(c) on one side, as a polynomial in c. For a normal that leans
+// towards that side by g it is the integral of cos(t - g) sin(t), which is (cos g (1 - c^2) + sin g h(c)) / 2 with
+// h(c) = acos(c) - c sqrt(1 - c^2), and h is within 0.004 of pi/2 - c (1.98868 - 0.25869 c^2 - 0.15521 c^4).
+struct polynomial {
+    vec4 low; // coefficients of 1, c, c^2, c^3
+    float c5;
 };
 
-vec2 map_size;
-vec2 inverse_size;
-float center_scale;
-
-vec2 sample_at(slice_frame f, vec2 step_px, float along, out float scale)
+polynomial measure(float cos_g, float sin_g, float scale)
 {
-    vec2 texel = clamp(floor(f.center + along * step_px), vec2(0.0), map_size - 1.0);
-    float distance = textureLod(u_distance_map, (texel + 0.5) * inverse_size, 0.0).r;
-    vec2 offset = texel + 0.5 - f.center;
-    float s = gRayDirection.x == 0.0 ? 1.0 : distance;
-    scale = s * center_scale;
-    return vec2(s * dot(offset, f.a), f.level * (f.center_distance - distance) + s * dot(offset, f.e));
+    return polynomial(0.5 * scale * vec4(cos_g + 0.5 * PI * sin_g, -1.98868 * sin_g, -cos_g, 0.25869 * sin_g),
+                      0.5 * scale * 0.15521 * sin_g);
 }
 
-// 0..31
-float sector(vec4 m, float m5, float c)
+float value(polynomial p, float c)
 {
     float c2 = c * c;
-    return (m.y + c2 * (m.w + c2 * m5)) * c + (m.x + c2 * m.z);
+    return (p.low.y + c2 * (p.low.w + c2 * p.c5)) * c + (p.low.x + c2 * p.low.z);
 }
 
-uint hidden_sectors(vec2 p[STEPS], float scales[STEPS], float jitter, float lowest, vec4 m, float m5, bool minus, out float highest)
+// The value, rounded and bounded to 0..31. Adding 1.5 * 2^23 leaves the rounded number in a float's lowest bits, which
+// GPUs have sooner than a conversion.
+uint sector(polynomial p, float c)
 {
+    return floatBitsToUint(clamp(value(p, c), 0.0, SECTORS) + 12582912.0) & 31u;
+}
+
+// What turns a sample's offset in pixels and its view distance into x and y.
+struct slice_frame {
+    vec2 size;             // of the distance map, pixels
+    vec2 center;           // the point, pixels
+    float center_distance; // scene units
+    float per_scale;       // of a step, at the point: STEP over what a pixel's size grows with
+    vec2 x_per_px;         // for the plus side
+    vec2 y_per_px;
+    float y_per_distance;
+};
+
+// Snapped to a texel's centre, and beyond the border to the border's; the height is corrected for the distance off the
+// slice as if the surface there were parallel to the point's own. z: the width of one step at the sample's distance.
+vec3 sample_at(slice_frame f, vec2 step_px, float along)
+{
+    vec2 texel = clamp(floor(f.center + along * step_px), vec2(0.0), f.size - 1.0);
+    float distance = textureLod(u_distance_map, (texel + 0.5) / f.size, 0.0).r;
+    vec2 offset = texel + 0.5 - f.center;
+    float scale = orthographic() ? 1.0 : distance;
+    return vec3(scale * dot(offset, f.x_per_px),
+                f.y_per_distance * (f.center_distance - distance) + (scale * dot(offset, f.y_per_px) - BIAS),
+                scale * f.per_scale);
+}
+
+// Sectors that one side's samples hide. `lowest` is the cosine of the angle at which the hemisphere ends there, `highest`
+// that of the horizon over occluders that veil what is behind them.
+uint hidden_sectors(vec3 samples[STEPS], float jitter, polynomial sectors, bool minus, float lowest, out float highest)
+{
+    float change[STEPS + 1];
+    bool jump[STEPS];
     float start[STEPS];
     float end[STEPS];
-    float at = -100.0;
-    float before = 0.0;
-#define FORWARD(i) at = abs(p[i].y - before) > JUMP ? float(i) : at; start[i] = at; before = p[i].y;
-    EACH_STEP(FORWARD)
-    at = OPEN_END * float(STEPS) - 0.5 + jitter;
-#define BACK(i) end[i] = at; at = abs(p[i].y - (i > 0 ? p[max(i - 1, 0)].y : 0.0)) > JUMP ? float(i) : at;
-    EACH_STEP_BACK(BACK)
+#define CHANGE(i) change[i] = samples[i].y - (i > 0 ? samples[max(i - 1, 0)].y : 0.0);
+    EACH_STEP(CHANGE)
+    change[STEPS] = 1e3;
+#define FIND_JUMP(i)                                                                                                   \
+    jump[i] = abs(change[i]) > JUMP && abs(change[i] - change[i + 1]) > ALIKE &&                                       \
+              (i == 0 || abs(change[i] - change[max(i - 1, 0)]) > ALIKE);
+    EACH_STEP(FIND_JUMP)
+    // In steps. The run that the point itself belongs to starts so far off that it is thicker than the sphere.
+    float boundary = -100.0;
+#define FIND_START(i)                                                                                                  \
+    boundary = jump[i] ? float(i) : boundary;                                                                          \
+    start[i] = boundary;
+    EACH_STEP(FIND_START)
+    boundary = OPEN_END * float(STEPS) - 0.5 + jitter;
+#define FIND_END(i)                                                                                                    \
+    end[i] = boundary;                                                                                                 \
+    boundary = jump[i] ? float(i) : boundary;
+    EACH_STEP_BACK(FIND_END)
     uint mask = 0u;
     highest = lowest;
-#define GATHER(i) { \
-        float x = p[i].x, y = p[i].y; \
-        float thickness = (end[i] - start[i]) * scales[i]; \
-        float x2 = x * x + 1e-12; \
-        float chord = sqrt(max(1.0 - x2, 0.0)); \
-        float top = min(y, chord); \
-        float bottom = max(y - thickness, -chord); \
-        float cos_top = x > 0.0 && x < 1.0 ? max(top * inversesqrt(x2 + top * top), lowest) : lowest; \
-        float cos_bottom = clamp(bottom * inversesqrt(x2 + bottom * bottom), lowest, cos_top); \
-        highest = max(highest, cos_top); \
-        uint near = uint(sector(m, m5, cos_top)); \
-        uint far = uint(sector(m, m5, cos_bottom)); \
-        mask |= minus ? (1u << near) - (1u << far) : (1u << far) - (1u << near); \
+    // Beyond the sphere the chord is 0, and top and bottom come out alike.
+#define HIDE(i)                                                                                                        \
+    {                                                                                                                  \
+        float x2 = samples[i].x * samples[i].x + 1e-12;                                                                \
+        float thickness = WIDTH * (end[i] - start[i]) * samples[i].z;                                                  \
+        float chord = sqrt(max(1.0 - x2, 0.0));                                                                        \
+        float top = min(samples[i].y, chord);                                                                          \
+        float bottom = max(samples[i].y - thickness, -chord);                                                          \
+        float cos_top = max(top * inversesqrt(x2 + top * top), lowest);                                                \
+        float cos_bottom = clamp(bottom * inversesqrt(x2 + bottom * bottom), lowest, cos_top);                         \
+        highest = max(highest, thickness > VEIL_WIDTH && x2 < 1.0 ? cos_top : lowest);                                 \
+        uint near = 1u << sector(sectors, cos_top);                                                                    \
+        uint far = 1u << sector(sectors, cos_bottom);                                                                  \
+        mask |= minus ? near - far : far - near;                                                                       \
     }
-    EACH_STEP(GATHER)
+    EACH_STEP(HIDE)
     return mask;
 }
 
-// Ordered tile of directions: 4x4 Bayer for the angle, the same bits reversed for the jitter along the slice.
+// Ordered tile: 4x4 Bayer for the angle, the same bits reversed for the jitter along the slice, both moved on by gNoise.
 vec2 tile_noise()
 {
     uvec2 p = uvec2(gl_FragCoord.xy) & 3u;
     uint x = p.x ^ p.y;
     uint bayer = ((x & 1u) << 3) | ((p.y & 1u) << 2) | (x & 2u) | (p.y >> 1);
     uint reversed = ((bayer & 1u) << 3) | ((bayer & 2u) << 1) | ((bayer & 4u) >> 1) | (bayer >> 3);
-    return (vec2(bayer, reversed) + 0.5) / 16.0;
+    return fract((vec2(bayer, reversed) + 0.5) / 16.0 + gNoise);
 }
 
-vec4 side_measure(float cos_g, float sin_g)
+// What the slice adds to occlusion. `px`: view xy that a pixel gains, per unit of distance in perspective.
+float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float angle, float jitter)
 {
-    return vec4(0.5 * (cos_g + sin_g * 1.5707963), -0.5 * sin_g * 1.98868, -0.5 * cos_g, 0.5 * sin_g * 0.25869);
-}
-
-float measured(vec4 m, float m5, float c)
-{
-    float c2 = c * c;
-    return (m.y + c2 * (m.w + c2 * m5)) * c + (m.x + c2 * m.z);
-}
-
-float exit_at(vec2 center, vec2 step_px, vec2 size)
-{
-    vec2 room = mix(center - 0.5, size - 0.5 - center, greaterThan(step_px, vec2(0.0)));
-    vec2 t = room / max(abs(step_px), 1e-6);
-    return min(t.x, t.y);
-}
-
-float slice_occlusion(int slice, slice_frame f, vec3 normal_view, vec3 up, vec2 px, vec2 noise)
-{
-    float angle_rad = PI * (noise.x + float(slice)) / float(SLICES);
-    vec2 direction = vec2(cos(angle_rad), sin(angle_rad));
-    vec2 step_px = gOcclusionRadius * direction / px * (center_scale * float(STEPS));
-    step_px = clamp(step_px, -1e5, 1e5);
+    vec2 direction = vec2(cos(PI * angle), sin(PI * angle));
+    // The bound keeps pixel coordinates exact, however near the point is.
+    vec2 step_px = clamp(gOcclusionRadius * float(STEPS) * f.per_scale * direction / px, -1e5, 1e5);
     vec3 along = vec3(direction, 0.0);
     along = normalize(along - up * dot(along, up));
     vec3 across = cross(up, along);
+    // Shading normals may look away from the eye; the hemisphere is then seen from its rim.
     float normal_up = max(dot(normal_view, up), 0.0);
     float normal_along = dot(normal_view, along);
+    // Seen edge-on the tangent plane is all slope; the bounds keep a snapped sample's height of the same order as its x.
     float slope = clamp(dot(normal_view, across) / max(normal_up, 1e-3), -40.0, 40.0);
-    f.a = px * along.xy / gOcclusionRadius;
-    f.e = px * (up.xy + slope * across.xy) / gOcclusionRadius;
+    f.x_per_px = px * along.xy / gOcclusionRadius;
+    f.y_per_px = px * (up.xy + slope * across.xy) / gOcclusionRadius;
+    // The normal, projected into the slice, leans by g; a normal straight across the slice projects to nothing.
     float projected = sqrt(max(normal_along * normal_along + normal_up * normal_up, 1e-12));
     float cos_g = normal_up / projected;
     float sin_g = normal_along / projected;
-    vec4 plus_m = side_measure(cos_g, sin_g);
-    float plus_m5 = 0.5 * sin_g * 0.15521;
-    vec4 minus_m = side_measure(cos_g, -sin_g);
-    float total_plus = measured(plus_m, plus_m5, -sin_g);
-    float total_minus = measured(minus_m, -plus_m5, sin_g);
-    float total = max(total_plus + total_minus, 1e-6);
+    polynomial plus = measure(cos_g, sin_g, 1.0);
+    polynomial minus = measure(cos_g, -sin_g, 1.0);
+    float total_minus = value(minus, sin_g);
+    float total = max(value(plus, -sin_g) + total_minus, 1e-6);
+    // Sectors are numbered from the far end of the minus side.
     float scale = SECTORS / total;
-    vec2 plus[STEPS];
-    vec2 minus[STEPS];
-    float plus_scale[STEPS];
-    float minus_scale[STEPS];
-    float plus_exit = exit_at(f.center, step_px, map_size);
-    float minus_exit = -exit_at(f.center, -step_px, map_size);
-#define SAMPLE(i) { \
-    float at = (float(i) + 1.0 - noise.y) / float(STEPS); \
-    plus[i] = sample_at(f, step_px, at, plus_scale[i]); \
-    minus[i] = sample_at(f, step_px, -at, minus_scale[i]); \
-    minus[i].x = -minus[i].x; }
-    EACH_STEP(SAMPLE)
-    float offset = total_minus * scale + 0.5;
-    float high_plus, high_minus;
-    uint mask = hidden_sectors(plus, plus_scale, noise.y, -sin_g, plus_m * scale + vec4(offset, 0.0, 0.0, 0.0), plus_m5 * scale, false, high_plus) |
-                hidden_sectors(minus, minus_scale, noise.y, sin_g, -minus_m * scale + vec4(offset, 0.0, 0.0, 0.0), plus_m5 * scale, true, high_minus);
-    float veiled = total - measured(plus_m, plus_m5, high_plus) - measured(minus_m, -plus_m5, high_minus);
-    return projected * mix(total * float(count_bits(mask)) / SECTORS, veiled, VEIL);
+    polynomial plus_sectors = measure(cos_g, sin_g, scale);
+    polynomial minus_sectors = measure(-cos_g, sin_g, scale);
+    plus_sectors.low.x += total_minus * scale;
+    minus_sectors.low.x += total_minus * scale;
+
+    vec3 plus_samples[STEPS];
+    vec3 minus_samples[STEPS];
+#define TAKE_SAMPLES(i)                                                                                                \
+    plus_samples[i] = sample_at(f, step_px, (float(i) + 1.0 - jitter) * STEP);                                         \
+    minus_samples[i] = sample_at(f, step_px, (jitter - 1.0 - float(i)) * STEP) * vec3(-1.0, 1.0, 1.0);
+    EACH_STEP(TAKE_SAMPLES)
+    float highest_plus, highest_minus;
+    uint mask = hidden_sectors(plus_samples, jitter, plus_sectors, false, -sin_g, highest_plus) |
+                hidden_sectors(minus_samples, jitter, minus_sectors, true, sin_g, highest_minus);
+    float hidden = total * float(count_bits(mask)) / SECTORS;
+    float veiled = total - value(plus, highest_plus) - value(minus, highest_minus);
+    return projected * mix(hidden, veiled, VEIL);
 }
 
 void main()
 {
-    ivec2 texel = ivec2(gl_FragCoord.xy);
-    vec2 uv = uv_from_texel(texel * gFactor);
+    vec2 map_size = vec2(textureSize(u_distance_map, 0));
+    float distance = textureLod(u_distance_map, gl_FragCoord.xy / map_size, 0.0).r;
+    vec2 full_size = vec2(textureSize(u_depth_map, 0));
+    vec2 uv = (floor(gl_FragCoord.xy) * float(gFactor) + 0.5) / full_size;
     vec3 normal_view = normal_view_at_uv(uv);
-    float distance = textureLod(u_distance_map, gl_FragCoord.xy / vec2(textureSize(u_distance_map, 0)), 0.0).r;
-    // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
     o_ambient = vec2(1.0, linear_from_distance(distance));
+    // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
     if (distance >= FAR_AWAY || normal_view == vec3(0.0))
         return;
-    map_size = vec2(textureSize(u_distance_map, 0));
-    inverse_size = 1.0 / map_size;
     vec3 ray = vec3(uv * gRayDirection.xy + gRayDirection.zw, -1.0);
     float ray_length = length(ray);
     vec3 up = -ray / ray_length;
-    bool is_orthographic = orthographic();
-    vec2 uv_per_px = float(gFactor) / vec2(textureSize(u_depth_map, 0));
-    vec2 px = uv_per_px * (is_orthographic ? gRayOrigin.xy : gRayDirection.xy);
-    center_scale = (is_orthographic ? 1.0 : 1.0 / distance) / float(STEPS);
+    vec2 px = float(gFactor) / full_size * (orthographic() ? gRayOrigin.xy : gRayDirection.xy);
     slice_frame f;
-    f.center = vec2(texel) + 0.5;
+    f.size = map_size;
+    f.center = gl_FragCoord.xy;
     f.center_distance = distance;
-    f.level = ray_length / gOcclusionRadius;
+    f.per_scale = STEP / (orthographic() ? 1.0 : distance);
+    f.y_per_distance = ray_length / gOcclusionRadius;
     vec2 noise = tile_noise();
-    f.jitter = noise.y;
-    float occlusion = slice_occlusion(0, f, normal_view, up, px, noise);
-#if SLICES_2 || SLICES_4
-    occlusion += slice_occlusion(1, f, normal_view, up, px, noise);
-#endif
-#if SLICES_4
-    occlusion += slice_occlusion(2, f, normal_view, up, px, noise);
-    occlusion += slice_occlusion(3, f, normal_view, up, px, noise);
+    float occlusion = slice_occlusion(f, normal_view, up, px, noise.x / float(SLICES), noise.y);
+#if SLICES_2
+    occlusion = 0.5 * (occlusion + slice_occlusion(f, normal_view, up, px, 0.5 * (noise.x + 1.0), noise.y));
 #endif
     // pow() is undefined for a base of 0 with power 0, and for the negative that rounding can leave.
-    o_ambient.x = clamp(pow(max(1.0 - occlusion / float(SLICES), 1e-6), CALIBRATION * gPower), 0.0, 1.0);
+    o_ambient.x = clamp(pow(max(1.0 - occlusion, 1e-6), CALIBRATION * gPower), 0.0, 1.0);
 }

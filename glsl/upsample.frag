@@ -24,16 +24,14 @@ void main()
     vec2 c = textureLod(u_ambient_map, vec2(uv_a.x, uv_d.y), 0.0).rg;
     vec2 d = textureLod(u_ambient_map, uv_d, 0.0).rg;
     float depth = depth_component(textureLod(u_depth_map, gl_FragCoord.xy / vec2(textureSize(u_depth_map, 0)), 0.0));
-    float own = linear_from_distance(distance_from_depth(depth));
+    float own = linear_from_depth(depth);
     float tolerance = linear_error(TOLERANCE * gOcclusionRadius, own);
     vec4 neighbours = vec4(a.y, b.y, c.y, d.y);
     bool on_plane = abs(dot(neighbours, vec4(0.25)) - own) < tolerance;
-    // Squared, in units of the tolerance; the bound keeps products of three finite beside sky.
-    vec4 apart = min(abs(neighbours - own) / tolerance, 1e4);
-    apart = apart * apart + 1e-3;
-    // Each weight in proportion to 1 / apart.
-    vec2 pairs = apart.xz * apart.yw;
-    vec4 weights = on_plane ? vec4(1.0) : vec4(apart.yx * pairs.y, apart.wz * pairs.x);
-    float accessibility = dot(weights, vec4(a.x, b.x, c.x, d.x)) / dot(weights, vec4(1.0));
+    vec4 apart = abs(neighbours - own);
+    vec2 ab = apart.x <= apart.y ? vec2(a.x, apart.x) : vec2(b.x, apart.y);
+    vec2 cd = apart.w <= apart.z ? vec2(d.x, apart.w) : vec2(c.x, apart.z);
+    float nearest = ab.y <= cd.y ? ab.x : cd.x;
+    float accessibility = on_plane ? 0.25 * (a.x + b.x + c.x + d.x) : nearest;
     o_accessibility = is_sky(depth) ? 1.0 : accessibility;
 }

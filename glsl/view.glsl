@@ -49,6 +49,19 @@ float linear_from_distance(float distance)
     return orthographic() ? distance : 1.0 / distance;
 }
 
+// The same of a stored depth that is not sky.
+float linear_from_depth(float depth)
+{
+#if DEPTH_IS_DISTANCE
+    return linear_from_distance(depth);
+#else
+    vec4 k = gDistanceFromDepth;
+    vec2 fraction = vec2((1.0 - depth) * k.x + depth * k.y, (1.0 - depth) * k.z + depth * k.w);
+    fraction = orthographic() ? fraction : fraction.yx;
+    return fraction.x / fraction.y;
+#endif
+}
+
 // What an error of `length` (scene units) about a surface comes to in it.
 float linear_error(float length, float linear)
 {

@@ -59,9 +59,10 @@ enum glssao__variant {
     VARIANT_BOX = 32,
     VARIANT_EDGE_AWARE = 64,
     VARIANT_STEPS_8 = 128,
-    VARIANT_SLICES_2 = 256,
-    VARIANT_SLICES_4 = 512,
-    VARIANT_FLAGS = 10, /* how many there are */
+    VARIANT_STEPS_12 = 256,
+    VARIANT_STEPS_16 = 512,
+    VARIANT_SLICES_2 = 1024,
+    VARIANT_FLAGS = 11, /* how many there are */
     VARIANT_COUNT = 1 << VARIANT_FLAGS
 };
 
@@ -94,7 +95,7 @@ typedef struct glssao__frame_constants {
     float gBlurDepthThreshold;
     int gSampleCount;
     int gFactor;
-    float padding[2]; /* std140 rounds the block up to 80 bytes */
+    float gNoise[2];
 } glssao__frame_constants;
 
 /* glsl/cb_hemisphere.glsl in C. */

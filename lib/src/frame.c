@@ -152,9 +152,14 @@ static unsigned estimate_variant(const glssao_settings *settings)
 {
     if (settings->technique != GLSSAO_HORIZON)
         return settings->no_angle_weight ? VARIANT_NO_ANGLE_WEIGHT : 0u;
-    int steps = settings->sample_count % 16 == 0 && settings->sample_count != 48 ? 8 : 6;
-    int slices = settings->sample_count / (2 * steps);
-    return (steps == 8 ? VARIANT_STEPS_8 : 0u) | (slices == 4 ? VARIANT_SLICES_4 : slices == 2 ? VARIANT_SLICES_2 : 0u);
+    switch (settings->sample_count) {
+    case 16: return VARIANT_STEPS_8;
+    case 24: return VARIANT_STEPS_12;
+    case 32: return VARIANT_STEPS_8 | VARIANT_SLICES_2;
+    case 48: return VARIANT_STEPS_12 | VARIANT_SLICES_2;
+    case 64: return VARIANT_STEPS_16 | VARIANT_SLICES_2;
+    default: return 0; /* 12 */
+    }
 }
 
 /* The texture that holds depth. */

@@ -13,13 +13,14 @@ static const char *const macros[VARIANT_FLAGS] = {
     "DEPTH_IS_DISTANCE", "DEPTH_IN_ALPHA",
     "NO_ANGLE_WEIGHT",   "BOX",
     "EDGE_AWARE",        "STEPS_8",
-    "SLICES_2",          "SLICES_4",
+    "STEPS_12",          "STEPS_16",
+    "SLICES_2",
 };
 
 enum {
     NORMAL_FLAGS = VARIANT_UNSIGNED_NORMALS | VARIANT_OCTAHEDRAL_NORMALS,
     DEPTH_FLAGS = VARIANT_DEPTH_IS_DISTANCE | VARIANT_DEPTH_IN_ALPHA,
-    STEP_FLAGS = VARIANT_STEPS_8 | VARIANT_SLICES_2 | VARIANT_SLICES_4
+    STEP_FLAGS = VARIANT_STEPS_8 | VARIANT_STEPS_12 | VARIANT_STEPS_16
 };
 
 /* What each shader is compiled from, and which flags it tests. All flags are defined in all, as 0 or 1. */
@@ -37,7 +38,7 @@ static const struct shader {
                            {shader_view_glsl, shader_normal_map_glsl, shader_hemisphere_frag}},
     [SHADER_DISTANCE] = {"distance", DEPTH_FLAGS, {shader_view_glsl, shader_distance_frag}},
     [SHADER_HORIZON] = {"horizon",
-                        NORMAL_FLAGS | STEP_FLAGS,
+                        NORMAL_FLAGS | STEP_FLAGS | VARIANT_SLICES_2,
                         {shader_view_glsl, shader_distance_map_glsl, shader_normal_map_glsl, shader_horizon_frag}},
     [SHADER_PLANAR_BLUR] = {"planar-blur", 0, {shader_view_glsl, shader_planar_blur_frag}},
     [SHADER_UPSAMPLE] = {"upsample", DEPTH_FLAGS, {shader_view_glsl, shader_upsample_frag}},
@@ -55,10 +56,10 @@ const char *glssao__program_shader_name(enum glssao__shader shader)
 bool glssao__program_exists(enum glssao__shader shader, unsigned variant)
 {
     bool both_encodings = (variant & NORMAL_FLAGS) == NORMAL_FLAGS;
-    bool both_slices = (variant & VARIANT_SLICES_2) && (variant & VARIANT_SLICES_4);
+    unsigned steps = variant & STEP_FLAGS;
     bool alpha_alone = (variant & VARIANT_DEPTH_IN_ALPHA) && !(variant & VARIANT_DEPTH_IS_DISTANCE);
     bool edges_needed = (variant & (NORMAL_FLAGS | DEPTH_FLAGS)) == 0 || (variant & VARIANT_EDGE_AWARE);
-    return (variant & ~shaders[shader].flags) == 0 && !both_encodings && !both_slices && !alpha_alone &&
+    return (variant & ~shaders[shader].flags) == 0 && !both_encodings && (steps & (steps - 1)) == 0 && !alpha_alone &&
            (shader != SHADER_BLUR || edges_needed);
 }
 
@@ -164,6 +165,7 @@ static const struct member {
     FRAME(gBlurDepthThreshold),
     FRAME(gSampleCount),
     FRAME(gFactor),
+    FRAME(gNoise),
 #undef FRAME
     {BLOCK_HEMISPHERE, "gKernel", offsetof(glssao__hemisphere_constants, gKernel)},
     {BLOCK_HEMISPHERE, "gRotations", offsetof(glssao__hemisphere_constants, gRotations)},

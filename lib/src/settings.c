@@ -25,7 +25,7 @@ static glssao_settings horizon_settings(glssao_settings s, glssao_quality qualit
 {
     s.technique = GLSSAO_HORIZON;
     s.power = 1.0f;
-    s.sample_count = quality == GLSSAO_LOW ? 12 : quality == GLSSAO_MEDIUM ? 24 : quality == GLSSAO_ULTRA ? 16 : 32;
+    s.sample_count = quality == GLSSAO_LOW ? 12 : quality == GLSSAO_MEDIUM ? 16 : 48;
     s.half_resolution = quality != GLSSAO_ULTRA;
     s.upsample = true;
     s.blur = GLSSAO_BLUR_PLANAR;

@@ -52,7 +52,7 @@ glssao_effect *effects_get(effects *e, const glssao_settings *settings, char *er
 {
     glssao_effect **slot = &e->of[settings->technique][settings->half_resolution];
     if (!*slot) {
-        const glssao_config config = {.load = context_load,
+        const glssao_config config = {.load = e->load ? e->load : context_load,
                                       .load_user = e->context,
                                       .log = glssao_log_to_stderr,
                                       .width = e->width,

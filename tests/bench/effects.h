@@ -25,6 +25,7 @@ typedef struct effects {
     context *context;
     int width, height;
     uint32_t seed;
+    glssao_load_fn load;                    /* NULL: context_load */
     glssao_effect *of[BENCH_TECHNIQUES][2]; /* made when first asked for */
 } effects;
 

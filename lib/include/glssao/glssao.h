@@ -104,8 +104,8 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
                                       point (classic), than the sample (hemisphere) */
     float power;                   /* 0 to 64: accessibility is raised to this; more is darker */
     int sample_count;              /* classic: 1 to 14 offset vectors, the 8 cube corners first; hemisphere: 1 to 64;
-                                      horizon: samples of depth, 12 (one slice of 6 a side), 16 (1 x 8), 24 (2 x 6),
-                                      32 (2 x 8), 48 (4 x 6) or 64 (4 x 8) */
+                                      horizon: samples of depth, 12 (one slice of 6 a side), 16 (1 x 8), 24 (1 x 12),
+                                      32 (2 x 8), 48 (2 x 12) or 64 (2 x 16) */
     bool half_resolution;          /* estimate at half the size, (w + 1) / 2 by (h + 1) / 2 */
     bool upsample;                 /* a half-size result is brought to full size along surfaces; else it stays half size */
     glssao_blur blur;

@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * glssao-tune: searches the horizon technique's constants against ray-traced truth on every other scene, and reports how
+ * the rest, which the search never saw, fare. It changes no file: what it prints is copied into glsl/horizon.frag by hand.
+ */
+#include "effects.h"
+#include "progress.h"
+#include "views.h"
+
+#include <glssao/glssao.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LEVELS = GLSSAO_ULTRA + 1, SHARED = LEVELS, ERROR_LENGTH = 4096, SOURCE_ROOM = 4096 };
+
+/* What is searched: constants of glsl/horizon.frag, written there as `const float NAME = value;`. `level`: the only
+ * quality level that uses it, or SHARED. */
+typedef struct tuned {
+    const char *name;
+    int level;
+    double value, step, least, most;
+} tuned;
+
+static tuned table[] = {
+    {"JUMP", SHARED, 0.30, 0.08, 0.05, 2.0},
+    {"ALIKE", SHARED, 0.40, 0.10, 0.0, 2.0},
+    {"OPEN_END", SHARED, 1.25, 0.10, 1.0, 2.0},
+    {"WIDTH", SHARED, 1.0, 0.15, 0.3, 2.0},
+    {"VEIL", SHARED, 0.15, 0.03, 0.0, 0.6},
+    {"VEIL_WIDTH", SHARED, 0.2, 0.08, 0.0, 1.0},
+    {"CALIBRATION", GLSSAO_LOW, 1.10, 0.06, 0.8, 1.5},
+    {"CALIBRATION", GLSSAO_MEDIUM, 1.05, 0.06, 0.8, 1.5},
+    {"CALIBRATION", GLSSAO_HIGH, 0.95, 0.06, 0.8, 1.5},
+    {"CALIBRATION", GLSSAO_ULTRA, 0.95, 0.06, 0.8, 1.5},
+};
+enum { TABLE_LENGTH = sizeof table / sizeof table[0] };
+
+typedef struct tuner {
+    options options;
+    context *context;
+    map_reader reader;
+    bench_view views[BENCH_SCENES_MAX];
+    bench_scene scenes[BENCH_SCENES_MAX];
+    int view_count;
+    float *picture;
+    double classic[BENCH_SCENES_MAX]; /* mean square error of classic with the exponent that fits best */
+    double square[LEVELS][BENCH_SCENES_MAX];
+    int level; /* being compiled */
+    char error[ERROR_LENGTH];
+} tuner;
+
+static tuner t;
+static void (*shader_source)(GLuint shader, GLsizei count, const GLchar *const *strings, const GLint *lengths);
+
+static bool applies(const tuned *c, int level)
+{
+    return c->level == SHARED || c->level == level;
+}
+
+/* Puts the value of a constant where the source declares it; a source without it stays as it is. */
+static void substitute(char *source, const tuned *c)
+{
+    char declared[64];
+    snprintf(declared, sizeof declared, "const float %s = ", c->name);
+    for (char *at = strstr(source, declared); at; at = strstr(at + 1, declared)) {
+        char *value = at + strlen(declared), *end = strchr(value, ';');
+        char written[32];
+        const int length = snprintf(written, sizeof written, "%.6f", c->value);
+        memmove(value + length, end, strlen(end) + 1);
+        memcpy(value, written, (size_t)length);
+    }
+}
+
+/* Stands between the library and the driver. */
+static void take_source(GLuint shader, GLsizei count, const GLchar *const *strings, const GLint *lengths)
+{
+    (void)lengths; /* the library's strings end in 0 */
+    size_t size = SOURCE_ROOM;
+    for (int i = 0; i < count; i++)
+        size += strlen(strings[i]);
+    char *whole = calloc(1, size);
+    if (!whole)
+        return;
+    for (int i = 0; i < count; i++)
+        strcat(whole, strings[i]);
+    for (int i = 0; i < TABLE_LENGTH; i++)
+        if (applies(&table[i], t.level))
+            substitute(whole, &table[i]);
+    const GLchar *const one = whole;
+    shader_source(shader, 1, &one, NULL);
+    free(whole);
+}
+
+typedef union any_function {
+    void *pointer;
+    void (*source)(GLuint, GLsizei, const GLchar *const *, const GLint *);
+} any_function;
+
+static void *load(const char *name, void *user)
+{
+    any_function f = {.pointer = context_load(name, user)};
+    if (strcmp(name, "glShaderSource") == 0) {
+        shader_source = f.source;
+        f.source = take_source;
+    }
+    return f.pointer;
+}
+
+static bool run(const glssao_settings *settings, fit_sum *fits)
+{
+    effects e = {.context = t.context, .width = t.options.size[0], .height = t.options.size[1], .load = load};
+    const size_t count = (size_t)e.width * (size_t)e.height;
+    bool ran = true;
+    for (int v = 0; ran && v < t.view_count; v++) {
+        memset(&fits[v], 0, sizeof fits[v]);
+        ran = effects_run(&e, &t.reader, &t.views[v].gbuffer, t.views[v].radius, settings, t.picture, t.error,
+                          sizeof t.error);
+        if (ran)
+            fit_add(&fits[v], t.picture, t.views[v].truth.accessibility, t.views[v].classes, count);
+    }
+    effects_destroy(&e);
+    return ran;
+}
+
+/* As shipped, with power 1: no exponent is fitted to the level. */
+static bool measure_level(int level, double square[BENCH_SCENES_MAX], fit_sum *fits)
+{
+    t.level = level;
+    const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)level);
+    if (!run(&settings, fits))
+        return false;
+    for (int v = 0; v < t.view_count; v++) {
+        const double rmse = fit_rmse(&fits[v], 1, FIT_ALL);
+        square[v] = rmse * rmse;
+    }
+    return true;
+}
+
+static bool measure_classic(fit_sum *fits)
+{
+    static fit_sum all;
+    glssao_settings settings = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_HIGH);
+    settings.power = 1;
+    if (!run(&settings, fits))
+        return false;
+    for (int v = 0; v < t.view_count; v++)
+        fit_merge(&all, &fits[v]);
+    const double exponent = fit_exponent(&all);
+    for (int v = 0; v < t.view_count; v++) {
+        const double rmse = fit_rmse(&fits[v], exponent, FIT_ALL);
+        t.classic[v] = rmse * rmse;
+    }
+    return true;
+}
+
+/* RMSE over the scenes with these numbers modulo 2 (2: all), as a ratio to classic's. */
+static double ratio(const double square[BENCH_SCENES_MAX], int parity)
+{
+    double sum = 0, classic = 0;
+    for (int v = 0; v < t.view_count; v++) {
+        if (parity == 2 || v % 2 == parity) {
+            sum += square[v];
+            classic += t.classic[v];
+        }
+    }
+    return sqrt(sum / classic);
+}
+
+/* Mean ratio of the levels on the scenes that are searched on. */
+static double score(double square[LEVELS][BENCH_SCENES_MAX])
+{
+    double sum = 0;
+    for (int level = 0; level < LEVELS; level++)
+        sum += ratio(square[level], 0) / LEVELS;
+    return sum;
+}
+
+static void print_ratios(const char *when)
+{
+    printf("%s\n", when);
+    for (int level = 0; level < LEVELS; level++)
+        printf("  level %d: searched on %.4f, held out %.4f, all %.4f\n", level, ratio(t.square[level], 0),
+               ratio(t.square[level], 1), ratio(t.square[level], 2));
+    fflush(stdout);
+}
+
+/* Tries one constant a step up and down; keeps what lowers the score. */
+static bool try_constant(tuned *c, fit_sum *fits, double *best, bool *improved)
+{
+    static double square[LEVELS][BENCH_SCENES_MAX];
+    const double kept = c->value;
+    for (int sign = -1; sign <= 1; sign += 2) {
+        c->value = fmin(fmax(kept + sign * c->step, c->least), c->most);
+        memcpy(square, t.square, sizeof square);
+        for (int level = 0; level < LEVELS; level++)
+            if (applies(c, level) && !measure_level(level, square[level], fits))
+                return false;
+        const double now = score(square);
+        if (now < *best) {
+            *best = now;
+            memcpy(t.square, square, sizeof square);
+            *improved = true;
+            return true;
+        }
+    }
+    c->value = kept;
+    return true;
+}
+
+static bool search(fit_sum *fits, int rounds)
+{
+    double best = score(t.square);
+    for (int round = 0; round < rounds; round++) {
+        for (int i = 0; i < TABLE_LENGTH; i++) {
+            bool improved = false;
+            if (!try_constant(&table[i], fits, &best, &improved))
+                return false;
+            if (!improved)
+                table[i].step *= 0.5;
+            progress_show("round %d/%d: %s %.4f, score %.5f", round + 1, rounds, table[i].name, table[i].value, best);
+        }
+    }
+    progress_clear();
+    return true;
+}
+
+static bool prepare(void)
+{
+    t.context = context_create(&(context_options){.kind = (context_kind)t.options.context}, t.error, sizeof t.error);
+    if (!t.context || !gl_load(context_load, t.context, t.error, sizeof t.error) ||
+        !map_reader_create(&t.reader, t.options.size[0], t.options.size[1], t.error, sizeof t.error))
+        return false;
+    const int count = bench_scenes_list(&t.options, t.scenes);
+    for (; t.view_count < count; t.view_count++)
+        if (!bench_view_create(&t.views[t.view_count], &t.scenes[t.view_count], &t.options, t.error, sizeof t.error))
+            return false;
+    t.picture = malloc((size_t)t.options.size[0] * (size_t)t.options.size[1] * sizeof *t.picture);
+    return t.picture != NULL;
+}
+
+static bool tune(void)
+{
+    fit_sum *fits = calloc(BENCH_SCENES_MAX, sizeof *fits);
+    bool done = fits && prepare() && measure_classic(fits);
+    for (int level = 0; done && level < LEVELS; level++)
+        done = measure_level(level, t.square[level], fits);
+    if (done)
+        print_ratios("before, RMSE as a ratio to classic's with its best exponent:");
+    done = done && search(fits, t.options.rounds);
+    if (done)
+        print_ratios("after:");
+    for (int i = 0; done && i < TABLE_LENGTH; i++)
+        printf("  %s%s%.0d = %.4f\n", table[i].name, table[i].level == SHARED ? "" : " of level ",
+               table[i].level == SHARED ? 0 : table[i].level, table[i].value);
+    free(fits);
+    return done;
+}
+
+int main(int argc, char **argv)
+{
+    const options_result parsed = options_parse(argc, argv, &t.options, t.error, sizeof t.error);
+    if (parsed != OPTIONS_RUN) {
+        if (parsed == OPTIONS_WRONG)
+            fprintf(stderr, "glssao-tune: %s\n", t.error);
+        return parsed == OPTIONS_WRONG ? 2 : 0;
+    }
+    const bool done = tune();
+    if (!done)
+        fprintf(stderr, "glssao-tune: %s\n", t.error);
+    for (int v = 0; v < t.view_count; v++)
+        bench_view_destroy(&t.views[v]);
+    free(t.picture);
+    map_reader_destroy(&t.reader);
+    context_destroy(t.context);
+    return done ? 0 : 1;
+}
