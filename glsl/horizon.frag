@@ -57,9 +57,6 @@ const float CALIBRATION = 1.05;
 const float CALIBRATION = 1.1;
 #endif
 
-// Heights are lowered by this much, so that a sample which falls on the point's own texel lies below it.
-const float BIAS = 1e-4;
-
 uint count_bits(uint mask)
 {
     mask -= (mask >> 1) & 0x55555555u;
@@ -114,8 +111,33 @@ vec3 sample_at(slice_frame f, vec2 step_px, float along)
     vec2 offset = texel + 0.5 - f.center;
     float scale = orthographic() ? 1.0 : distance;
     return vec3(scale * dot(offset, f.x_per_px),
-                f.y_per_distance * (f.center_distance - distance) + (scale * dot(offset, f.y_per_px) - BIAS),
+                f.y_per_distance * (f.center_distance - distance) + scale * dot(offset, f.y_per_px),
                 scale * f.per_scale);
+}
+
+// Whether a change of height from one sample to the next leads to another surface: it is large, and goes on neither before
+// nor after at the same slope.
+bool is_jump(float before, float change, float after)
+{
+    return abs(change) > JUMP && abs(change - before) > ALIKE && abs(change - after) > ALIKE;
+}
+
+// Sectors that one sample hides, whose run is `width` steps wide. Beyond the sphere the chord is 0, and top and bottom come
+// out alike. Raises `highest` to the sample's top where it veils what is behind it.
+uint hidden_by(vec3 at, float width, polynomial sectors, bool minus, float lowest, inout float highest)
+{
+    float x2 = at.x * at.x + 1e-12;
+    float thickness = WIDTH * width * at.z;
+    float chord = sqrt(max(1.0 - x2, 0.0));
+    float top = min(at.y, chord);
+    float bottom = max(at.y - thickness, -chord);
+    // x is 0 on the point's own texel, and below it where the border holds a sample on the other side.
+    float cos_top = at.x > 0.0 ? max(top * inversesqrt(x2 + top * top), lowest) : lowest;
+    float cos_bottom = clamp(bottom * inversesqrt(x2 + bottom * bottom), lowest, cos_top);
+    highest = max(highest, thickness > VEIL_WIDTH && x2 < 1.0 ? cos_top : lowest);
+    uint near = 1u << sector(sectors, cos_top);
+    uint far = 1u << sector(sectors, cos_bottom);
+    return minus ? near - far : far - near;
 }
 
 // Sectors that one side's samples hide. `lowest` is the cosine of the angle at which the hemisphere ends there, `highest`
@@ -129,38 +151,18 @@ uint hidden_sectors(vec3 samples[STEPS], float jitter, polynomial sectors, bool 
 #define CHANGE(i) change[i] = samples[i].y - (i > 0 ? samples[max(i - 1, 0)].y : 0.0);
     EACH_STEP(CHANGE)
     change[STEPS] = 1e3;
-#define FIND_JUMP(i)                                                                                                   \
-    jump[i] = abs(change[i]) > JUMP && abs(change[i] - change[i + 1]) > ALIKE &&                                       \
-              (i == 0 || abs(change[i] - change[max(i - 1, 0)]) > ALIKE);
+#define FIND_JUMP(i) jump[i] = is_jump(i > 0 ? change[max(i - 1, 0)] : 1e3, change[i], change[i + 1]);
     EACH_STEP(FIND_JUMP)
     // In steps. The run that the point itself belongs to starts so far off that it is thicker than the sphere.
     float boundary = -100.0;
-#define FIND_START(i)                                                                                                  \
-    boundary = jump[i] ? float(i) : boundary;                                                                          \
-    start[i] = boundary;
+#define FIND_START(i) boundary = jump[i] ? float(i) : boundary; start[i] = boundary;
     EACH_STEP(FIND_START)
     boundary = OPEN_END * float(STEPS) - 0.5 + jitter;
-#define FIND_END(i)                                                                                                    \
-    end[i] = boundary;                                                                                                 \
-    boundary = jump[i] ? float(i) : boundary;
+#define FIND_END(i) end[i] = boundary; boundary = jump[i] ? float(i) : boundary;
     EACH_STEP_BACK(FIND_END)
     uint mask = 0u;
     highest = lowest;
-    // Beyond the sphere the chord is 0, and top and bottom come out alike.
-#define HIDE(i)                                                                                                        \
-    {                                                                                                                  \
-        float x2 = samples[i].x * samples[i].x + 1e-12;                                                                \
-        float thickness = WIDTH * (end[i] - start[i]) * samples[i].z;                                                  \
-        float chord = sqrt(max(1.0 - x2, 0.0));                                                                        \
-        float top = min(samples[i].y, chord);                                                                          \
-        float bottom = max(samples[i].y - thickness, -chord);                                                          \
-        float cos_top = max(top * inversesqrt(x2 + top * top), lowest);                                                \
-        float cos_bottom = clamp(bottom * inversesqrt(x2 + bottom * bottom), lowest, cos_top);                         \
-        highest = max(highest, thickness > VEIL_WIDTH && x2 < 1.0 ? cos_top : lowest);                                 \
-        uint near = 1u << sector(sectors, cos_top);                                                                    \
-        uint far = 1u << sector(sectors, cos_bottom);                                                                  \
-        mask |= minus ? near - far : far - near;                                                                       \
-    }
+#define HIDE(i) mask |= hidden_by(samples[i], end[i] - start[i], sectors, minus, lowest, highest);
     EACH_STEP(HIDE)
     return mask;
 }
@@ -208,10 +210,11 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
 
     vec3 plus_samples[STEPS];
     vec3 minus_samples[STEPS];
-#define TAKE_SAMPLES(i)                                                                                                \
-    plus_samples[i] = sample_at(f, step_px, (float(i) + 1.0 - jitter) * STEP);                                         \
-    minus_samples[i] = sample_at(f, step_px, (jitter - 1.0 - float(i)) * STEP) * vec3(-1.0, 1.0, 1.0);
-    EACH_STEP(TAKE_SAMPLES)
+    vec3 mirror = vec3(-1.0, 1.0, 1.0);
+#define TAKE_PLUS(i) plus_samples[i] = sample_at(f, step_px, (float(i) + 1.0 - jitter) * STEP);
+#define TAKE_MINUS(i) minus_samples[i] = mirror * sample_at(f, step_px, (jitter - 1.0 - float(i)) * STEP);
+    EACH_STEP(TAKE_PLUS)
+    EACH_STEP(TAKE_MINUS)
     float highest_plus, highest_minus;
     uint mask = hidden_sectors(plus_samples, jitter, plus_sectors, false, -sin_g, highest_plus) |
                 hidden_sectors(minus_samples, jitter, minus_sectors, true, sin_g, highest_minus);

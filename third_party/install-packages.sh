@@ -43,7 +43,9 @@ fi
 
 # Only what this release has, and never a reason to stop.
 for package in "${optional_missing[@]}"; do
-    if apt-cache policy "$package" 2>/dev/null | grep -q 'Candidate: [^(]'; then
+    # Read whole: a reader that stops at the match would fail the pipe, and the package would be passed over.
+    policy=$(apt-cache policy "$package" 2>/dev/null)
+    if grep -q 'Candidate: [^(]' <<<"$policy"; then
         install "$package" || echo "install-packages: going on without $package" >&2
     fi
 done
