@@ -129,7 +129,8 @@ uint hidden_by(vec3 at, float width, polynomial sectors, bool minus, float lowes
     float x2 = at.x * at.x + 1e-12;
     float thickness = WIDTH * width * at.z;
     float chord = sqrt(max(1.0 - x2, 0.0));
-    float top = min(at.y, chord);
+    // Sky can lie so deep that its square overflows, and its cosine would come out as 0.
+    float top = clamp(at.y, -1e6, chord);
     float bottom = max(at.y - thickness, -chord);
     // x is 0 on the point's own texel, and below it where the border holds a sample on the other side.
     float cos_top = at.x > 0.0 ? max(top * inversesqrt(x2 + top * top), lowest) : lowest;
