@@ -13,6 +13,7 @@
 // in units of the radius; angles are measured from y. Loops are written out by macros: Mesa's software rasteriser does
 // not unroll them, and a loop of a single turn still costs it a third of this pass.
 
+uniform sampler2D u_distance_map;
 out vec2 o_ambient;
 
 #if STEPS_16
@@ -42,7 +43,7 @@ const float PI = 3.14159265;
 const float SECTORS = 31.0; // so that a full mask needs no shift by 32
 const float STEP = 1.0 / float(STEPS);
 
-// Tuned by glssao-tune; docs/decisions.md says on which scenes, and how the others fare.
+// Found on glssao-bench's scenes; glssao-tune measures and searches them, docs/decisions.md says what came of it.
 const float JUMP = 0.3;        // a step in height of more than this ends a run of samples ...
 const float ALIKE = 0.4;       // ... unless the step before or after it differs by less than this: a steep surface
 const float OPEN_END = 1.25;   // where a run ends that is not seen to end

@@ -39,7 +39,7 @@ static const struct shader {
     [SHADER_DISTANCE] = {"distance", DEPTH_FLAGS, {shader_view_glsl, shader_distance_frag}},
     [SHADER_HORIZON] = {"horizon",
                         NORMAL_FLAGS | STEP_FLAGS | VARIANT_SLICES_2,
-                        {shader_view_glsl, shader_distance_map_glsl, shader_normal_map_glsl, shader_horizon_frag}},
+                        {shader_view_glsl, shader_normal_map_glsl, shader_horizon_frag}},
     [SHADER_PLANAR_BLUR] = {"planar-blur", 0, {shader_view_glsl, shader_planar_blur_frag}},
     [SHADER_UPSAMPLE] = {"upsample", DEPTH_FLAGS, {shader_view_glsl, shader_upsample_frag}},
     [SHADER_BLUR] = {"blur",
