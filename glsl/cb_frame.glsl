@@ -9,4 +9,3 @@ float gBlurNormalThreshold; // cosine
 float gBlurDepthThreshold;  // scene units of view distance
 int gSampleCount;           // offset vectors or kernel samples in use
 int gFactor;                // full-size texels per texel of the estimate: 1 or 2
-vec2 gNoise;                // horizon: added to the tile's slice angle and jitter, both 0..1 of their period

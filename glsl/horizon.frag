@@ -169,14 +169,14 @@ uint hidden_sectors(vec3 samples[STEPS], float jitter, polynomial sectors, bool 
     return mask;
 }
 
-// Ordered tile: 4x4 Bayer for the angle, the same bits reversed for the jitter along the slice, both moved on by gNoise.
+// Ordered tile: 4x4 Bayer for the angle, the same bits reversed for the jitter along the slice.
 vec2 tile_noise()
 {
     uvec2 p = uvec2(gl_FragCoord.xy) & 3u;
     uint x = p.x ^ p.y;
     uint bayer = ((x & 1u) << 3) | ((p.y & 1u) << 2) | (x & 2u) | (p.y >> 1);
     uint reversed = ((bayer & 1u) << 3) | ((bayer & 2u) << 1) | ((bayer & 4u) >> 1) | (bayer >> 3);
-    return fract((vec2(bayer, reversed) + 0.5) / 16.0 + gNoise);
+    return (vec2(bayer, reversed) + 0.5) / 16.0;
 }
 
 // What the slice adds to occlusion. `px`: view xy that a pixel gains, per unit of distance in perspective.

@@ -17,9 +17,7 @@ float linear_depth_at(ivec2 pixel, ivec2 size)
 {
     float depth = depth_at(pixel, size);
 #if DEPTH_IS_DISTANCE
-    bool orthographic = gRayDirection.x == 0.0;
-    depth = distance_from_depth(depth);
-    return orthographic ? depth : 1.0 / depth;
+    return linear_from_distance(distance_from_depth(depth));
 #else
     return depth;
 #endif

@@ -149,6 +149,7 @@ glssao_result glssao_resize(glssao_effect *effect, int width, int height)
     glssao__maps_delete_target(&effect->gl, &effect->distance_map);
     glssao__maps_delete_target(&effect->gl, &effect->full_map);
     effect->result_is_full = false;
+    effect->is_paired = false;
     effect->normal_map = normal;
     effect->ambient = ambient;
     effect->ambient_is_one = true;

@@ -95,7 +95,7 @@ typedef struct glssao__frame_constants {
     float gBlurDepthThreshold;
     int gSampleCount;
     int gFactor;
-    float gNoise[2];
+    float padding[2]; /* std140 rounds the block up to 80 bytes */
 } glssao__frame_constants;
 
 /* glsl/cb_hemisphere.glsl in C. */

@@ -223,6 +223,7 @@ static glssao_result fit_maps(glssao_effect *effect, const glssao_settings *sett
     effect->ambient = maps;
     effect->ambient_is_one = true;
     effect->result_is_full = false; /* until the upsampling has run */
+    effect->is_paired = false;
     return GLSSAO_OK;
 }
 
@@ -357,6 +358,7 @@ static glssao_result compute(glssao_effect *effect, const glssao_frame *frame, c
     if (!plan.passes[GLSSAO_PASS_ESTIMATE].run) {
         glssao__maps_clear_ambient(effect);
         effect->result_is_full = false;
+        effect->is_paired = false;
         return GLSSAO_OK;
     }
     effect->ambient_is_one = false;

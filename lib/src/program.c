@@ -165,7 +165,6 @@ static const struct member {
     FRAME(gBlurDepthThreshold),
     FRAME(gSampleCount),
     FRAME(gFactor),
-    FRAME(gNoise),
 #undef FRAME
     {BLOCK_HEMISPHERE, "gKernel", offsetof(glssao__hemisphere_constants, gKernel)},
     {BLOCK_HEMISPHERE, "gRotations", offsetof(glssao__hemisphere_constants, gRotations)},

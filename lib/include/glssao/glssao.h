@@ -144,7 +144,8 @@ typedef struct glssao_frame {
 
 typedef enum glssao_map_id {
     GLSSAO_MAP_AMBIENT = 0,   /* the result: accessibility in red, R16; half size where it was estimated so and not upsampled */
-    GLSSAO_MAP_AMBIENT_OTHER, /* the second of the two ping-pong maps: the last horizontal blur */
+    GLSSAO_MAP_AMBIENT_OTHER, /* the second of the two ping-pong maps: the last horizontal blur, in red. R16; RG32F,
+                                 with distance in green, after upsampling or the planar blur */
     GLSSAO_MAP_NORMAL,        /* the effect's own normal map, RGBA16F, full size */
     GLSSAO_MAP_RANDOM_VECTOR, /* RGBA8, 256 x 256 */
     GLSSAO_MAP_DEPTH          /* the host's depth texture as last handed over; 0 before the first */
