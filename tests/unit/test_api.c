@@ -347,6 +347,25 @@ static void resize_refuses_and_keeps_the_old_size(void **state)
     free_inputs(&in);
 }
 
+static void other_map_belongs_to_the_last_frame(void **state)
+{
+    scene_inputs in = make_inputs(*state);
+    const glssao_settings horizon = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
+    const uint32_t plain = glssao_map(in.effect, GLSSAO_MAP_AMBIENT_OTHER, NULL, NULL);
+    assert_int_equal(glssao_compute(in.effect, &in.frame, &horizon), GLSSAO_OK);
+    assert_int_not_equal(glssao_map(in.effect, GLSSAO_MAP_AMBIENT_OTHER, NULL, NULL), plain);
+    glssao_settings nothing = horizon;
+    nothing.radius = 0.0f; /* no pass runs: the map of ones is the result */
+    assert_int_equal(glssao_compute(in.effect, &in.frame, &nothing), GLSSAO_OK);
+    assert_int_equal(glssao_map(in.effect, GLSSAO_MAP_AMBIENT_OTHER, NULL, NULL), plain);
+    assert_int_equal(glssao_compute(in.effect, &in.frame, &horizon), GLSSAO_OK);
+    assert_int_equal(glssao_resize(in.effect, 8, 8), GLSSAO_OK);
+    int w, h;
+    const uint32_t resized = glssao_map(in.effect, GLSSAO_MAP_AMBIENT_OTHER, &w, &h);
+    assert_true(resized != 0 && w == 4 && h == 4);
+    free_inputs(&in);
+}
+
 static void begin_normals_clears_to_the_documented_values(void **state)
 {
     fixture *f = *state;
@@ -446,6 +465,7 @@ int main(void)
         GL_TEST(orthographic_projection_of_no_extent_is_refused),
         GL_TEST(calls_out_of_order_are_refused),
         GL_TEST(resize_refuses_and_keeps_the_old_size),
+        GL_TEST(other_map_belongs_to_the_last_frame),
         GL_TEST(begin_normals_clears_to_the_documented_values),
         GL_TEST(maps_are_born_as_documented),
         GL_TEST(timers_can_be_forbidden),
