@@ -6,7 +6,8 @@
 // in  u_normal_map    view space; point sampled
 // in  u_distance_map  view distance at the estimate's size; point sampled, clamped
 // in  u_depth_map     bound for its size alone
-// out o_ambient       accessibility, and the linear quantity of distance
+// out o_ambient       accessibility, and the linear quantity of distance; with ACCUMULATE 1 the linear accessibility,
+//                     to be added to the sum of its replicate
 // STEPS_8, STEPS_12, STEPS_16 1: that many samples on each side of a slice, else 6. SLICES_2 1: two slices, else one.
 //
 // In a slice, x is the distance along it from the point, outwards on either side, and y the height towards the eye, both
@@ -176,7 +177,12 @@ vec2 tile_noise()
     uint x = p.x ^ p.y;
     uint bayer = ((x & 1u) << 3) | ((p.y & 1u) << 2) | (x & 2u) | (p.y >> 1);
     uint reversed = ((bayer & 1u) << 3) | ((bayer & 2u) << 1) | ((bayer & 4u) >> 1) | (bayer >> 3);
-    return (vec2(bayer, reversed) + 0.5) / 16.0;
+    vec2 noise = (vec2(bayer, reversed) + 0.5) / 16.0;
+#if ACCUMULATE
+    // The second replicate has the tile turned over, so that the two differ by another offset in each pixel of the tile.
+    noise = fract((gAccumulation.x > 0.0 ? noise : noise.yx) + gNoise);
+#endif
+    return noise;
 }
 
 // What the slice adds to occlusion. `px`: view xy that a pixel gains, per unit of distance in perspective.
@@ -232,7 +238,11 @@ void main()
     vec2 full_size = vec2(textureSize(u_depth_map, 0));
     vec2 uv = (floor(gl_FragCoord.xy) * float(gFactor) + 0.5) / full_size;
     vec3 normal_view = normal_view_at_uv(uv);
+#if ACCUMULATE
+    o_ambient = gAccumulation.xy;
+#else
     o_ambient = vec2(1.0, linear_from_distance(distance));
+#endif
     // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
     if (distance >= FAR_AWAY || normal_view == vec3(0.0))
         return;
@@ -252,5 +262,10 @@ void main()
     occlusion = 0.5 * (occlusion + slice_occlusion(f, normal_view, up, px, 0.5 * (noise.x + 1.0), noise.y));
 #endif
     // pow() is undefined for a base of 0 with power 0, and for the negative that rounding can leave.
-    o_ambient.x = clamp(pow(max(1.0 - occlusion, 1e-6), CALIBRATION * gPower), 0.0, 1.0);
+    float open = max(1.0 - occlusion, 1e-6);
+#if ACCUMULATE
+    o_ambient = gAccumulation.xy * pow(open, CALIBRATION);
+#else
+    o_ambient.x = clamp(pow(open, CALIBRATION * gPower), 0.0, 1.0);
+#endif
 }

@@ -178,6 +178,7 @@ static bool write_stats(run *r, const glssao_stats *passes, const char *context_
                           .context = context_text,
                           .settings = r->pipeline.wants.ao ? &r->pipeline.settings : NULL,
                           .passes = *passes,
+                          .reached = r->pipeline.reached.estimates ? &r->pipeline.reached : NULL,
                           .times = &r->times,
                           .traced = r->pipeline.wants.traced ? &r->pipeline.truth.stats : NULL,
                           .bench = r->bench.recorded ? &r->bench : NULL,

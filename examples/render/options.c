@@ -55,6 +55,10 @@ static const option table[] = {
     {0, "samples", "N", "classic 1 to 14, hemisphere 1 to 64, horizon 12, 16, 24, 32, 48 or 64, raytrace rays (512)",
      KIND_INT, AT(sample_count), 1, 65536, "a whole number from 1 to 65536"},
     {0, "blur-rounds", "N", "0 to 16", KIND_INT, AT(blur_rounds), 0, 16, "a whole number from 0 to 16"},
+    {0, "error", "E", "horizon: adds up estimates until their sampling error is at most E", KIND_NUMBER, AT(error),
+     1e-6, 1, "a number from 0.000001 to 1"},
+    {0, "budget", "MS", "horizon: adds up estimates for MS milliseconds a frame", KIND_NUMBER, AT(budget_ms), 0.001,
+     1e9, "a number of milliseconds above 0"},
     {0, "eye", "X,Y,Z", "where the camera stands (default: frames the scene)", KIND_VECTOR, AT(eye), 0, 0,
      "three numbers X,Y,Z"},
     {0, "target", "X,Y,Z", "what it looks at", KIND_VECTOR, AT(target), 0, 0, "three numbers X,Y,Z"},
@@ -312,6 +316,12 @@ static bool check_together(const options *o, char *error, size_t error_size)
         snprintf(error, error_size, "--samples \"%d\": this technique takes at most %d", o->sample_count, most_samples);
     } else if (o->technique == GLSSAO_HORIZON && o->sample_count && !is_horizon_count(o->sample_count)) {
         snprintf(error, error_size, "--samples \"%d\": horizon takes 12, 16, 24, 32, 48 or 64", o->sample_count);
+    } else if ((o->error.given || o->budget_ms.given) && o->technique != GLSSAO_HORIZON) {
+        snprintf(error, error_size, "--%s %g: only the horizon technique adds up estimates",
+                 o->error.given ? "error" : "budget", (double)(o->error.given ? o->error.value : o->budget_ms.value));
+    } else if ((o->error.given || o->budget_ms.given) && (o->no_ao || o->bench)) {
+        snprintf(error, error_size, "--%s and %s exclude each other", o->error.given ? "error" : "budget",
+                 o->no_ao ? "--no-ao" : "--bench");
     } else if (o->scene_path && o->scene_name) {
         snprintf(error, error_size, "--scene %s and the file %s exclude each other", o->scene_name, o->scene_path);
     } else if (o->scene_name && find_word("columns|cornell|steps|plane", o->scene_name) < 0) {

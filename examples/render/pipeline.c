@@ -95,6 +95,7 @@ bool pipeline_create(pipeline *p, const scene *s, context *c, const options *o, 
         return false;
     }
     p->settings = choose_settings(o, s);
+    p->goal = (progressive_goal){.error = (double)o->error.value, .budget_ms = (double)o->budget_ms.value};
     p->lighting = scene_default_lighting();
     p->renderer = scene_renderer_create(s, error, error_size);
     if (!p->renderer) {
@@ -187,7 +188,14 @@ static bool find_accessibility(pipeline *p, const scene_view *view, char *error,
         return truth_trace(&p->truth, view, &p->settings, p->seed, error, error_size);
     }
     const glssao_frame frame = make_frame(p, view);
-    return check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", error, error_size);
+    if (p->goal.error <= 0 && p->goal.budget_ms <= 0) {
+        return check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", error, error_size);
+    }
+    const glssao_result result = progressive_run(p->effect, &frame, &p->settings, &p->goal, &p->reached);
+    if (result == GLSSAO_OK) {
+        progressive_print(&p->reached, &p->goal);
+    }
+    return check(result, "glssao_accumulate", error, error_size);
 }
 
 static GLuint ambient_map(const pipeline *p)

@@ -9,6 +9,7 @@
 #include "draw.h"
 #include "gl.h"
 #include "options.h"
+#include "progressive.h"
 #include "report.h"
 #include "scene.h"
 #include "truth.h"
@@ -30,6 +31,8 @@ typedef struct pipeline {
     glssao_effect *effect; /* NULL where neither occlusion passes nor normals are wanted */
     truth truth;           /* where traced */
     glssao_settings settings;
+    progressive_goal goal; /* zero: one frame as the settings say */
+    progressive_report reached;
     uint32_t seed;
     scene_lighting lighting;
     GLuint depth, depth_framebuffer, color, color_framebuffer;

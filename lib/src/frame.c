@@ -1,129 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * One frame: the host's normals, the planned passes, and the result multiplied into colour.
+ * One frame: the planned passes, and the result multiplied into colour.
  */
 #include "effect.h"
 
-/* With GLSSAO_CHECK_GL only: names the pass after which the driver holds an error. Eats errors of the host. */
-static void check_gl(const glssao_effect *effect, const char *where)
-{
-#if GLSSAO_CHECK_GL
-    for (gl_enum error = effect->gl.GetError(); error != 0; error = effect->gl.GetError())
-        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "OpenGL error 0x%04X after %s", error, where);
-#else
-    (void)effect;
-    (void)where;
-#endif
-}
-
-static void bind_input(const glssao_effect *effect, enum glssao__unit unit, gl_uint texture,
-                       enum glssao__sampler sampler)
-{
-    effect->gl.ActiveTexture(GL_TEXTURE0 + (gl_uint)unit);
-    effect->gl.BindTexture(GL_TEXTURE_2D, texture);
-    effect->gl.BindSampler((gl_uint)unit, effect->samplers[sampler]);
-}
-
-/* Covers width x height of the framebuffer with the bound program. */
-static void draw(const glssao_effect *effect, gl_uint framebuffer, int width, int height)
-{
-    const glssao__gl *gl = &effect->gl;
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-    glssao__state_set_viewport(gl, (const gl_float[4]){0.0f, 0.0f, (gl_float)width, (gl_float)height});
-    gl->BindVertexArray(effect->vertex_array);
-    gl->DrawArrays(GL_TRIANGLES, 0, 6);
-}
-
-static bool is_between_normals(const glssao_effect *effect, const char *function)
-{
-    if (effect->between_normals)
-        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "%s called before glssao_end_normals", function);
-    return effect->between_normals;
-}
-
-/* ---- the host's normals ---- */
-
-static void attach_depth(const glssao_effect *effect, gl_uint depth_texture)
-{
-    const glssao__gl *gl = &effect->gl;
-    gl_int stencil_bits = 0;
-    if (depth_texture) {
-        gl->ActiveTexture(GL_TEXTURE0 + UNIT_DEPTH);
-        gl->BindTexture(GL_TEXTURE_2D, depth_texture);
-        gl->GetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_STENCIL_SIZE, &stencil_bits);
-    }
-    gl_enum attachment = stencil_bits > 0 ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT;
-    gl->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, 0, 0);
-    gl->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, attachment, GL_TEXTURE_2D, depth_texture, 0);
-}
-
-static glssao_result begin_normals(glssao_effect *effect, gl_uint depth_texture)
-{
-    const glssao__gl *gl = &effect->gl;
-    glssao_result result = glssao__maps_check_texture(effect, depth_texture, true, "depth_texture");
-    if (result != GLSSAO_OK)
-        return result;
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, effect->normal_map.framebuffer);
-    attach_depth(effect, depth_texture);
-    gl_enum status = gl->CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
-    if (status != GL_FRAMEBUFFER_COMPLETE) {
-        attach_depth(effect, 0);
-        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "depth_texture = %u: refused beside the normal map: 0x%04X",
-                          depth_texture, status);
-        return GLSSAO_FRAMEBUFFER_ERROR;
-    }
-    gl_float clear_depth = 1.0f;
-    gl->GetFloatv(GL_DEPTH_CLEAR_VALUE, &clear_depth);
-    gl->ClearBufferfv(GL_COLOR, 0, (const gl_float[4]){0.0f, 0.0f, 1.0f, 0.0f});
-    gl->ClearBufferfv(GL_DEPTH, 0, &clear_depth);
-    return GLSSAO_OK;
-}
-
-glssao_result glssao_begin_normals(glssao_effect *effect, uint32_t depth_texture)
-{
-    if (!effect || is_between_normals(effect, "glssao_begin_normals"))
-        return GLSSAO_INVALID_ARGUMENT;
-    const glssao__gl *gl = &effect->gl;
-    glssao__host_state host;
-    glssao__state_save(gl, &host);
-    glssao_result result = begin_normals(effect, depth_texture);
-    glssao__state_restore(gl, &host);
-    check_gl(effect, "glssao_begin_normals");
-    if (result != GLSSAO_OK)
-        return result;
-    effect->depth_texture = depth_texture;
-    effect->between_normals = true;
-    effect->host_framebuffer = host.draw_framebuffer;
-    for (int i = 0; i < 4; ++i)
-        effect->host_viewport[i] = host.viewport[i];
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, effect->normal_map.framebuffer);
-    glssao__state_set_viewport(gl, (const gl_float[4]){0.0f, 0.0f, (gl_float)effect->width, (gl_float)effect->height});
-    return GLSSAO_OK;
-}
-
-glssao_result glssao_end_normals(glssao_effect *effect)
-{
-    if (!effect)
-        return GLSSAO_INVALID_ARGUMENT;
-    if (!effect->between_normals) {
-        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "glssao_end_normals called without glssao_begin_normals");
-        return GLSSAO_INVALID_ARGUMENT;
-    }
-    const glssao__gl *gl = &effect->gl;
-    /* Detached, the depth texture can be read by the passes, and deleted by the host. */
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, effect->normal_map.framebuffer);
-    gl->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, 0, 0);
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, (gl_uint)effect->host_framebuffer);
-    glssao__state_set_viewport(gl, effect->host_viewport);
-    effect->between_normals = false;
-    check_gl(effect, "glssao_end_normals");
-    return GLSSAO_OK;
-}
-
-/* ---- the passes ---- */
-
 typedef struct frame_programs {
-    glssao__program_object normals, distance, estimate, blur, upsample;
+    glssao__program_object normals, distance, estimate, resolve, probe, blur, upsample;
 } frame_programs;
 
 /* How the host stores what the passes read. */
@@ -153,12 +35,18 @@ static unsigned estimate_variant(const glssao_settings *settings)
     if (settings->technique != GLSSAO_HORIZON)
         return settings->no_angle_weight ? VARIANT_NO_ANGLE_WEIGHT : 0u;
     switch (settings->sample_count) {
-    case 16: return VARIANT_STEPS_8;
-    case 24: return VARIANT_STEPS_12;
-    case 32: return VARIANT_STEPS_8 | VARIANT_SLICES_2;
-    case 48: return VARIANT_STEPS_12 | VARIANT_SLICES_2;
-    case 64: return VARIANT_STEPS_16 | VARIANT_SLICES_2;
-    default: return 0; /* 12 */
+    case 16:
+        return VARIANT_STEPS_8;
+    case 24:
+        return VARIANT_STEPS_12;
+    case 32:
+        return VARIANT_STEPS_8 | VARIANT_SLICES_2;
+    case 48:
+        return VARIANT_STEPS_12 | VARIANT_SLICES_2;
+    case 64:
+        return VARIANT_STEPS_16 | VARIANT_SLICES_2;
+    default:
+        return 0; /* 12 */
     }
 }
 
@@ -183,7 +71,11 @@ static glssao_result get_programs(glssao_effect *effect, const glssao_frame *fra
     } needed[] = {
         {GLSSAO_PASS_NORMALS, SHADER_NORMALS, inputs, &out->normals},
         {GLSSAO_PASS_DISTANCE, SHADER_DISTANCE, inputs, &out->distance},
-        {GLSSAO_PASS_ESTIMATE, estimate_shader(settings), inputs | estimate_variant(settings), &out->estimate},
+        {GLSSAO_PASS_ESTIMATE, estimate_shader(settings),
+         inputs | estimate_variant(settings) | (plan->passes[GLSSAO_PASS_RESOLVE].run ? VARIANT_ACCUMULATE : 0u),
+         &out->estimate},
+        {GLSSAO_PASS_RESOLVE, SHADER_RESOLVE, 0, &out->resolve},
+        {GLSSAO_PASS_RESOLVE, SHADER_PROBE, 0, &out->probe},
         {GLSSAO_PASS_BLUR, settings->blur == GLSSAO_BLUR_PLANAR ? SHADER_PLANAR_BLUR : SHADER_BLUR, blur, &out->blur},
         {GLSSAO_PASS_UPSAMPLE, SHADER_UPSAMPLE, inputs, &out->upsample},
     };
@@ -211,6 +103,8 @@ static glssao_result fit_maps(glssao_effect *effect, const glssao_settings *sett
         result = glssao__maps_fit_distance(effect, width, height);
     if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_UPSAMPLE].run)
         result = glssao__maps_fit_full(effect);
+    if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_RESOLVE].run)
+        result = glssao__maps_fit_accumulation(effect);
     if (result == GLSSAO_OK && is_paired(settings, plan))
         result = glssao__maps_fit_paired(effect, width, height);
     if (result != GLSSAO_OK || (width == effect->ambient.width && height == effect->ambient.height))
@@ -243,14 +137,14 @@ static void upload_constants(glssao_effect *effect, gl_uint block_count)
 static void rebuild_normals(glssao_effect *effect, const glssao__program_object *program)
 {
     effect->gl.UseProgram(program->name);
-    draw(effect, effect->normal_map.framebuffer, effect->width, effect->height);
+    glssao__draw(effect, effect->normal_map.framebuffer, effect->width, effect->height);
 }
 
 static void map_distance(glssao_effect *effect, const glssao__program_object *program)
 {
     effect->gl.UseProgram(program->name);
-    draw(effect, effect->distance_map.framebuffer, effect->distance_map.width, effect->distance_map.height);
-    bind_input(effect, UNIT_DISTANCE, effect->distance_map.texture, SAMPLER_POINT_CLAMP);
+    glssao__draw(effect, effect->distance_map.framebuffer, effect->distance_map.width, effect->distance_map.height);
+    glssao__draw_bind(effect, UNIT_DISTANCE, effect->distance_map.texture, SAMPLER_POINT_CLAMP);
 }
 
 /* The two maps that the passes of a frame draw into by turns, and read from. */
@@ -265,14 +159,33 @@ static void draw_turn(glssao_effect *effect, int number, bool is_result)
 {
     const glssao__ambient_maps *maps = is_result ? &effect->ambient : turns(effect);
     if (number > 0)
-        bind_input(effect, UNIT_AMBIENT, turns(effect)->texture[(number - 1) % 2], SAMPLER_POINT_CLAMP);
-    draw(effect, maps->framebuffer[is_result ? 0 : number % 2], maps->width, maps->height);
+        glssao__draw_bind(effect, UNIT_AMBIENT, turns(effect)->texture[(number - 1) % 2], SAMPLER_POINT_CLAMP);
+    glssao__draw(effect, maps->framebuffer[is_result ? 0 : number % 2], maps->width, maps->height);
 }
 
 static void estimate(glssao_effect *effect, const glssao__program_object *program, bool is_result)
 {
-    bind_input(effect, UNIT_RANDOM_VECTOR, effect->random_vector_map, SAMPLER_LINEAR_WRAP);
+    glssao__draw_bind(effect, UNIT_RANDOM_VECTOR, effect->random_vector_map, SAMPLER_LINEAR_WRAP);
     effect->gl.UseProgram(program->name);
+    draw_turn(effect, 0, is_result);
+}
+
+/* Adds an estimate to the sum of its replicate. */
+static void add_estimate(glssao_effect *effect, const glssao__program_object *program)
+{
+    const glssao__target *sum = &effect->accumulation.sum;
+    effect->gl.UseProgram(program->name);
+    glssao__state_set_blend(&effect->gl, GL_ONE, GL_ONE);
+    glssao__draw(effect, sum->framebuffer, sum->width, sum->height);
+    effect->gl.Disablei(GL_BLEND, 0);
+}
+
+static void resolve(glssao_effect *effect, const frame_programs *programs, bool is_result, bool probes)
+{
+    glssao__draw_bind(effect, UNIT_AMBIENT, effect->accumulation.sum.texture, SAMPLER_POINT_CLAMP);
+    if (probes)
+        glssao__accumulate_probe(effect, &programs->probe);
+    effect->gl.UseProgram(programs->resolve.name);
     draw_turn(effect, 0, is_result);
 }
 
@@ -288,9 +201,9 @@ static void blur(glssao_effect *effect, const glssao__program_object *program, i
 static void upsample(glssao_effect *effect, const glssao_frame *frame, const glssao__program_object *program)
 {
     effect->gl.UseProgram(program->name);
-    bind_input(effect, UNIT_DEPTH, depth_source(frame), SAMPLER_POINT_CLAMP);
-    bind_input(effect, UNIT_AMBIENT, turns(effect)->texture[0], SAMPLER_POINT_CLAMP);
-    draw(effect, effect->full_map.framebuffer, effect->full_map.width, effect->full_map.height);
+    glssao__draw_bind(effect, UNIT_DEPTH, depth_source(frame), SAMPLER_POINT_CLAMP);
+    glssao__draw_bind(effect, UNIT_AMBIENT, turns(effect)->texture[0], SAMPLER_POINT_CLAMP);
+    glssao__draw(effect, effect->full_map.framebuffer, effect->full_map.width, effect->full_map.height);
 }
 
 /* The plan's passes, in order. */
@@ -310,10 +223,17 @@ static void run_passes(glssao_effect *effect, const glssao_frame *frame, const g
             map_distance(effect, &programs->distance);
             break;
         case GLSSAO_PASS_ESTIMATE:
-            bind_input(effect, UNIT_NORMAL, frame->normal_texture ? frame->normal_texture : effect->normal_map.texture,
-                       SAMPLER_POINT_CLAMP);
-            estimate(effect, &programs->estimate,
-                     !plan->passes[GLSSAO_PASS_BLUR].run && !plan->passes[GLSSAO_PASS_UPSAMPLE].run);
+            glssao__draw_bind(effect, UNIT_NORMAL,
+                              frame->normal_texture ? frame->normal_texture : effect->normal_map.texture,
+                              SAMPLER_POINT_CLAMP);
+            if (plan->passes[GLSSAO_PASS_RESOLVE].run)
+                add_estimate(effect, &programs->estimate);
+            else
+                estimate(effect, &programs->estimate,
+                         !plan->passes[GLSSAO_PASS_BLUR].run && !plan->passes[GLSSAO_PASS_UPSAMPLE].run);
+            break;
+        case GLSSAO_PASS_RESOLVE:
+            resolve(effect, programs, !plan->passes[GLSSAO_PASS_BLUR].run, plan->passes[pass].draw_calls > 1);
             break;
         case GLSSAO_PASS_BLUR:
             blur(effect, &programs->blur, settings->blur_rounds, !plan->passes[GLSSAO_PASS_UPSAMPLE].run);
@@ -326,24 +246,24 @@ static void run_passes(glssao_effect *effect, const glssao_frame *frame, const g
             break;
         }
         glssao__stats_end_pass(effect, pass, plan->passes[pass].draw_calls);
-        check_gl(effect, plan->passes[pass].name);
+        glssao__draw_check(effect, plan->passes[pass].name);
     }
 }
 
-static glssao_result compute(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
-                             const glssao__projection *projection)
+/* What glssao_compute and glssao_accumulate have in common; `plan` tells which it is. */
+static glssao_result run(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
+                         const glssao__projection *projection, const glssao_plan *plan)
 {
     glssao_result result = GLSSAO_OK;
     if (frame->depth_kind != GLSSAO_DEPTH_NORMAL_ALPHA)
         result = glssao__maps_check_texture(effect, frame->depth_texture, false, "frame.depth_texture");
     if (result == GLSSAO_OK && frame->normal_texture)
         result = glssao__maps_check_texture(effect, frame->normal_texture, false, "frame.normal_texture");
-    const glssao_plan plan = glssao_plan_frame(effect, frame, settings);
     frame_programs programs = {0};
     if (result == GLSSAO_OK)
-        result = get_programs(effect, frame, settings, &plan, &programs);
+        result = get_programs(effect, frame, settings, plan, &programs);
     if (result == GLSSAO_OK)
-        result = fit_maps(effect, settings, &plan);
+        result = fit_maps(effect, settings, plan);
     if (result != GLSSAO_OK)
         return result;
 
@@ -353,9 +273,15 @@ static glssao_result compute(glssao_effect *effect, const glssao_frame *frame, c
     glssao__constants_fill_frame(&effect->frame_constants, frame, settings, projection);
     if (settings->technique == GLSSAO_HEMISPHERE)
         glssao__constants_fill_kernel(&effect->hemisphere_constants, effect->seed, settings->sample_count);
+    if (plan->passes[GLSSAO_PASS_RESOLVE].run) {
+        glssao__accumulate_begin(effect, frame, settings);
+        glssao__accumulate_fill_constants(effect, &effect->frame_constants);
+    } else {
+        glssao__accumulate_stop(effect);
+    }
     upload_constants(effect, settings->technique == GLSSAO_HEMISPHERE ? BLOCK_COUNT : BLOCK_HEMISPHERE);
     glssao__stats_begin_frame(effect);
-    if (!plan.passes[GLSSAO_PASS_ESTIMATE].run) {
+    if (!plan->passes[GLSSAO_PASS_ESTIMATE].run) {
         glssao__maps_clear_ambient(effect);
         effect->result_is_full = false;
         effect->is_paired = false;
@@ -365,26 +291,51 @@ static glssao_result compute(glssao_effect *effect, const glssao_frame *frame, c
     gl_float sky = frame->depth_kind == GLSSAO_DEPTH_WINDOW ? projection->sky_depth : SKY_DISTANCE;
     effect->gl.SamplerParameterfv(effect->samplers[SAMPLER_DEPTH], GL_TEXTURE_BORDER_COLOR,
                                   (const gl_float[4]){sky, sky, sky, sky});
-    effect->is_paired = is_paired(settings, &plan);
+    effect->is_paired = is_paired(settings, plan);
     /* Horizon fetches depth; the others read occluders filtered. */
-    bind_input(effect, UNIT_DEPTH, depth_source(frame),
-               settings->technique == GLSSAO_HORIZON ? SAMPLER_POINT_CLAMP : SAMPLER_DEPTH);
-    run_passes(effect, frame, settings, &plan, &programs);
-    effect->result_is_full = plan.passes[GLSSAO_PASS_UPSAMPLE].run;
+    glssao__draw_bind(effect, UNIT_DEPTH, depth_source(frame),
+                      settings->technique == GLSSAO_HORIZON ? SAMPLER_POINT_CLAMP : SAMPLER_DEPTH);
+    run_passes(effect, frame, settings, plan, &programs);
+    effect->result_is_full = plan->passes[GLSSAO_PASS_UPSAMPLE].run;
     return GLSSAO_OK;
 }
 
 glssao_result glssao_compute(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
 {
     glssao__projection projection;
-    if (!effect || is_between_normals(effect, "glssao_compute") ||
+    if (!effect || glssao__draw_is_between_normals(effect, "glssao_compute") ||
         !glssao__settings_check_frame(effect, frame, settings, &effect->log, &projection))
         return GLSSAO_INVALID_ARGUMENT;
     glssao__host_state host;
     glssao__state_save(&effect->gl, &host);
-    glssao_result result = compute(effect, frame, settings, &projection);
+    const glssao_plan plan = glssao_plan_frame(effect, frame, settings);
+    glssao_result result = run(effect, frame, settings, &projection, &plan);
     glssao__state_restore(&effect->gl, &host);
-    check_gl(effect, "glssao_compute");
+    glssao__draw_check(effect, "glssao_compute");
+    return result;
+}
+
+glssao_result glssao_accumulate(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
+{
+    glssao__projection projection;
+    if (!effect || glssao__draw_is_between_normals(effect, "glssao_accumulate") ||
+        !glssao__settings_check_frame(effect, frame, settings, &effect->log, &projection))
+        return GLSSAO_INVALID_ARGUMENT;
+    if (settings->technique != GLSSAO_HORIZON) {
+        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR,
+                          "settings.technique = %d: only the horizon technique accumulates", settings->technique);
+        return GLSSAO_INVALID_ARGUMENT;
+    }
+    const glssao_settings estimate = glssao__accumulate_settings(settings);
+    const glssao_plan plan =
+        glssao__plan_accumulate(effect, frame, &estimate, glssao__accumulate_next(effect, frame, &estimate));
+    glssao__host_state host;
+    glssao__state_save(&effect->gl, &host);
+    glssao_result result = run(effect, frame, &estimate, &projection, &plan);
+    if (result == GLSSAO_OK && !plan.passes[GLSSAO_PASS_ESTIMATE].run)
+        effect->accumulation.sampling_error = 0.0; /* nothing was sampled */
+    glssao__state_restore(&effect->gl, &host);
+    glssao__draw_check(effect, "glssao_accumulate");
     return result;
 }
 
@@ -403,18 +354,18 @@ static glssao_result apply(glssao_effect *effect, gl_uint framebuffer)
         return GLSSAO_FRAMEBUFFER_ERROR;
     }
     glssao__stats_begin_pass(effect, GLSSAO_PASS_APPLY);
-    gl->Enablei(GL_BLEND, 0);
+    glssao__state_set_blend(gl, GL_ZERO, GL_SRC_COLOR);
     gl->UseProgram(program.name);
     int width, height;
-    bind_input(effect, UNIT_AMBIENT, glssao__maps_result(effect, &width, &height), SAMPLER_LINEAR_CLAMP);
-    draw(effect, framebuffer, effect->width, effect->height);
+    glssao__draw_bind(effect, UNIT_AMBIENT, glssao__maps_result(effect, &width, &height), SAMPLER_LINEAR_CLAMP);
+    glssao__draw(effect, framebuffer, effect->width, effect->height);
     glssao__stats_end_pass(effect, GLSSAO_PASS_APPLY, 1);
     return GLSSAO_OK;
 }
 
 glssao_result glssao_apply(glssao_effect *effect, uint32_t framebuffer)
 {
-    if (!effect || is_between_normals(effect, "glssao_apply"))
+    if (!effect || glssao__draw_is_between_normals(effect, "glssao_apply"))
         return GLSSAO_INVALID_ARGUMENT;
     if (effect->frame == 0) {
         glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "glssao_apply called before glssao_compute");
@@ -424,6 +375,6 @@ glssao_result glssao_apply(glssao_effect *effect, uint32_t framebuffer)
     glssao__state_save(&effect->gl, &host);
     glssao_result result = apply(effect, framebuffer);
     glssao__state_restore(&effect->gl, &host);
-    check_gl(effect, "glssao_apply");
+    glssao__draw_check(effect, "glssao_apply");
     return result;
 }

@@ -98,6 +98,13 @@ glssao_result glssao__maps_fit_full(glssao_effect *effect)
     return fit_target(effect, GL_R16, effect->width, effect->height, "full-size ambient", &effect->full_map);
 }
 
+glssao_result glssao__maps_fit_accumulation(glssao_effect *effect)
+{
+    glssao__accumulation *a = &effect->accumulation;
+    glssao_result result = fit_target(effect, GL_RG32F, effect->width, effect->height, "accumulation", &a->sum);
+    return result == GLSSAO_OK ? fit_target(effect, GL_RG32F, PROBE_SIZE, PROBE_SIZE, "probe", &a->probe) : result;
+}
+
 gl_uint glssao__maps_result(const glssao_effect *effect, int *out_width, int *out_height)
 {
     bool full = effect->result_is_full;

@@ -48,6 +48,7 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
         return plan_of_skips(nothing);
 
     glssao_plan plan = plan_of_skips("");
+    plan.passes[GLSSAO_PASS_RESOLVE].reason = "runs when glssao_accumulate is called";
     struct glssao_planned_pass *normals = &plan.passes[GLSSAO_PASS_NORMALS];
     *normals = frame->normal_texture ? planned(GLSSAO_PASS_NORMALS, false, "the host brings normals")
                                      : planned(GLSSAO_PASS_NORMALS, true, "no normal map: rebuilt from depth");
@@ -88,5 +89,22 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
         pass->width = pass == upsample ? effect->width : width;
         pass->height = pass == upsample ? effect->height : height;
     }
+    return plan;
+}
+
+glssao_plan glssao__plan_accumulate(const glssao_effect *effect, const glssao_frame *frame,
+                                    const glssao_settings *settings, int estimates)
+{
+    glssao_plan plan = glssao_plan_frame(effect, frame, settings);
+    struct glssao_planned_pass *resolve = &plan.passes[GLSSAO_PASS_RESOLVE];
+    struct glssao_planned_pass *blur = &plan.passes[GLSSAO_PASS_BLUR];
+    if (!plan.passes[GLSSAO_PASS_ESTIMATE].run)
+        return plan;
+    *resolve = planned(GLSSAO_PASS_RESOLVE, true, "the mean of the estimates");
+    resolve->draw_calls = estimates > 1 ? 2 : 1; /* a single one has no error to probe */
+    resolve->width = effect->width;
+    resolve->height = effect->height;
+    if (blur->run && estimates >= TILE_ESTIMATES)
+        *blur = planned(GLSSAO_PASS_BLUR, false, "as many estimates as the tile of noise has are smooth");
     return plan;
 }

@@ -14,7 +14,7 @@ static const char *const macros[VARIANT_FLAGS] = {
     "NO_ANGLE_WEIGHT",   "BOX",
     "EDGE_AWARE",        "STEPS_8",
     "STEPS_12",          "STEPS_16",
-    "SLICES_2",
+    "SLICES_2",          "ACCUMULATE",
 };
 
 enum {
@@ -38,8 +38,10 @@ static const struct shader {
                            {shader_view_glsl, shader_normal_map_glsl, shader_hemisphere_frag}},
     [SHADER_DISTANCE] = {"distance", DEPTH_FLAGS, {shader_view_glsl, shader_distance_frag}},
     [SHADER_HORIZON] = {"horizon",
-                        NORMAL_FLAGS | STEP_FLAGS | VARIANT_SLICES_2,
+                        NORMAL_FLAGS | STEP_FLAGS | VARIANT_SLICES_2 | VARIANT_ACCUMULATE,
                         {shader_view_glsl, shader_normal_map_glsl, shader_horizon_frag}},
+    [SHADER_RESOLVE] = {"resolve", 0, {shader_view_glsl, shader_resolve_frag}},
+    [SHADER_PROBE] = {"probe", 0, {shader_view_glsl, shader_probe_frag}},
     [SHADER_PLANAR_BLUR] = {"planar-blur", 0, {shader_view_glsl, shader_planar_blur_frag}},
     [SHADER_UPSAMPLE] = {"upsample", DEPTH_FLAGS, {shader_view_glsl, shader_upsample_frag}},
     [SHADER_BLUR] = {"blur",
@@ -165,6 +167,9 @@ static const struct member {
     FRAME(gBlurDepthThreshold),
     FRAME(gSampleCount),
     FRAME(gFactor),
+    FRAME(gNoise),
+    FRAME(gAccumulation),
+    FRAME(gProbeCell),
 #undef FRAME
     {BLOCK_HEMISPHERE, "gKernel", offsetof(glssao__hemisphere_constants, gKernel)},
     {BLOCK_HEMISPHERE, "gRotations", offsetof(glssao__hemisphere_constants, gRotations)},

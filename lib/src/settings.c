@@ -145,7 +145,7 @@ static bool check_frame(const glssao_effect *effect, const glssao_frame *frame, 
         return refuse(log, "frame.normal_texture", 0, "no texture, and GLSSAO_DEPTH_NORMAL_ALPHA reads depth from it");
     if (!in_alpha && frame->depth_texture == 0)
         return refuse(log, "frame.depth_texture", 0, "no texture");
-    const gl_uint written[] = {effect->ambient.texture[0], effect->ambient.texture[1], effect->paired.texture[0],
+    const gl_uint written[] = {effect->ambient.texture[0], effect->ambient.texture[1],   effect->paired.texture[0],
                                effect->paired.texture[1],  effect->distance_map.texture, effect->full_map.texture};
     for (size_t i = 0; i < sizeof written / sizeof *written; ++i)
         if (written[i] && (frame->depth_texture == written[i] || frame->normal_texture == written[i]))

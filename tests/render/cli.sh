@@ -157,6 +157,20 @@ size="-s 65x37"
     want 0 "" $size --bench 3
     grep -q 'median.*p95' out || fail "the benchmark prints no times"
 
+    # Estimates added up to an error, or for a time.
+    want 0 "" $size --ao e1.pfm --error 0.02 --stats e1.json
+    want 0 "" $size --ao e2.pfm --error 0.002 --stats e2.json
+    grep -q "estimates in .* (at most 0.002)" out || fail "--error does not say what was reached"
+    estimates() { sed -n 's/.*"estimates": \([0-9]*\).*/\1/p' "$1"; }
+    [ "$(estimates e2.json)" -gt "$(estimates e1.json)" ] || fail "a smaller --error takes no more estimates"
+    awk -F'[:,]' '/"sampling_error"/ { exit !($2 > 0 && $2 <= 0.002) }' e2.json || fail "--error was not reached"
+    want 0 "" $size --ao e3.pfm --budget 0.001 --stats e3.json
+    [ "$(estimates e3.json)" = 1 ] || fail "a budget that is spent at once takes more than one estimate"
+    grep -q "estimates in .* (budget 0.001 ms)" out || fail "--budget does not say what was reached"
+    want 2 "--error 0.01: only the horizon technique" -t classic --error 0.01 --ao e4.pfm
+    want 2 "--budget and --bench exclude each other" --budget 10 --bench 3
+    want 2 "--error and --no-ao exclude each other" --error 0.01 --no-ao -o e4.png
+
     # Built-in scenes and both kinds of context.
     for scene in columns cornell steps plane; do
         want 0 "" $size --scene $scene -o scene.png
