@@ -25,7 +25,7 @@ void main()
 {
     vec2 size = vec2(textureSize(u_ambient_map, 0));
     vec2 cell = floor(gl_FragCoord.xy);
-    vec2 texel = min(floor((cell + place(uvec2(cell))) * gProbeCell), size - 1.0);
+    vec2 texel = min(floor(gProbe.xy + (cell + place(uvec2(cell))) * gProbe.zw), size - 1.0);
     vec2 uv = (texel + 0.5) / size;
     vec2 means = max(textureLod(u_ambient_map, uv, 0.0).rg / gAccumulation.zw, vec2(1e-6));
     float difference = pow(means.x, gPower) - pow(means.y, gPower);

@@ -10,7 +10,7 @@ out vec2 o_ambient;
 
 void main()
 {
-    vec2 uv = gl_FragCoord.xy * gInvRenderTargetSize;
+    vec2 uv = pixel_center() * gInvRenderTargetSize;
     vec2 sums = textureLod(u_ambient_map, uv, 0.0).rg;
     float mean = (sums.x + sums.y) / (gAccumulation.z + gAccumulation.w);
     // pow() is undefined for a base of 0 with power 0.

@@ -25,6 +25,7 @@ static bool is_same_view(const glssao_frame *a, const glssao_settings *s, const 
 {
     return a->depth_texture == b->depth_texture && a->depth_kind == b->depth_kind &&
            a->normal_texture == b->normal_texture && a->normal_kind == b->normal_kind &&
+           a->back_texture == b->back_texture && a->second_texture == b->second_texture && a->margin == b->margin &&
            memcmp(a->projection, b->projection, sizeof a->projection) == 0 &&
            a->clip_zero_to_one == b->clip_zero_to_one && s->radius == t->radius && s->sample_count == t->sample_count;
 }
@@ -83,7 +84,8 @@ void glssao__accumulate_begin(glssao_effect *effect, const glssao_frame *frame, 
     a->count[count(a) % 2] += 1;
 }
 
-void glssao__accumulate_fill_constants(const glssao_effect *effect, glssao__frame_constants *c)
+void glssao__accumulate_fill_constants(const glssao_effect *effect, const glssao__region *probed,
+                                       glssao__frame_constants *c)
 {
     const glssao__accumulation *a = &effect->accumulation;
     int replicate = (count(a) - 1) % 2;
@@ -98,15 +100,17 @@ void glssao__accumulate_fill_constants(const glssao_effect *effect, glssao__fram
         c->gAccumulation[i] = i == replicate ? 1.0f : 0.0f;
         c->gAccumulation[2 + i] = (float)a->count[i];
     }
-    c->gProbeCell[0] = (float)effect->width / PROBE_SIZE;
-    c->gProbeCell[1] = (float)effect->height / PROBE_SIZE;
+    c->gProbe[0] = (float)probed->x;
+    c->gProbe[1] = (float)probed->y;
+    c->gProbe[2] = (float)probed->width / PROBE_SIZE;
+    c->gProbe[3] = (float)probed->height / PROBE_SIZE;
 }
 
 void glssao__accumulate_probe(glssao_effect *effect, const glssao__program_object *program)
 {
     const glssao__gl *gl = &effect->gl;
     glssao__accumulation *a = &effect->accumulation;
-    gl->UseProgram(program->name);
+    glssao__draw_use(effect, program);
     glssao__draw(effect, a->probe.framebuffer, PROBE_SIZE, PROBE_SIZE);
     gl->BindFramebuffer(GL_READ_FRAMEBUFFER, a->probe.framebuffer);
     gl->BindBuffer(GL_PIXEL_PACK_BUFFER, a->probe_buffer);

@@ -45,7 +45,7 @@ SAME(block_frame, glssao__frame_constants, gSampleCount);
 SAME(block_frame, glssao__frame_constants, gFactor);
 SAME(block_frame, glssao__frame_constants, gNoise);
 SAME(block_frame, glssao__frame_constants, gAccumulation);
-SAME(block_frame, glssao__frame_constants, gProbeCell);
+SAME(block_frame, glssao__frame_constants, gProbe);
 SAME(block_hemisphere, glssao__hemisphere_constants, gKernel);
 SAME(block_hemisphere, glssao__hemisphere_constants, gRotations);
 _Static_assert(sizeof(struct block_ssao) == 488 && sizeof(glssao_constants) == 496, "cbSsao has another size");

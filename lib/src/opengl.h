@@ -49,6 +49,7 @@ enum {
     GL_ALPHA_TEST = 0x0BC0,
     GL_BLEND = 0x0BE2,
     GL_COLOR_LOGIC_OP = 0x0BF2,
+    GL_SCISSOR_BOX = 0x0C10,
     GL_SCISSOR_TEST = 0x0C11,
     GL_COLOR_WRITEMASK = 0x0C23,
     GL_UNPACK_SWAP_BYTES = 0x0CF0,
@@ -125,6 +126,7 @@ enum {
     GL_TEXTURE_STENCIL_SIZE = 0x88F1,
     GL_SAMPLER_BINDING = 0x8919,
     GL_RGBA16F = 0x881A,
+    GL_RGBA32F = 0x8814,
     GL_UNIFORM_BUFFER = 0x8A11,
     GL_UNIFORM_BUFFER_BINDING = 0x8A28,
     GL_UNIFORM_BUFFER_START = 0x8A29,
@@ -240,11 +242,13 @@ enum {
       (gl_int x, gl_int y, gl_sizei width, gl_sizei height, gl_enum format, gl_enum type, void *pixels))               \
     X(void, SamplerParameterfv, (gl_uint sampler, gl_enum name, const gl_float *value))                                \
     X(void, SamplerParameteri, (gl_uint sampler, gl_enum name, gl_int value))                                          \
+    X(void, Scissor, (gl_int x, gl_int y, gl_sizei width, gl_sizei height))                                            \
     X(void, ShaderSource, (gl_uint shader, gl_sizei n, const gl_char *const *text, const gl_int *lengths))             \
     X(void, TexImage2D,                                                                                                \
       (gl_enum target, gl_int level, gl_int internal_format, gl_sizei width, gl_sizei height, gl_int border,           \
        gl_enum format, gl_enum type, const void *pixels))                                                              \
     X(void, TexParameteri, (gl_enum target, gl_enum name, gl_int value))                                               \
+    X(void, Uniform2f, (gl_int location, gl_float x, gl_float y))                                                      \
     X(void, Uniform1i, (gl_int location, gl_int value))                                                                \
     X(void, UniformBlockBinding, (gl_uint program, gl_uint block, gl_uint binding))                                    \
     X(void, UseProgram, (gl_uint program))                                                                             \
@@ -256,6 +260,7 @@ enum {
     X(void, BlendFuncSeparatei,                                                                                        \
       (gl_uint index, gl_enum src_rgb, gl_enum dst_rgb, gl_enum src_alpha, gl_enum dst_alpha))                         \
     X(void, ClipControl, (gl_enum origin, gl_enum depth))                                                              \
+    X(void, ScissorIndexed, (gl_uint index, gl_int x, gl_int y, gl_sizei width, gl_sizei height))                      \
     X(void, ViewportIndexedf, (gl_uint index, gl_float x, gl_float y, gl_float width, gl_float height))
 
 typedef struct glssao__gl {

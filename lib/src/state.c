@@ -75,6 +75,7 @@ static void restore_toggles(const glssao__gl *gl, const glssao__host_state *s)
 /* With viewport arrays, setting without an index would overwrite all sixteen. */
 static void save_scissor(const glssao__gl *gl, glssao__host_state *s)
 {
+    gl->GetIntegerv(GL_SCISSOR_BOX, s->scissor_box);
     s->scissor = gl->ViewportIndexedf ? gl->IsEnabledi(GL_SCISSOR_TEST, 0) : gl->IsEnabled(GL_SCISSOR_TEST);
 }
 
@@ -93,8 +94,24 @@ static void set_scissor(const glssao__gl *gl)
     put_scissor(gl, 0);
 }
 
+static void put_scissor_box(const glssao__gl *gl, const gl_int box[4])
+{
+    if (gl->ScissorIndexed)
+        gl->ScissorIndexed(0, box[0], box[1], box[2], box[3]);
+    else
+        gl->Scissor(box[0], box[1], box[2], box[3]);
+}
+
+void glssao__state_set_scissor(const glssao__gl *gl, const gl_int box[4])
+{
+    put_scissor(gl, box != NULL);
+    if (box)
+        put_scissor_box(gl, box);
+}
+
 static void restore_scissor(const glssao__gl *gl, const glssao__host_state *s)
 {
+    put_scissor_box(gl, s->scissor_box);
     put_scissor(gl, s->scissor);
 }
 

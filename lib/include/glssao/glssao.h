@@ -138,6 +138,12 @@ typedef struct glssao_frame {
     float projection[16];      /* column-major clip_from_view, finite and invertible: perspective (off-centre,
                                   infinite, reversed: all fine) or orthographic */
     bool clip_zero_to_one;     /* true where the host called glClipControl(..., GL_ZERO_TO_ONE) */
+    int margin;                /* pixels on each side, even: drawn so that occluders beyond the picture's edge are found,
+                                  but not delivered. The result is that much smaller; projection is that of the whole */
+    uint32_t back_texture;     /* horizon; both or neither. A second layer, stored as depth_texture is (view distance in */
+    uint32_t second_texture;   /* red where depth is in the normal map): the nearest back face at or behind the surface
+                                  seen, where surfaces that have two sides count as back faces; and the nearest front
+                                  face behind it. Sky: there is none. Thickness is then read instead of guessed */
 } glssao_frame;
 
 /* ---- what the effect tells ------------------------------------------------------------------------------ */
