@@ -159,8 +159,7 @@ static bool add_jumps(const point *p, const slice *s, const side *d, const candi
     int open[MAX_STEPS], open_count = 0;
     for (int i = 0; i < steps; ++i) {
         const truth jump = is_jump(&p->in->constants, i > 0 ? change[i - 1] : exactly(1e3), change[i], change[i + 1]);
-        /* From sky to sky a jump changes nothing: the runs before and after it end at the sky, and sky hides nothing.
-         */
+        /* From sky to sky a jump changes nothing: runs about it end at the sky, and sky hides nothing. */
         const bool deep =
             i > 0 && samples[i]->sky && samples[i - 1]->sky && samples[i]->y.v < -1e6 && samples[i - 1]->y.v < -1e6;
         if (jump == YES)
