@@ -135,7 +135,7 @@ static double check(setup *s, const float *depth, const vagueness *most, const c
 
 enum { SCENE_SHAPES = 8 };
 
-/* Rows of thin posts on a floor, a slope that leans away, and a large sphere partly off the screen. */
+/* A row of thin posts on a floor, a slope that leans away, and a large sphere partly off the screen. */
 static int make_posts(analytic_shape shapes[SCENE_SHAPES])
 {
     const double lean = 70.0 * PI / 180.0;

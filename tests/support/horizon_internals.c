@@ -2,12 +2,27 @@
 #include "horizon_internals.h"
 
 #include "effect.h"
+#include "shader_constants.h"
 
 uint32_t horizon_distance_map(const glssao_effect *effect, int *out_width, int *out_height)
 {
     *out_width = effect->distance_map.width;
     *out_height = effect->distance_map.height;
     return effect->distance_map.texture;
+}
+
+uint32_t horizon_paired_map(const glssao_effect *effect, int number)
+{
+    return effect->paired.texture[number];
+}
+
+bool horizon_read_tolerances(double *out_blur, double *out_upsample)
+{
+    const char *pieces[GLSSAO__PROGRAM_MAX_SOURCES];
+    int count = glssao__program_sources(SHADER_PLANAR_BLUR, 0, GL_FRAGMENT_SHADER, pieces);
+    const bool blur = shader_constant(pieces, count, "TOLERANCE", out_blur);
+    count = glssao__program_sources(SHADER_UPSAMPLE, 0, GL_FRAGMENT_SHADER, pieces);
+    return blur && shader_constant(pieces, count, "TOLERANCE", out_upsample);
 }
 
 bool horizon_variant(const glssao_effect *effect, horizon_input *out)

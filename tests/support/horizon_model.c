@@ -138,6 +138,9 @@ static int count_sectors(uint32_t mask)
 static interval slice_occlusion(const point *p, double angle, double jitter)
 {
     const slice s = make_slice(p, angle, jitter);
+    /* A normal straight across the slice: which way it leans is rounding, but it weighs next to nothing. */
+    if (s.projected.v < 10.0 * s.projected.e)
+        return (interval){0.0, 1.6 * (s.projected.v + s.projected.e)};
     const int steps = p->in->steps;
     hidden h[2];
     for (int minus = 0; minus < 2; ++minus) {

@@ -53,8 +53,8 @@ static inline rounded divide(rounded a, rounded b)
 
 static inline rounded square_root(rounded a)
 {
-    const double v = sqrt(fmax(a.v, 0.0));
-    return (rounded){v, v - sqrt(fmax(a.v - a.e, 0.0)) + 5.0 * ROUNDING * v};
+    const double v = sqrt(fmax(a.v, 0.0)), low = sqrt(fmax(a.v - a.e, 0.0)), high = sqrt(fmax(a.v + a.e, 0.0));
+    return (rounded){v, fmax(v - low, high - v) + 5.0 * ROUNDING * high};
 }
 
 /* max(a, least) with an exact bound. */
