@@ -74,7 +74,10 @@ static bool write_record(const char *path, const record *r)
             fprintf(f, "\t%.5f", r->rows[i].rmse[level]);
         fputc('\n', f);
     }
-    return fclose(f) == 0;
+    const bool written = fclose(f) == 0;
+    if (written)
+        printf("%s is written, %d scenes\n", path, r->count);
+    return written;
 }
 
 static bool measure_view(effects *e, map_reader *m, const bench_view *v, float *picture, row *out, char *error)
