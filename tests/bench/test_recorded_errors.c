@@ -18,7 +18,7 @@
 enum { WIDTH = 240, HEIGHT = 135, RAYS = 64, LEVELS = GLSSAO_ULTRA + 1, ERROR_LENGTH = 1024, MAX_ROWS = 64 };
 
 /* Other drivers and compilers round otherwise; what a change of the shader brings is larger. */
-static const double WORSE = 0.02, BETTER = 0.05, FLOOR = 0.0003;
+static const double WORSE = 0.01, BETTER = 0.03, FLOOR = 0.0002;
 
 /* Words of their names; "cornell" stands for cornell-box too. */
 static const char picked[] = "columns,cornell,steps,plane,zdm2,garage,cycloidal,dutch,hermes,ivy,truck-town";
