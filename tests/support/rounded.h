@@ -2,8 +2,8 @@
  *
  * A number that a float program computes: its exact value and a bound on what rounding can have done to it, carried
  * from operation to operation (running error analysis, N. Higham, "Accuracy and Stability of Numerical Algorithms",
- * 2nd ed., section 3.3). Each operation is as exact as GLSL asks for: half a unit in the last place, division and
- * square roots two and a half.
+ * 2nd ed., section 3.3). Each operation is as exact as GLSL asks for from 4.10 on: half a unit in the last place,
+ * division and square roots two and a half.
  */
 #ifndef GLSSAO_TESTS_ROUNDED_H
 #define GLSSAO_TESTS_ROUNDED_H
