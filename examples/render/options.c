@@ -76,6 +76,16 @@ static const option table[] = {
     {0, "stats", "FILE.json", "what was drawn and where the time went", KIND_FILE, AT(stats), 0, 0, ""},
     {0, "plan", NULL, "prints which passes run, and why", KIND_FLAG, AT(plan), 0, 0, NULL},
     {0, "no-ao", NULL, "no occlusion pass at all", KIND_FLAG, AT(no_ao), 0, 0, NULL},
+    {0, "no-shadows", NULL, "direct light goes through everything", KIND_FLAG, AT(no_shadows), 0, 0, NULL},
+    {0, "shadow-size", "N", "side of the shadow map in texels (2048)", KIND_INT, AT(shadow_size), 1, 16384,
+     "a whole number from 1 to 16384"},
+    {0, "mapped-normals", NULL, "occlusion sees normal maps (it sees the mesh alone)", KIND_FLAG, AT(mapped_normals), 0,
+     0, NULL},
+    {0, "specular-occlusion", NULL, "occlusion darkens reflections by their lobe", KIND_FLAG, AT(specular_occlusion), 0,
+     0, NULL},
+    {0, "multi-bounce", NULL, "occluded light takes on the surface's colour", KIND_FLAG, AT(multi_bounce), 0, 0, NULL},
+    {0, "debug-map", "NAME", "in the picture's lower right: ao, normals, depth, random or shadow", KIND_WORD,
+     AT(debug_map), 0, 0, "none|ao|normals|depth|random|shadow"},
     {0, "seed", "N", "of every random input (0)", KIND_SEED, AT(seed), 0, 4294967295.0,
      "a whole number from 0 to 4294967295"},
     {'h', "help", NULL, "prints this", KIND_FLAG, AT(help), 0, 0, NULL},
@@ -318,6 +328,12 @@ static bool check_together(const options *o, char *error, size_t error_size)
         snprintf(error, error_size, "--scene \"%s\": must be one of columns|cornell|steps|plane", o->scene_name);
     } else if (o->no_ao && o->ao) {
         snprintf(error, error_size, "--no-ao and --ao %s exclude each other", o->ao);
+    } else if (o->no_shadows && (o->shadow_size || o->debug_map == OPTIONS_MAP_SHADOW)) {
+        snprintf(error, error_size, "--no-shadows excludes --shadow-size and --debug-map shadow");
+    } else if (o->debug_map == OPTIONS_MAP_AO && o->no_ao) {
+        snprintf(error, error_size, "--no-ao and --debug-map ao exclude each other");
+    } else if (o->debug_map && !o->output) {
+        snprintf(error, error_size, "--debug-map: needs a picture, -o FILE.png");
     } else if (o->frames && o->bench) {
         snprintf(error, error_size, "--frames %d and --bench %d exclude each other", o->frames, o->bench);
     } else if (o->near_plane.given && o->far_plane.given && o->near_plane.value >= o->far_plane.value) {

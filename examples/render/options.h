@@ -32,11 +32,24 @@ typedef struct options {
     int camera;        /* the scene's N-th, counted from 1; 0: not given */
     int frames, bench; /* 0: not given */
     uint32_t seed;
+    bool no_shadows, mapped_normals, specular_occlusion, multi_bounce;
+    int shadow_size; /* texels; 0: not given */
+    int debug_map;   /* options_map; OPTIONS_MAP_NONE: not given */
     bool plan, no_ao, help, version;
 } options;
 
 /* Of options.technique, behind the library's own. */
 enum { OPTIONS_RAYTRACE = GLSSAO_HORIZON + 1 };
+
+/* Of options.debug_map; the shadow map only where one is drawn. */
+typedef enum options_map {
+    OPTIONS_MAP_NONE = 0,
+    OPTIONS_MAP_AO,
+    OPTIONS_MAP_NORMALS,
+    OPTIONS_MAP_DEPTH,
+    OPTIONS_MAP_RANDOM,
+    OPTIONS_MAP_SHADOW
+} options_map;
 
 typedef enum options_result { OPTIONS_RUN, OPTIONS_DONE, OPTIONS_WRONG } options_result;
 
