@@ -13,9 +13,10 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The comparison reads up to two texels from the point on a sloping surface: one tap, and one more for the filter. So
- * the depth stored there is moved by the slope of two and a half, and by some steps for rounding. */
-static const float offset_slopes = 2.5f, offset_steps = 8.0f;
+/* The comparison reads up to two texels from the point on a sloping surface, along both axes: one tap, and one more for
+ * the filter. GL may take the larger of the two slopes as the slope, so the depth stored is moved by four of those, and
+ * by some steps for rounding. */
+static const float offset_slopes = 4.0f, offset_steps = 8.0f;
 
 void draw_shadow_offset(void)
 {
