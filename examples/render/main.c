@@ -91,6 +91,7 @@ static pipeline_wants choose_wants(const options *o)
     wants.traced = wants.ao && o->technique == OPTIONS_RAYTRACE;
     wants.normals = (wants.ao && !wants.traced) || o->normals || o->debug_map == OPTIONS_MAP_NORMALS ||
                     o->debug_map == OPTIONS_MAP_RANDOM;
+    wants.timers = o->stats || o->bench;
     wants.prepass = wants.picture || wants.normals || o->depth;
     return wants;
 }

@@ -22,6 +22,7 @@ typedef struct options_vector {
 typedef struct options {
     const char *scene_path;                            /* NULL: the built-in scene */
     const char *scene_name;                            /* of the built-in scene; NULL where a file is given */
+    const char *set;                                   /* setting_table.h; NULL: nothing */
     const char *output, *ao, *normals, *depth, *stats; /* NULL: not wanted */
     int width, height;
     int quality, technique, context; /* glssao_quality, glssao_technique, context_kind */
@@ -56,5 +57,8 @@ typedef enum options_result { OPTIONS_RUN, OPTIONS_DONE, OPTIONS_WRONG } options
 /* OPTIONS_DONE: help or version was asked for and printed to stdout. OPTIONS_WRONG: one line in `error` names the
  * option and the value. The strings live as long as argv. */
 options_result options_parse(int argc, char **argv, options *out, char *error, size_t error_size);
+
+/* The same command line for glssao-view, which needs no output and takes none of the options that are about files. */
+options_result options_parse_for_viewer(int argc, char **argv, options *out, char *error, size_t error_size);
 
 #endif

@@ -6,6 +6,7 @@
 
 #include "camera.h"
 #include "map_view.h"
+#include "setting_table.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,14 +28,7 @@ glssao_settings pipeline_settings(const options *o, const scene *s)
     } else if (o->scene_path) {
         radius = camera_suggest_radius(s);
     }
-    if (radius > 0) {
-        const float scale = radius / settings.radius;
-        settings.fade_start *= scale;
-        settings.fade_end *= scale;
-        settings.surface_epsilon *= scale;
-        settings.blur_depth_threshold *= scale;
-    }
-    settings.radius = radius;
+    setting_scale_radius(&settings, radius);
     if (o->power.given) {
         settings.power = o->power.value;
     }
@@ -43,6 +37,10 @@ glssao_settings pipeline_settings(const options *o, const scene *s)
     }
     if (o->blur_rounds >= 0) {
         settings.blur_rounds = o->blur_rounds;
+    }
+    if (o->set) {
+        char fault[256];
+        setting_apply(o->set, &settings, fault, sizeof fault); /* options_parse saw that it is right */
     }
     return settings;
 }
@@ -168,7 +166,7 @@ bool pipeline_create(pipeline *p, const scene *s, glssao_load_fn load, void *loa
                                       .width = o->width,
                                       .height = o->height,
                                       .seed = o->seed,
-                                      .no_timers = !o->stats && !o->bench};
+                                      .no_timers = !wants.timers};
         const glssao_result result = glssao_create(&config, &p->effect);
         if (result != GLSSAO_OK) {
             snprintf(error, error_size, "the effect can't be made: %s", glssao_result_string(result));
@@ -237,6 +235,17 @@ GLuint pipeline_ambient_map(const pipeline *p)
     return p->wants.traced ? p->truth.map : glssao_map(p->effect, GLSSAO_MAP_AMBIENT, NULL, NULL);
 }
 
+void pipeline_shade(pipeline *p, const scene_view *view, GLuint ambient_map, GLuint framebuffer)
+{
+    scene_draw_shadow(p->renderer, &p->lighting);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl.Viewport(0, 0, p->width, p->height);
+    scene_draw_main(p->renderer, view, &p->lighting, ambient_map);
+    if (p->debug_map) {
+        map_view_draw(p, view, p->debug_map, map_view_inset(p, p->debug_map), framebuffer);
+    }
+}
+
 bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, char *error, size_t error_size)
 {
     if (p->wants.prepass) {
@@ -252,13 +261,7 @@ bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, char *
         stopwatch_lap(times, PHASE_AO);
     }
     if (p->wants.picture) {
-        scene_draw_shadow(p->renderer, &p->lighting);
-        gl.BindFramebuffer(GL_FRAMEBUFFER, p->color_framebuffer);
-        gl.Viewport(0, 0, p->width, p->height);
-        scene_draw_main(p->renderer, view, &p->lighting, p->wants.ao ? pipeline_ambient_map(p) : 0);
-        if (p->debug_map) {
-            map_view_draw(p, view, p->debug_map, map_view_inset(p, p->debug_map), p->color_framebuffer);
-        }
+        pipeline_shade(p, view, p->wants.ao ? pipeline_ambient_map(p) : 0, p->color_framebuffer);
         stopwatch_lap(times, PHASE_MAIN);
     }
     return true;

@@ -20,6 +20,7 @@ typedef struct pipeline_wants {
     bool ao;      /* accessibility: the occlusion passes, or */
     bool traced;  /* rays */
     bool prepass; /* depth, and with it: */
+    bool timers;  /* times of the occlusion passes */
     bool normals; /* a normal map, for --normals or the occlusion passes */
 } pipeline_wants;
 
@@ -55,6 +56,10 @@ void pipeline_destroy(pipeline *p);
 
 /* Draws all that is wanted, and ends the phases of `times` as it goes. */
 bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, char *error, size_t error_size);
+
+/* The picture of the frame last drawn once more, with another accessibility map (0: none), into another framebuffer of
+ * the pipeline's size whose depth attachment is the pipeline's `depth`. */
+void pipeline_shade(pipeline *p, const scene_view *view, GLuint ambient_map, GLuint framebuffer);
 
 /* Pixels of malloc, bottom to top; NULL where memory is short. */
 void *pipeline_read_picture(pipeline *p);                               /* PIXELS_RGBA8, sRGB */
