@@ -89,7 +89,9 @@ static pipeline_wants choose_wants(const options *o)
     pipeline_wants wants = {.picture = o->bench || !maps_alone};
     wants.ao = !o->no_ao && (wants.picture || o->ao);
     wants.traced = wants.ao && o->technique == OPTIONS_RAYTRACE;
-    wants.normals = (wants.ao && !wants.traced) || o->normals;
+    wants.normals = (wants.ao && !wants.traced) || o->normals || o->debug_map == OPTIONS_MAP_NORMALS ||
+                    o->debug_map == OPTIONS_MAP_RANDOM;
+    wants.timers = o->stats || o->bench;
     wants.prepass = wants.picture || wants.normals || o->depth;
     return wants;
 }
@@ -205,7 +207,7 @@ static bool render(run *r, double start_ms)
     stopwatch_start(&r->times);
     if (!viewpoint_choose(o, r->loader.scene, &r->viewpoint, r->error, sizeof r->error) ||
         !viewpoint_view(&r->viewpoint, r->loader.scene, 0, o->width, o->height, &view, r->error, sizeof r->error) ||
-        !pipeline_create(&r->pipeline, r->loader.scene, r->context, o, choose_wants(o), r->error, sizeof r->error)) {
+        !pipeline_create(&r->pipeline, r->loader.scene, context_load, r->context, o, choose_wants(o), r->error, sizeof r->error)) {
         return false;
     }
     stopwatch_lap(&r->times, PHASE_SETUP);

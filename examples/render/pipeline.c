@@ -5,13 +5,15 @@
 #include "pipeline.h"
 
 #include "camera.h"
+#include "map_view.h"
+#include "setting_table.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* The effect's lengths belong together: a radius other than the default's scales the others along. */
-static glssao_settings choose_settings(const options *o, const scene *s)
+glssao_settings pipeline_settings(const options *o, const scene *s)
 {
     const bool traced = o->technique == OPTIONS_RAYTRACE;
     glssao_settings settings =
@@ -26,14 +28,7 @@ static glssao_settings choose_settings(const options *o, const scene *s)
     } else if (o->scene_path) {
         radius = camera_suggest_radius(s);
     }
-    if (radius > 0) {
-        const float scale = radius / settings.radius;
-        settings.fade_start *= scale;
-        settings.fade_end *= scale;
-        settings.surface_epsilon *= scale;
-        settings.blur_depth_threshold *= scale;
-    }
-    settings.radius = radius;
+    setting_scale_radius(&settings, radius);
     if (o->power.given) {
         settings.power = o->power.value;
     }
@@ -42,6 +37,10 @@ static glssao_settings choose_settings(const options *o, const scene *s)
     }
     if (o->blur_rounds >= 0) {
         settings.blur_rounds = o->blur_rounds;
+    }
+    if (o->set) {
+        char fault[256];
+        setting_apply(o->set, &settings, fault, sizeof fault); /* options_parse saw that it is right */
     }
     return settings;
 }
@@ -87,42 +86,24 @@ static bool check_size(int width, int height, char *error, size_t error_size)
     return true;
 }
 
-bool pipeline_create(pipeline *p, const scene *s, context *c, const options *o, pipeline_wants wants, char *error,
-                     size_t error_size)
+static void free_targets(pipeline *p)
 {
-    *p = (pipeline){.wants = wants, .width = o->width, .height = o->height, .seed = o->seed};
-    if (!check_size(o->width, o->height, error, error_size)) {
-        return false;
-    }
-    p->settings = choose_settings(o, s);
-    p->goal = (progressive_goal){.error = (double)o->error.value, .budget_ms = (double)o->budget_ms.value};
-    p->lighting = scene_default_lighting();
-    p->renderer = scene_renderer_create(s, error, error_size);
-    if (!p->renderer) {
-        return false;
-    }
-    if (wants.traced && !truth_open(&p->truth, s, o->width, o->height, error, error_size)) {
-        return false;
-    }
-    p->depth = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, p->width, p->height);
+    gl.DeleteFramebuffers(1, &p->depth_framebuffer);
+    gl.DeleteFramebuffers(1, &p->color_framebuffer);
+    gl.DeleteTextures(1, &p->depth);
+    gl.DeleteTextures(1, &p->color);
+    p->depth_framebuffer = p->color_framebuffer = p->depth = p->color = 0;
+    map_view_free(p);
+}
+
+static bool make_targets(pipeline *p, char *error, size_t error_size)
+{
     bool complete = true;
-    if (wants.normals) {
-        const glssao_config config = {.load = context_load,
-                                      .load_user = c,
-                                      .log = glssao_log_to_stderr,
-                                      .width = o->width,
-                                      .height = o->height,
-                                      .seed = o->seed,
-                                      .no_timers = !o->stats && !o->bench};
-        const glssao_result result = glssao_create(&config, &p->effect);
-        if (result != GLSSAO_OK) {
-            snprintf(error, error_size, "the effect can't be made: %s", glssao_result_string(result));
-            return false;
-        }
-    } else {
+    p->depth = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, p->width, p->height);
+    if (!p->effect) {
         complete = make_framebuffer(0, p->depth, &p->depth_framebuffer);
     }
-    if (wants.picture) {
+    if (p->wants.picture) {
         p->color = make_texture(GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, p->width, p->height);
         complete = make_framebuffer(p->color, p->depth, &p->color_framebuffer) && complete;
     }
@@ -135,17 +116,76 @@ bool pipeline_create(pipeline *p, const scene *s, context *c, const options *o, 
     return true;
 }
 
+bool pipeline_resize(pipeline *p, int width, int height, char *error, size_t error_size)
+{
+    if (!check_size(width, height, error, error_size)) {
+        return false;
+    }
+    const glssao_result result = p->effect ? glssao_resize(p->effect, width, height) : GLSSAO_OK;
+    if (result != GLSSAO_OK) {
+        snprintf(error, error_size, "glssao_resize failed: %s", glssao_result_string(result));
+        return false;
+    }
+    free_targets(p);
+    p->width = width;
+    p->height = height;
+    return make_targets(p, error, error_size);
+}
+
+bool pipeline_create(pipeline *p, const scene *s, glssao_load_fn load, void *load_user, const options *o,
+                     pipeline_wants wants, char *error, size_t error_size)
+{
+    *p = (pipeline){.wants = wants, .width = o->width, .height = o->height, .seed = o->seed};
+    if (!check_size(o->width, o->height, error, error_size)) {
+        return false;
+    }
+    p->settings = pipeline_settings(o, s);
+    p->goal = (progressive_goal){.error = (double)o->error.value, .budget_ms = (double)o->budget_ms.value};
+    p->lights = malloc((s->light_count + 1u) * sizeof *p->lights);
+    p->renderer = p->lights ? scene_renderer_create(s, error, error_size) : NULL;
+    if (!p->renderer) {
+        return false;
+    }
+    p->lighting = scene_lighting_of(s, p->lights);
+    p->draw_options = (scene_draw_options){.shadows = !o->no_shadows,
+                                           .shadow_size = o->shadow_size,
+                                           .mapped_normals = o->mapped_normals,
+                                           .specular_occlusion = o->specular_occlusion,
+                                           .multi_bounce = o->multi_bounce,
+                                           .no_picture = !wants.picture};
+    if (!scene_renderer_configure(p->renderer, &p->lighting, &p->draw_options, error, error_size)) {
+        return false;
+    }
+    p->debug_map = (options_map)o->debug_map;
+    if (wants.traced && !truth_open(&p->truth, s, o->width, o->height, error, error_size)) {
+        return false;
+    }
+    if (wants.normals) {
+        const glssao_config config = {.load = load,
+                                      .load_user = load_user,
+                                      .log = glssao_log_to_stderr,
+                                      .width = o->width,
+                                      .height = o->height,
+                                      .seed = o->seed,
+                                      .no_timers = !wants.timers};
+        const glssao_result result = glssao_create(&config, &p->effect);
+        if (result != GLSSAO_OK) {
+            snprintf(error, error_size, "the effect can't be made: %s", glssao_result_string(result));
+            return false;
+        }
+    }
+    return make_targets(p, error, error_size);
+}
+
 void pipeline_destroy(pipeline *p)
 {
     glssao_destroy(p->effect);
     truth_close(&p->truth);
     if (p->renderer) {
+        free_targets(p);
         scene_renderer_destroy(p->renderer);
-        gl.DeleteFramebuffers(1, &p->depth_framebuffer);
-        gl.DeleteFramebuffers(1, &p->color_framebuffer);
-        gl.DeleteTextures(1, &p->depth);
-        gl.DeleteTextures(1, &p->color);
     }
+    free(p->lights);
     *p = (pipeline){0};
 }
 
@@ -198,9 +238,20 @@ static bool find_accessibility(pipeline *p, const scene_view *view, char *error,
     return check(result, "glssao_accumulate", error, error_size);
 }
 
-static GLuint ambient_map(const pipeline *p)
+GLuint pipeline_ambient_map(const pipeline *p)
 {
     return p->wants.traced ? p->truth.map : glssao_map(p->effect, GLSSAO_MAP_AMBIENT, NULL, NULL);
+}
+
+void pipeline_shade(pipeline *p, const scene_view *view, GLuint ambient_map, GLuint framebuffer)
+{
+    scene_draw_shadow(p->renderer, &p->lighting);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl.Viewport(0, 0, p->width, p->height);
+    scene_draw_main(p->renderer, view, &p->lighting, ambient_map);
+    if (p->debug_map) {
+        map_view_draw(p, view, p->debug_map, map_view_inset(p, p->debug_map), framebuffer);
+    }
 }
 
 bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, char *error, size_t error_size)
@@ -218,9 +269,7 @@ bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, char *
         stopwatch_lap(times, PHASE_AO);
     }
     if (p->wants.picture) {
-        gl.BindFramebuffer(GL_FRAMEBUFFER, p->color_framebuffer);
-        gl.Viewport(0, 0, p->width, p->height);
-        scene_draw_main(p->renderer, view, &p->lighting, p->wants.ao ? ambient_map(p) : 0);
+        pipeline_shade(p, view, p->wants.ao ? pipeline_ambient_map(p) : 0, p->color_framebuffer);
         stopwatch_lap(times, PHASE_MAIN);
     }
     return true;
@@ -289,7 +338,7 @@ void *pipeline_read_ao(pipeline *p, pixel_kind kind)
         void *copy = malloc(size);
         return copy ? memcpy(copy, p->truth.accessibility, size) : NULL;
     }
-    return read_map(p, &(map_drawing){.texture = ambient_map(p), .red_only = true, .scale = 1}, kind);
+    return read_map(p, &(map_drawing){.texture = pipeline_ambient_map(p), .red_only = true, .scale = 1}, kind);
 }
 
 void *pipeline_read_normals(pipeline *p)
@@ -340,4 +389,10 @@ void pipeline_print_plan(const pipeline *p, const scene_view *view)
               !p->wants.picture ? "no shaded picture is wanted"
               : p->wants.ao     ? "shades, ambient light scaled by accessibility"
                                 : "shades, ambient light in full");
+    scene_effect effects[SCENE_EFFECT_COUNT];
+    scene_renderer_effects(p->renderer, &p->lighting, effects);
+    for (int i = 0; p->wants.picture && i < SCENE_EFFECT_COUNT; i++) {
+        printf("%-12s %-5s %5s  %-12s %s\n", effects[i].name, effects[i].used ? "use" : "skip", "-", "-",
+               effects[i].reason);
+    }
 }

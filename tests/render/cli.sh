@@ -144,6 +144,22 @@ size="-s 65x37"
         ! cmp -s a1.pfm p2.pfm || fail "$options changes nothing"
     done
 
+    # The picture's own options, which leave accessibility as it is. The columns are matte and have no normal map.
+    for options in "--no-shadows" "--shadow-size 64" "--multi-bounce" "--debug-map ao" "--debug-map normals" \
+        "--debug-map depth" "--debug-map random" "--debug-map shadow"; do
+        want 0 "" $size --seed=7 -o p3.png --ao p3.pfm $options
+        ! cmp -s a1.png p3.png || fail "$options changes nothing"
+        cmp a1.pfm p3.pfm || fail "$options changes accessibility"
+    done
+    for options in "--mapped-normals" "--specular-occlusion"; do
+        want 0 "" $size --seed=7 -o p3.png $options
+        cmp a1.png p3.png || fail "$options changes a matte scene without normal maps"
+    done
+    want 2 "--no-shadows excludes" --no-shadows --shadow-size 64 -o b.png
+    want 2 "--debug-map" --debug-map ao --no-ao -o b.png
+    want 2 "--debug-map" --debug-map ao --ao b.png
+    want 2 '"stencil"' --debug-map stencil -o b.png
+
     # Turntable, plan, benchmark.
     want 0 "" $size --frames 3 -o turn.png
     grep -q "frame 3 of 3" err || fail "no progress"
@@ -152,6 +168,8 @@ size="-s 65x37"
     cmp -s turn-0001.png turn-0002.png && fail "the turntable stands still"
     want 0 "" $size --plan
     grep -q '^main  *run' out || fail "the plan has no main pass"
+    grep -q '^shadow map  *use' out || fail "the plan has no shadow map"
+    grep -q '^normal maps  *skip' out || fail "the plan uses normal maps that are not there"
     want 0 "" $size --plan --no-ao
     grep -q '^occlusion  *skip' out || fail "the plan of --no-ao runs occlusion"
     want 0 "" $size --bench 3
