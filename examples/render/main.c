@@ -96,10 +96,21 @@ static pipeline_wants choose_wants(const options *o)
     return wants;
 }
 
+/* With the margin on it. */
+static bool find_view(run *r, float angle_rad, scene_view *out_view)
+{
+    const options *o = &r->options;
+    if (!viewpoint_view(&r->viewpoint, r->loader.scene, angle_rad, o->width, o->height, out_view, r->error,
+                        sizeof r->error)) {
+        return false;
+    }
+    *out_view = viewpoint_widened(out_view, o->margin);
+    return true;
+}
+
 static bool draw(run *r, float angle_rad, scene_view *out_view)
 {
-    return viewpoint_view(&r->viewpoint, r->loader.scene, angle_rad, r->options.width, r->options.height, out_view,
-                          r->error, sizeof r->error) &&
+    return find_view(r, angle_rad, out_view) &&
            pipeline_draw(&r->pipeline, out_view, &r->times, r->error, sizeof r->error);
 }
 
@@ -205,9 +216,9 @@ static bool render(run *r, double start_ms)
     }
     scene_view view;
     stopwatch_start(&r->times);
-    if (!viewpoint_choose(o, r->loader.scene, &r->viewpoint, r->error, sizeof r->error) ||
-        !viewpoint_view(&r->viewpoint, r->loader.scene, 0, o->width, o->height, &view, r->error, sizeof r->error) ||
-        !pipeline_create(&r->pipeline, r->loader.scene, context_load, r->context, o, choose_wants(o), r->error, sizeof r->error)) {
+    if (!viewpoint_choose(o, r->loader.scene, &r->viewpoint, r->error, sizeof r->error) || !find_view(r, 0, &view) ||
+        !pipeline_create(&r->pipeline, r->loader.scene, context_load, r->context, o, choose_wants(o), r->error,
+                         sizeof r->error)) {
         return false;
     }
     stopwatch_lap(&r->times, PHASE_SETUP);

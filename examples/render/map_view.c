@@ -3,9 +3,9 @@
 
 scene_rectangle map_view_inset(const pipeline *p, options_map map)
 {
-    const int height = (p->height + 3) / 4;
-    const int width = map == OPTIONS_MAP_SHADOW && height < p->width ? height : (p->width + 3) / 4;
-    return (scene_rectangle){p->width - width, 0, width, height};
+    const int full_width = p->width - 2 * p->margin, height = (p->height - 2 * p->margin + 3) / 4;
+    const int width = map == OPTIONS_MAP_SHADOW && height < full_width ? height : (full_width + 3) / 4;
+    return (scene_rectangle){p->margin + full_width - width, p->margin, width, height};
 }
 
 void map_view_free(pipeline *p)

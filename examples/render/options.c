@@ -60,6 +60,10 @@ static const option table[] = {
      1e-6, 1, "a number from 0.000001 to 1"},
     {0, "budget", "MS", "horizon: adds up estimates for MS milliseconds a frame", KIND_NUMBER, AT(budget_ms), 0.001,
      1e9, "a number of milliseconds above 0"},
+    {0, "margin", "N", "draws N pixels more on each side, even, for occluders beyond the edge (0)", KIND_INT,
+     AT(margin), 0, 4096, "an even whole number from 0 to 4096"},
+    {0, "layers", "N", "horizon: 2 also draws what lies behind the surfaces seen, to read thickness from (1)", KIND_INT,
+     AT(layers), 1, 2, "1 or 2"},
     {0, "set", "NAME=V,...", "any of the settings that --help lists at its end", KIND_TEXT, AT(set), 0, 0, ""},
     {0, "eye", "X,Y,Z", "where the camera stands (default: frames the scene)", KIND_VECTOR, AT(eye), 0, 0,
      "three numbers X,Y,Z"},
@@ -119,7 +123,9 @@ static void print_help(const program *p)
     for (int i = 0; i < setting_count; i++) {
         const setting *s = &setting_table[i];
         printf("  %-28s %s%s%s%s%s\n", s->name, s->help, s->unit[0] ? ", " : "", s->unit, s->words ? ": " : "",
-               s->words ? s->words : s->kind == SETTING_SWITCH ? ": off|on" : "");
+               s->words                    ? s->words
+               : s->kind == SETTING_SWITCH ? ": off|on"
+                                           : "");
     }
     puts(p->end);
 }
@@ -347,6 +353,13 @@ static bool check_together(const options *o, const program *p, char *error, size
     } else if ((o->error.given || o->budget_ms.given) && (o->no_ao || o->bench)) {
         snprintf(error, error_size, "--%s and %s exclude each other", o->error.given ? "error" : "budget",
                  o->no_ao ? "--no-ao" : "--bench");
+    } else if (o->margin % 2) {
+        snprintf(error, error_size, "--margin \"%d\": must be an even whole number", o->margin);
+    } else if (traced && (o->margin || o->layers)) {
+        snprintf(error, error_size, "--technique raytrace and --%s exclude each other: rays see the whole scene",
+                 o->margin ? "margin" : "layers");
+    } else if (o->layers == 2 && o->technique != GLSSAO_HORIZON) {
+        snprintf(error, error_size, "--layers 2: only the horizon technique reads a second layer");
     } else if (o->scene_path && o->scene_name) {
         snprintf(error, error_size, "--scene %s and the file %s exclude each other", o->scene_name, o->scene_path);
     } else if (o->scene_name && find_word("columns|cornell|steps|plane", o->scene_name) < 0) {
@@ -367,7 +380,8 @@ static bool check_together(const options *o, const program *p, char *error, size
     } else if (o->eye.given && o->target.given && memcmp(&o->eye, &o->target, sizeof o->eye) == 0) {
         snprintf(error, error_size, "--eye and --target are the same point");
     } else if (p->is_viewer && (o->ao || o->normals || o->depth || o->stats || o->bench || o->plan || o->frames)) {
-        snprintf(error, error_size, "glssao-view takes no --ao, --normals, --depth, --stats, --bench, --plan, --frames");
+        snprintf(error, error_size,
+                 "glssao-view takes no --ao, --normals, --depth, --stats, --bench, --plan, --frames");
     } else if (p->is_viewer && traced) {
         snprintf(error, error_size, "--technique raytrace: the viewer shows it as the difference to it (key T)");
     } else if (!file_wanted) {
@@ -447,9 +461,10 @@ options_result options_parse_for_viewer(int argc, char **argv, options *out, cha
 {
     static const program view = {
         .name = "glssao-view",
-        .usage = "usage: glssao-view [options] [scene.gltf|scene.glb]\n"
-                 "Shows a glTF scene, or a built-in one, with screen-space ambient occlusion, in a window. F1 there shows\n"
-                 "the keys. The options are glssao-render's; --output is where pictures are saved.\n",
+        .usage =
+            "usage: glssao-view [options] [scene.gltf|scene.glb]\n"
+            "Shows a glTF scene, or a built-in one, with screen-space ambient occlusion, in a window. F1 there shows\n"
+            "the keys. The options are glssao-render's; --output is where pictures are saved.\n",
         .end = "\nExit code: 0 done, 1 no window or no scene, 2 wrong usage.",
         .is_viewer = true};
     return parse(argc, argv, &view, out, error, error_size);

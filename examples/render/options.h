@@ -30,6 +30,8 @@ typedef struct options {
     options_vector eye, target, up;
     int sample_count;  /* 0: the quality's own */
     int blur_rounds;   /* -1: the quality's own */
+    int margin;        /* pixels on each side */
+    int layers;        /* 1 or 2; 0: not given */
     int camera;        /* the scene's N-th, counted from 1; 0: not given */
     int frames, bench; /* 0: not given */
     uint32_t seed;

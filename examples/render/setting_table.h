@@ -13,10 +13,10 @@ typedef enum setting_kind { SETTING_NUMBER = 0, SETTING_WHOLE, SETTING_SWITCH, S
 typedef struct setting {
     const char *name, *unit, *help; /* unit: "" where it has none */
     setting_kind kind;
-    size_t offset; /* into glssao_settings: float, int, bool, or an enum as int */
-    float low, high; /* what it may be; a slider's ends, too, where `length` is false */
-    bool length;   /* in scene units: scales with the radius */
-    const char *words; /* SETTING_WORD: separated by '|' */
+    size_t offset;       /* into glssao_settings: float, int, bool, or an enum as int */
+    float low, high;     /* what it may be; a slider's ends, too, where `length` is false */
+    bool length;         /* in scene units: scales with the radius */
+    const char *words;   /* SETTING_WORD: separated by '|' */
     unsigned techniques; /* bit of each that reads it */
 } setting;
 

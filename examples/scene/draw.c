@@ -21,6 +21,7 @@ typedef struct triangle_pass {
     draw_kind kind;
     mat3 normal_view_from_world;
     double clip_from_world[16];
+    float depth_offset;                                              /* layers */
     vec3 ambient, ambient_tilt, up_view, directional, to_light_view; /* main pass */
     float lights[MOST_LIGHTS][4][4];
     int light_count;
@@ -86,6 +87,7 @@ static void use_program(triangle_pass *pass, const draw_program *p)
     gl.UseProgram(p->name);
     gl.UniformMatrix4fv(p->view_from_world, 1, GL_FALSE, view->view_from_world);
     gl.UniformMatrix4fv(p->clip_from_view, 1, GL_FALSE, view->clip_from_view);
+    gl.Uniform1f(p->depth_offset, pass->depth_offset);
     gl.UniformMatrix3fv(p->normal_view_from_world, 1, GL_FALSE, pass->normal_view_from_world[0]);
     if (pass->kind == DRAW_MAIN) {
         gl.Uniform3fv(p->ambient, 1, pass->ambient);
@@ -93,7 +95,9 @@ static void use_program(triangle_pass *pass, const draw_program *p)
         gl.Uniform3fv(p->up_view, 1, pass->up_view);
         gl.Uniform3fv(p->directional, 1, pass->directional);
         gl.Uniform3fv(p->to_light_view, 1, pass->to_light_view);
-        gl.Uniform2f(p->pixel_uv, 1.0f / (float)view->width, 1.0f / (float)view->height);
+        gl.Uniform2f(p->pixel_uv, 1.0f / (float)(view->width - 2 * view->margin),
+                     1.0f / (float)(view->height - 2 * view->margin));
+        gl.Uniform2f(p->origin, (float)view->margin, (float)view->margin);
         gl.Uniform1i(p->is_orthographic, view->clip_from_view[11] == 0);
         gl.UniformMatrix4fv(p->shadow_from_world, 1, GL_FALSE, pass->renderer->shadow.shadow_from_world);
         gl.Uniform1i(p->light_count, pass->light_count);
@@ -234,6 +238,23 @@ void scene_draw_normals(scene_renderer *r, const scene_view *view)
         return;
     r->counts.culled = 0;
     r->counts.normals = draw_opaque_items(r, view, DRAW_NORMALS, &r->counts.culled);
+}
+
+void scene_draw_layer(scene_renderer *r, const scene_view *view, unsigned depth_texture, scene_layer layer)
+{
+    /* Two steps of a 24-bit depth buffer: the same triangle, drawn again, has the same depth but for rounding. */
+    const float rounding = 1.2e-7f, far_depth = 1;
+    if (!is_ready(r) || !r->options.layers)
+        return;
+    gl.DepthMask(GL_TRUE);
+    gl.ClearBufferfv(GL_DEPTH, 0, &far_depth);
+    triangle_pass pass = begin_triangles(r, view, DRAW_LAYER);
+    pass.depth_offset = layer == SCENE_LAYER_BACK ? -rounding : rounding;
+    draw_bind_texture(UNIT_FIRST_DEPTH, depth_texture, r->nearest_sampler);
+    gl.CullFace(layer == SCENE_LAYER_BACK ? GL_FRONT : GL_BACK); /* of single-sided materials */
+    unsigned culled = 0;
+    (void)draw_opaque(&pass, &culled);
+    draw_set_defaults();
 }
 
 static int compare_back_to_front(const void *a, const void *b)

@@ -22,6 +22,7 @@ typedef struct scene_view {
     float view_from_world[16];  /* column-major */
     float clip_from_view[16];
     int width, height;          /* pixels */
+    int margin;                 /* pixels on each side that the ambient map does not cover */
 } scene_view;
 
 typedef struct scene_lighting {
@@ -49,6 +50,7 @@ typedef struct scene_draw_options { /* zero is the plainest */
     int shadow_size;         /* side of the shadow map in texels; 0: 2048 */
     bool mapped_normals;     /* the pre-pass applies normal maps, so that occlusion sees them; else it does not */
     bool specular_occlusion; /* accessibility darkens ambient reflections by their lobe; else like the rest */
+    bool layers;             /* scene_draw_layer will be called */
     bool no_picture;         /* the main pass is not drawn: neither its programs nor a shadow map are made */
     bool multi_bounce;       /* occluded ambient light takes on the surface's colour */
 } scene_draw_options;
@@ -89,6 +91,12 @@ unsigned scene_shadow_map(const scene_renderer *r, int *out_size);
 /* Draws opaque and alpha-tested triangles into the bound framebuffer: view-space unit normals, facing the viewer
  * on double-sided materials, to output 0 (alpha 0), and depth (LESS, written). Does not clear. */
 void scene_draw_normals(scene_renderer *r, const scene_view *view);
+
+/* Draws a layer behind the pre-pass's `depth_texture` into the bound framebuffer's depth buffer, which is cleared: the
+ * nearest back face at or behind the surface seen, where double-sided materials count as back faces whichever way they
+ * face; or the nearest front face behind it. Needs options.layers. */
+typedef enum scene_layer { SCENE_LAYER_BACK, SCENE_LAYER_SECOND } scene_layer;
+void scene_draw_layer(scene_renderer *r, const scene_view *view, unsigned depth_texture, scene_layer layer);
 
 /* Draws the picture into the bound framebuffer, whose depth buffer holds the pre-pass's depth: clears colour to
  * the sky at the horizon, opaque with depth EQUAL, the sky where it is no single colour with depth LEQUAL, then blended

@@ -26,7 +26,7 @@ typedef struct draw_instance {
     float normal_world_from_mesh[3][3];
 } draw_instance;
 
-typedef enum draw_kind { DRAW_NORMALS = 0, DRAW_MAIN, DRAW_SHADOW, DRAW_KIND_COUNT } draw_kind;
+typedef enum draw_kind { DRAW_NORMALS = 0, DRAW_MAIN, DRAW_SHADOW, DRAW_LAYER, DRAW_KIND_COUNT } draw_kind;
 
 /* One draw call: a primitive for the instances of its mesh that are mirrored, or for those that are not. Blended
  * primitives get an item for each instance, since each has its place in the order of depth. */

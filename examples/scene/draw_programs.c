@@ -13,7 +13,8 @@
 /* Index of the program, built where it is not there yet; -1 on failure. */
 static int find_program(scene_renderer *r, draw_kind kind, unsigned variant, char *error, size_t error_size)
 {
-    static const char *const what[] = {"scene normals pass", "scene main pass", "shadow pass"};
+    static const char *const what[] = {"scene normals pass", "scene main pass", "shadow pass", "layer pass"};
+    const char *const fragment[] = {shader_normals_frag, shader_main_frag, shader_normals_frag, shader_layer_frag};
     for (int i = 0; i < r->variant_count; i++)
         if (r->variants[i].kind == kind && r->variants[i].variant == variant)
             return i;
@@ -24,8 +25,8 @@ static int find_program(scene_renderer *r, draw_kind kind, unsigned variant, cha
     }
     r->variants = grown;
     draw_variant made = {.kind = kind, .variant = variant};
-    if (!draw_program_build(&made.program, what[kind], shader_scene_vert, shader_surface_glsl,
-                            kind == DRAW_MAIN ? shader_main_frag : shader_normals_frag, variant, error, error_size))
+    if (!draw_program_build(&made.program, what[kind], shader_scene_vert, shader_surface_glsl, fragment[kind], variant,
+                            error, error_size))
         return -1;
     r->variants[r->variant_count] = made;
     return r->variant_count++;
@@ -52,12 +53,12 @@ static unsigned main_variant(const draw_item *item, const scene_lighting *lighti
     const bool occluded = !item->blended;
     return item->variant | (shadowed ? VARIANT_SHADOWED : 0u) | (lighting->light_count ? VARIANT_LIGHTS : 0u) |
            (options->specular_occlusion && occluded && item->variant & VARIANT_REFLECTIVE ? VARIANT_SPECULAR_OCCLUSION
-                                                                                         : 0u) |
+                                                                                          : 0u) |
            (options->multi_bounce && occluded ? VARIANT_MULTI_BOUNCE : 0u);
 }
 
-/* Depth alone, of what the alpha test leaves. */
-static unsigned shadow_variant(unsigned normals)
+/* Depth alone, of what the alpha test leaves: the shadow map and the layers. */
+static unsigned depth_variant(unsigned normals)
 {
     const unsigned test = VARIANT_MASKED | VARIANT_COLORED | VARIANT_BASE_MAPPED | VARIANT_TEXTURED;
     return normals & VARIANT_MASKED ? normals & test : 0u;
@@ -70,7 +71,7 @@ bool draw_choose_programs(scene_renderer *r, const scene_lighting *lighting, con
         draw_item *item = &r->items[i];
         const scene_material *m = &r->scene->materials[item->material];
         const unsigned normals = normals_variant(item, m, options, r->scene->tangents != NULL);
-        int chosen[DRAW_KIND_COUNT] = {-1, -1, -1};
+        int chosen[DRAW_KIND_COUNT] = {-1, -1, -1, -1};
         bool done = true;
         if (!options->no_picture) {
             chosen[DRAW_MAIN] =
@@ -82,8 +83,12 @@ bool draw_choose_programs(scene_renderer *r, const scene_lighting *lighting, con
             done = chosen[DRAW_NORMALS] >= 0;
         }
         if (done && !item->blended && shadowed) {
-            chosen[DRAW_SHADOW] = find_program(r, DRAW_SHADOW, shadow_variant(normals), error, error_size);
+            chosen[DRAW_SHADOW] = find_program(r, DRAW_SHADOW, depth_variant(normals), error, error_size);
             done = chosen[DRAW_SHADOW] >= 0;
+        }
+        if (done && !item->blended && options->layers) {
+            chosen[DRAW_LAYER] = find_program(r, DRAW_LAYER, depth_variant(normals), error, error_size);
+            done = chosen[DRAW_LAYER] >= 0;
         }
         if (!done)
             return false;
@@ -127,10 +132,10 @@ static bool any_instances(const scene_renderer *r)
 static const char *shadow_reason(const scene_renderer *r, const scene_lighting *lighting)
 {
     const float *sun = lighting->directional;
-    return r->shadow.used                                ? "a directional light casts, and surfaces receive"
-           : !r->options.shadows                         ? "not asked for"
+    return r->shadow.used                              ? "a directional light casts, and surfaces receive"
+           : !r->options.shadows                       ? "not asked for"
            : !(sun[0] > 0 || sun[1] > 0 || sun[2] > 0) ? "no directional light"
-                                                         : "nothing casts, or nothing lit receives";
+                                                       : "nothing casts, or nothing lit receives";
 }
 
 void scene_renderer_effects(const scene_renderer *r, const scene_lighting *lighting, scene_effect *out)

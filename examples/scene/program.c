@@ -65,6 +65,7 @@ static const struct {
     {"u_directional", offsetof(draw_program, directional)},
     {"u_to_light_view", offsetof(draw_program, to_light_view)},
     {"u_pixel_uv", offsetof(draw_program, pixel_uv)},
+    {"u_depth_offset", offsetof(draw_program, depth_offset)},
     {"u_scale", offsetof(draw_program, scale)},
     {"u_bias", offsetof(draw_program, bias)},
     {"u_red_only", offsetof(draw_program, red_only)},
@@ -79,6 +80,7 @@ static const struct {
 } samplers[] = {
     {"u_base_color_map", UNIT_BASE_COLOR},
     {"u_ambient_map", UNIT_AMBIENT},
+    {"u_first_depth_map", UNIT_FIRST_DEPTH},
     {"u_shadow_map", UNIT_SHADOW},
     {"u_normal_map", UNIT_NORMAL},
     {"u_metallic_roughness_map", UNIT_METALLIC_ROUGHNESS},

@@ -34,6 +34,7 @@ enum {
     UNIT_BASE_COLOR = 0,
     UNIT_MAP = 0,
     UNIT_AMBIENT,
+    UNIT_FIRST_DEPTH = UNIT_AMBIENT,
     UNIT_SHADOW,
     UNIT_NORMAL,
     UNIT_METALLIC_ROUGHNESS,
@@ -53,7 +54,7 @@ typedef struct draw_program {
     int handedness, normal_scale, metallic_roughness, occlusion_strength, emission;
     int ambient, ambient_tilt, up_view, directional, to_light_view, is_orthographic;
     int shadow_from_world, lights, light_count;
-    int pixel_uv, origin;
+    int pixel_uv, origin, depth_offset;
     int world_from_clip, sky, sky_tilt;
     int scale, bias, red_only;
     int numerator, denominator, far_depth;

@@ -33,7 +33,8 @@ uniform vec3 u_directional;  // irradiance / pi
 uniform vec3 u_to_light_view;
 #if !BLENDED
 uniform sampler2D u_ambient_map; // accessibility in red
-uniform vec2 u_pixel_uv;         // one pixel of the target
+uniform vec2 u_pixel_uv;         // one pixel of what the ambient map covers
+uniform vec2 u_origin;           // its lower left corner, in pixels
 #endif
 
 #if REFLECTIVE || LIGHTS
@@ -208,7 +209,7 @@ void main()
 
     float accessibility = 1.0;
 #if !BLENDED
-    accessibility = texture(u_ambient_map, gl_FragCoord.xy * u_pixel_uv).r;
+    accessibility = texture(u_ambient_map, (gl_FragCoord.xy - u_origin) * u_pixel_uv).r;
 #endif
 #if BAKED
     accessibility *= 1.0 + u_occlusion_strength * (texture(u_occlusion_map, map_uv(u_occlusion_uv)).r - 1.0);
