@@ -138,14 +138,13 @@ bool is_jump(float before, float change, float after)
     return abs(change) > JUMP && abs(change - before) > ALIKE && abs(change - after) > ALIKE;
 }
 
-// Sectors that are hidden at x from height y down to `thickness` below. Beyond the sphere the chord is 0, and top and bottom
-// come out alike.
-uint hidden_between(float x, float x2, float y, float thickness, polynomial sectors, bool minus, float lowest, out float cos_top)
+// Sectors that are hidden at x between two heights, where they lie within the sphere, whose half chord is 0 beyond it: top
+// and bottom then come out alike.
+uint hidden_between(float x, float x2, float chord, float top, float bottom, polynomial sectors, bool minus, float lowest, out float cos_top)
 {
-    float chord = sqrt(max(1.0 - x2, 0.0));
     // Sky can lie so deep that its square overflows, and its cosine would come out as 0.
-    float top = clamp(y, -1e6, chord);
-    float bottom = max(y - thickness, -chord);
+    top = clamp(top, -1e6, chord);
+    bottom = max(bottom, -chord);
     // x is 0 on the point's own texel, and below it where the border holds a sample on the other side.
     cos_top = x > 0.0 ? max(top * inversesqrt(x2 + top * top), lowest) : lowest;
     float cos_bottom = clamp(bottom * inversesqrt(x2 + bottom * bottom), lowest, cos_top);
@@ -159,16 +158,16 @@ uint hidden_between(float x, float x2, float y, float thickness, polynomial sect
 uint hidden_by(vec3 at, vec2 layers, float width, polynomial sectors, bool minus, float lowest, inout float highest)
 {
     float x2 = at.x * at.x + 1e-12;
-    float guess = WIDTH * width * at.z;
+    float chord = sqrt(max(1.0 - x2, 0.0));
+    float thickness = WIDTH * width * at.z;
     float cos_top;
+    uint mask = 0u;
 #if LAYERS
-    float thickness = layers.x >= 0.0 ? layers.x : guess;
-    uint mask = hidden_between(at.x, x2, at.y - layers.y, SECOND * guess, sectors, minus, lowest, cos_top);
-    mask |= hidden_between(at.x, x2, at.y, thickness, sectors, minus, lowest, cos_top);
-#else
-    float thickness = guess;
-    uint mask = hidden_between(at.x, x2, at.y, thickness, sectors, minus, lowest, cos_top);
+    float second = min(at.y - layers.y, chord); // its thickness counts from where it is within the sphere
+    mask = hidden_between(at.x, x2, chord, second, second - SECOND * thickness, sectors, minus, lowest, cos_top);
+    thickness = layers.x >= 0.0 ? layers.x : thickness;
 #endif
+    mask |= hidden_between(at.x, x2, chord, at.y, at.y - thickness, sectors, minus, lowest, cos_top);
     highest = max(highest, thickness > VEIL_WIDTH && x2 < 1.0 ? cos_top : lowest);
     return mask;
 }

@@ -104,7 +104,7 @@ static bool find_view(run *r, float angle_rad, scene_view *out_view)
                         sizeof r->error)) {
         return false;
     }
-    *out_view = viewpoint_widened(out_view, o->margin);
+    *out_view = camera_widened_view(out_view, o->margin);
     return true;
 }
 

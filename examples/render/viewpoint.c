@@ -111,16 +111,3 @@ bool viewpoint_view(const viewpoint *v, const scene *s, float angle_rad, int wid
     }
     return true;
 }
-
-scene_view viewpoint_widened(const scene_view *view, int margin)
-{
-    scene_view wide = *view;
-    wide.width += 2 * margin;
-    wide.height += 2 * margin;
-    wide.margin = margin;
-    for (int column = 0; column < 4; column++) {
-        wide.clip_from_view[4 * column] *= (float)view->width / (float)wide.width;
-        wide.clip_from_view[4 * column + 1] *= (float)view->height / (float)wide.height;
-    }
-    return wide;
-}

@@ -22,7 +22,4 @@ bool viewpoint_choose(const options *o, const scene *s, viewpoint *out, char *er
 bool viewpoint_view(const viewpoint *v, const scene *s, float angle_rad, int width, int height, scene_view *out,
                     char *error, size_t error_size);
 
-/* The same view with more of the scene on each side. */
-scene_view viewpoint_widened(const scene_view *view, int margin);
-
 #endif
