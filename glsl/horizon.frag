@@ -92,11 +92,11 @@ float value(polynomial p, float c)
     return (p.low.y + c2 * (p.low.w + c2 * p.c5)) * c + (p.low.x + c2 * p.low.z);
 }
 
-// The value, rounded and bounded to 0..31. Adding 1.5 * 2^23 leaves the rounded number in a float's lowest bits, which
-// GPUs have sooner than a conversion.
+// The value, rounded. The polynomial leaves 0..31 by an eighth at most, which rounding takes back; a shift by more than 31
+// would be undefined.
 uint sector(polynomial p, float c)
 {
-    return floatBitsToUint(clamp(value(p, c), 0.0, SECTORS) + 12582912.0) & 31u;
+    return uint(int(value(p, c) + 0.5)) & 31u;
 }
 
 // What turns a sample's offset in pixels and its view distance into x and y.

@@ -20,14 +20,15 @@ static glssao_settings hemisphere_settings(glssao_settings s, glssao_quality qua
     return s;
 }
 
-/* Half size is brought to full along surfaces; ULTRA estimates at full size. */
+/* Half size is brought to full along surfaces, but for LOW, which it would cost as much again; ULTRA estimates at full
+ * size. */
 static glssao_settings horizon_settings(glssao_settings s, glssao_quality quality)
 {
     s.technique = GLSSAO_HORIZON;
     s.power = 1.0f;
     s.sample_count = quality == GLSSAO_LOW ? 12 : quality == GLSSAO_MEDIUM ? 16 : 48;
     s.half_resolution = quality != GLSSAO_ULTRA;
-    s.upsample = true;
+    s.upsample = quality != GLSSAO_LOW;
     s.blur = GLSSAO_BLUR_PLANAR;
     s.blur_rounds = 1;
     return s;

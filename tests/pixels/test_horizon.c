@@ -49,12 +49,13 @@ static void free_shot(shot *s)
     free(s->normals);
 }
 
-/* Accessibility at full size, at a level's default settings but for the radius. */
+/* Accessibility at full size, LOW upsampled too, at a level's default settings but for the radius. */
 static float *shade(fixture *f, const shot *s, int level, double radius)
 {
     glssao_effect *effect = fixture_effect(f, s->width, s->height);
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)level);
     settings.radius = (float)radius;
+    settings.upsample = true;
     int width, height;
     float *got = fixture_compute(effect, &s->frame, &settings, &width, &height);
     assert_true(width == s->width && height == s->height);

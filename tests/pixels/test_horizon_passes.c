@@ -41,6 +41,7 @@ static void set_up(setup *s, fixture *f, analytic_projection projection, int wid
     memcpy(s->frame.projection, view.projection, sizeof view.projection);
     s->orthographic = view.projection[11] == 0.0f;
     s->settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
+    s->settings.upsample = true;
     s->settings.radius = 0.8f;
     assert_true(horizon_read_tolerances(&s->blur_tolerance, &s->upsample_tolerance));
     s->blur_tolerance *= (double)s->settings.radius;
