@@ -9,25 +9,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FUNCTIONS(X) \
-    X(BINDBUFFER, BindBuffer) \
-    X(BINDFRAMEBUFFER, BindFramebuffer) \
-    X(BINDTEXTURE, BindTexture) \
-    X(BLITFRAMEBUFFER, BlitFramebuffer) \
-    X(COPYTEXSUBIMAGE2D, CopyTexSubImage2D) \
-    X(DELETEFRAMEBUFFERS, DeleteFramebuffers) \
-    X(DELETETEXTURES, DeleteTextures) \
-    X(DISABLE, Disable) \
-    X(DRAWBUFFER, DrawBuffer) \
-    X(ENABLE, Enable) \
-    X(FRAMEBUFFERTEXTURE2D, FramebufferTexture2D) \
-    X(GENFRAMEBUFFERS, GenFramebuffers) \
-    X(GENTEXTURES, GenTextures) \
-    X(GETERROR, GetError) \
-    X(GETFRAMEBUFFERATTACHMENTPARAMETERIV, GetFramebufferAttachmentParameteriv) \
-    X(GETINTEGERV, GetIntegerv) \
-    X(ISENABLED, IsEnabled) \
-    X(TEXIMAGE2D, TexImage2D) \
+#define FUNCTIONS(X)                                                                                                   \
+    X(BINDBUFFER, BindBuffer)                                                                                          \
+    X(BINDFRAMEBUFFER, BindFramebuffer)                                                                                \
+    X(BINDTEXTURE, BindTexture)                                                                                        \
+    X(BLITFRAMEBUFFER, BlitFramebuffer)                                                                                \
+    X(COPYTEXSUBIMAGE2D, CopyTexSubImage2D)                                                                            \
+    X(DELETEFRAMEBUFFERS, DeleteFramebuffers)                                                                          \
+    X(DELETETEXTURES, DeleteTextures)                                                                                  \
+    X(DISABLE, Disable)                                                                                                \
+    X(DRAWBUFFER, DrawBuffer)                                                                                          \
+    X(ENABLE, Enable)                                                                                                  \
+    X(FRAMEBUFFERTEXTURE2D, FramebufferTexture2D)                                                                      \
+    X(GENFRAMEBUFFERS, GenFramebuffers)                                                                                \
+    X(GENTEXTURES, GenTextures)                                                                                        \
+    X(GETERROR, GetError)                                                                                              \
+    X(GETFRAMEBUFFERATTACHMENTPARAMETERIV, GetFramebufferAttachmentParameteriv)                                        \
+    X(GETINTEGERV, GetIntegerv)                                                                                        \
+    X(ISENABLED, IsEnabled)                                                                                            \
+    X(TEXIMAGE2D, TexImage2D)                                                                                          \
     X(TEXPARAMETERI, TexParameteri)
 
 struct window_depth {
@@ -46,12 +46,12 @@ window_depth *window_depth_create(void *(*load)(const char *name, void *user), v
     if (!d)
         return NULL;
     void *address;
-#define LOAD(type, name) \
-    address = load("gl" #name, user); \
-    if (!address) { \
-        free(d); \
-        return NULL; \
-    } \
+#define LOAD(type, name)                                                                                               \
+    address = load("gl" #name, user);                                                                                  \
+    if (!address) {                                                                                                    \
+        free(d);                                                                                                       \
+        return NULL;                                                                                                   \
+    }                                                                                                                  \
     memcpy(&d->name, &address, sizeof address);
     FUNCTIONS(LOAD)
 #undef LOAD
@@ -60,8 +60,8 @@ window_depth *window_depth_create(void *(*load)(const char *name, void *user), v
 
 static GLint attachment(const window_depth *d, GLuint framebuffer, bool stencil, GLenum what)
 {
-    GLenum point = stencil ? (framebuffer ? GL_STENCIL_ATTACHMENT : GL_STENCIL)
-                           : (framebuffer ? GL_DEPTH_ATTACHMENT : GL_DEPTH);
+    GLenum point =
+        stencil ? (framebuffer ? GL_STENCIL_ATTACHMENT : GL_STENCIL) : (framebuffer ? GL_DEPTH_ATTACHMENT : GL_DEPTH);
     GLint value = 0;
     d->GetFramebufferAttachmentParameteriv(GL_READ_FRAMEBUFFER, point, what, &value);
     return value;
@@ -74,9 +74,8 @@ static GLenum depth_format(const window_depth *d, GLuint framebuffer)
         return 0;
     GLint bits = attachment(d, framebuffer, false, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
     bool is_float = attachment(d, framebuffer, false, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) == GL_FLOAT;
-    bool has_stencil =
-        attachment(d, framebuffer, true, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) != GL_NONE &&
-        attachment(d, framebuffer, true, GL_FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE) > 0;
+    bool has_stencil = attachment(d, framebuffer, true, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) != GL_NONE &&
+                       attachment(d, framebuffer, true, GL_FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE) > 0;
     if (bits == 0)
         return 0;
     if (bits == 16)

@@ -8,7 +8,10 @@
  *
  * Rules for every call
  *   Context    The GL context the effect was created in is current on the calling thread; 3.3 or later, core
- *              or compatibility. One effect belongs to one context and is used by one thread at a time.
+ *              or compatibility. One effect belongs to one context and is used by one thread at a time. Several
+ *              effects may live in one context, and several contexts run on several threads. Contexts that share
+ *              objects may hand their depth and normal textures to an effect and read its maps, ordered by glFinish
+ *              or a fence; the effect itself stays in its own context (framebuffers and vertex arrays aren't shared).
  *   State      GL state is left as found (docs/architecture.md lists what is saved). No transform feedback may
  *              be active, and a running occlusion query counts the effect's fragments too. In release builds
  *              glGetError is never called, so your own errors stay yours.
