@@ -2,7 +2,7 @@
  *
  * A program of the old kind: fixed-function drawing straight into the window, multisampled if asked. Ambient
  * occlusion is added to it between "glssao" and "end" marks; window_depth.h fetches the window's depth.
- *   dropin-legacy [--frames N] [--picture FILE.ppm] [--no-ao] [--samples N]
+ *   dropin-legacy [--frames N] [--picture FILE.ppm] [--no-ao] [--samples N] [--egl]
  */
 #include <GL/gl.h>
 #define GLFW_INCLUDE_NONE
@@ -95,7 +95,7 @@ static bool save_picture(const char *path, int width, int height)
 int main(int argc, char **argv)
 {
     int frames = -1, samples = 0, width = 640, height = 480;
-    bool with_ao = true, ok = true;
+    bool with_ao = true, egl = false, ok = true;
     const char *picture = NULL;
     for (int i = 1; i < argc; ++i) {
         if (strcmp(argv[i], "--frames") == 0 && i + 1 < argc)
@@ -106,10 +106,13 @@ int main(int argc, char **argv)
             picture = argv[++i];
         else if (strcmp(argv[i], "--no-ao") == 0)
             with_ao = false;
+        else if (strcmp(argv[i], "--egl") == 0)
+            egl = true;
     }
     if (!glfwInit())
         return 1;
     glfwWindowHint(GLFW_SAMPLES, samples);
+    glfwWindowHint(GLFW_CONTEXT_CREATION_API, egl ? GLFW_EGL_CONTEXT_API : GLFW_NATIVE_CONTEXT_API);
     GLFWwindow *window = glfwCreateWindow(width, height, "glssao dropin-legacy", NULL, NULL);
     if (!window)
         return 1;
