@@ -121,8 +121,8 @@ int main(int argc, char **argv)
     /* snippet: legacy create */
     glssao_effect *effect = NULL; /* glssao */
     glssao_config config = {.load = find_function, .log = glssao_log_to_stderr, .width = width, .height = height};
-    window_depth *window_depth = window_depth_create(find_function, NULL);
-    if (!window_depth || glssao_create(&config, &effect) != GLSSAO_OK)
+    window_depth *depth_copy = window_depth_create(find_function, NULL);
+    if (!depth_copy || glssao_create(&config, &effect) != GLSSAO_OK)
         return 1;
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     settings.radius = 0.5f; /* end */
@@ -141,7 +141,7 @@ int main(int argc, char **argv)
         /* snippet: legacy frame */
         if (with_ao) { /* glssao */
             const char *why;
-            glssao_frame frame = {.depth_texture = window_depth_copy(window_depth, 0, width, height, &why)};
+            glssao_frame frame = {.depth_texture = window_depth_copy(depth_copy, 0, width, height, &why)};
             glGetFloatv(GL_PROJECTION_MATRIX, frame.projection);
             if (frame.depth_texture && glssao_compute(effect, &frame, &settings) == GLSSAO_OK)
                 glssao_apply(effect, 0);
@@ -153,8 +153,8 @@ int main(int argc, char **argv)
         glfwSwapBuffers(window);
         glfwPollEvents();
     }
-    window_depth_destroy(window_depth); /* glssao */
-    glssao_destroy(effect);             /* end */
+    window_depth_destroy(depth_copy); /* glssao */
+    glssao_destroy(effect);           /* end */
     glfwTerminate();
     return ok ? 0 : 1;
 }
