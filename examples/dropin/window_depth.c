@@ -106,6 +106,7 @@ static void fit_texture(window_depth *d, GLenum format, int width, int height)
     d->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     d->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
     d->BindFramebuffer(GL_DRAW_FRAMEBUFFER, d->framebuffer);
+    d->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, 0, 0); /* of before */
     d->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, has_stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
                             GL_TEXTURE_2D, d->texture, 0);
     d->DrawBuffer(GL_NONE); /* 3.3 calls it incomplete otherwise */

@@ -37,7 +37,7 @@ for options in "" "--samples 4" "--egl"; do
 done
 GLSSAO_INJECT_FOV=45.8 GLSSAO_INJECT_NEAR=0.1 GLSSAO_INJECT_FAR=50 inject told "$folder/dropin-legacy" --no-ao --frames 5
 "$check" told-after.ppm told-before.ppm || fail "projection told by hand: wrong picture"
-GLSSAO_INJECT_BEFORE=switched-before.ppm GLSSAO_INJECT_PICTURE=switched-after.ppm GLSSAO_INJECT_FRAME=200 \
+GLSSAO_INJECT_BEFORE=switched-before.ppm GLSSAO_INJECT_PICTURE=switched-after.ppm GLSSAO_INJECT_FRAME=120 GLSSAO_INJECT_QUALITY=low \
     LD_PRELOAD=$library "$folder/dropin-legacy" --no-ao >log 2>&1 &
 for _ in $(seq 200); do
     grep -q 'glssao-inject: on' log && break
