@@ -17,7 +17,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CONTEXTS = 16, FRAMES_TO_FIND_A_PROJECTION = 60, FRAMES_PER_RADIUS = 60, REASONS = 16 };
+enum {
+    CONTEXTS = 16,
+    FRAMES_TO_FIND_A_PROJECTION = 60,
+    FRAMES_PER_RADIUS = 60,
+    FRAMES_PER_LOOK = 10,
+    SAMPLES = 4096,
+    REASONS = 16
+};
 
 typedef struct target {
     void *context;
@@ -156,13 +163,14 @@ static float fitting_radius(GLuint texture, int width, int height, const float p
 {
     float *depth = read_depth(texture, width, height);
     size_t count = 0, all = (size_t)width * (size_t)height;
-    for (size_t i = 0; depth && i < all; ++i) {
+    const size_t step = all > SAMPLES ? all / SAMPLES : 1;
+    for (size_t i = 0; depth && i < all; i += step) {
         const float distance = p[14] / (2.0f * depth[i] - 1.0f + p[10]);
         if (depth[i] < 1.0f && isfinite(distance) && distance > 0.0f)
             depth[count++] = distance;
     }
     float radius = 0.0f;
-    if (count > all / 200) {
+    if (count > all / step / 200) {
         qsort(depth, count, sizeof *depth, compare_floats);
         radius = depth[count / 2] * 2.0f / p[5] / 12.0f;
     }
@@ -221,12 +229,16 @@ static void draw_effect(target *t)
     }
     if (o->radius > 0.0f)
         t->radius = o->radius;
-    else if (!(t->radius > 0.0f) || t->frame % FRAMES_PER_RADIUS == 0) {
+    else if (t->frame % (t->radius > 0.0f ? FRAMES_PER_RADIUS : FRAMES_PER_LOOK) == 1) {
         const float radius = fitting_radius(depth, t->width, t->height, projection);
         t->radius = radius > 0.0f ? radius : t->radius;
     }
-    if (!(t->radius > 0.0f))
-        return; /* an empty window so far */
+    if (!(t->radius > 0.0f)) {
+        if (t->frame >= FRAMES_TO_FIND_A_PROJECTION)
+            say_once(
+                "the window's depth is empty: the program draws elsewhere, or clears it before it shows a picture");
+        return;
+    }
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)o->quality);
     settings.radius = t->radius;
     if (o->power > 0.0f)

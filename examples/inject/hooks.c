@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
  * The functions that a program calls here instead of in libGL, libEGL and, to look those up, in libc. Each does what
- * was asked, and notes or draws what glssao-inject wants besides.
+ * was asked, and notes or draws what glssao-inject wants besides. lookup.c lists their names.
  */
-#define _GNU_SOURCE
 #include "inject.h"
 
 #include <GL/glcorearb.h>
-#include <dlfcn.h>
 #include <string.h>
 
 #define HOOK __attribute__((visibility("default")))
@@ -41,113 +39,9 @@ HOOK void glFrustum(double left, double right, double bottom, double top, double
 
 /* ---- looking functions up ---- */
 
-static struct hook {
-    const char *name;
-    void *real; /* as last seen in a lookup of the program's; else NULL until it is needed */
-} hooks[] = {
-    {"glXSwapBuffers", NULL},
-    {"eglSwapBuffers", NULL},
-    {"eglSwapBuffersWithDamageEXT", NULL},
-    {"eglSwapBuffersWithDamageKHR", NULL},
-    {"glUniformMatrix4fv", NULL},
-    {"glProgramUniformMatrix4fv", NULL},
-    {"glLoadMatrixf", NULL},
-    {"glLoadMatrixd", NULL},
-    {"glMultMatrixf", NULL},
-    {"glMultMatrixd", NULL},
-    {"glFrustum", NULL},
-    {"glXGetProcAddress", NULL},
-    {"glXGetProcAddressARB", NULL},
-    {"eglGetProcAddress", NULL},
-    {"dlsym", NULL},
-};
-enum { HOOKS = sizeof hooks / sizeof *hooks };
-
-static struct hook *find_hook(const char *name)
-{
-    for (int i = 0; i < HOOKS; ++i)
-        if (strcmp(hooks[i].name, name) == 0)
-            return &hooks[i];
-    return NULL;
-}
-
-static void *real_dlsym(void *handle, const char *name)
-{
-    static void *(*lookup)(void *, const char *);
-    if (!lookup) {
-        static const char *const versions[] = {"GLIBC_2.34", "GLIBC_2.2.5", "GLIBC_2.17", "GLIBC_2.0", "GLIBC_2.27"};
-        void *address = NULL;
-        for (size_t i = 0; !address && i < sizeof versions / sizeof *versions; ++i)
-            address = dlvsym(RTLD_NEXT, "dlsym", versions[i]);
-        if (!address)
-            return NULL;
-        memcpy(&lookup, &address, sizeof address);
-    }
-    return lookup(handle, name);
-}
-
-/* The hook itself: this library's own symbol of that name. */
-static void *own(const char *name)
-{
-    static void *self;
-    if (!self) {
-        Dl_info info;
-        if (!dladdr((void *)hooks, &info))
-            return NULL;
-        self = dlopen(info.dli_fname, RTLD_LAZY | RTLD_NOLOAD);
-    }
-    return self ? real_dlsym(self, name) : NULL;
-}
-
-/* From the libraries that the program has loaded, however it did. */
-static void *search(const char *name)
-{
-    void *address = real_dlsym(RTLD_NEXT, name);
-    static const char *const libraries[] = {"libGL.so.1", "libOpenGL.so.0", "libGLX.so.0", "libEGL.so.1"};
-    for (size_t i = 0; !address && i < sizeof libraries / sizeof *libraries; ++i) {
-        void *library = dlopen(libraries[i], RTLD_LAZY | RTLD_NOLOAD);
-        if (!library)
-            continue;
-        address = real_dlsym(library, name);
-        dlclose(library); /* the program holds it */
-    }
-    return address;
-}
-
-void *inject_real(const char *name, void *user)
-{
-    (void)user;
-    struct hook *hook = find_hook(name);
-    if (hook && hook->real)
-        return hook->real;
-    void *address = search(name);
-    static const char *const lookups[] = {"glXGetProcAddressARB", "eglGetProcAddress"};
-    for (int i = 0; !address && strncmp(name, "gl", 2) == 0 && i < 2; ++i) {
-        void *lookup = search(lookups[i]);
-        function (*get)(const char *);
-        memcpy(&get, &lookup, sizeof lookup);
-        function found = lookup ? get(name) : NULL;
-        memcpy(&address, &found, sizeof found);
-    }
-    if (hook)
-        hook->real = address;
-    return address;
-}
-
-/* What the program is given for a name whose real function is at `real`. */
-static void *hooked(const char *name, void *real)
-{
-    struct hook *hook = real ? find_hook(name) : NULL;
-    void *ours = hook ? own(name) : NULL;
-    if (!ours || ours == real)
-        return real;
-    hook->real = real;
-    return ours;
-}
-
 void *dlsym(void *restrict handle, const char *restrict name)
 {
-    return hooked(name, real_dlsym(handle, name));
+    return inject_hooked(name, inject_real_dlsym(handle, name));
 }
 
 static function lookup_through(const char *lookup, const char *name)
@@ -159,7 +53,7 @@ static function lookup_through(const char *lookup, const char *name)
     memcpy(&get, &address, sizeof address);
     function found = get(name);
     memcpy(&address, &found, sizeof found);
-    address = hooked(name, address);
+    address = inject_hooked(name, address);
     memcpy(&found, &address, sizeof found);
     return found;
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * glssao-inject, a library to preload (LD_PRELOAD) into an OpenGL program that knows nothing of glssao: what its files
- * share. hooks.c stands between the program and OpenGL, matrices.c finds the projection among the matrices that go
- * by, frame.c draws the effect before the buffers are swapped, options.c reads the environment.
+ * share. lookup.c and hooks.c stand between the program and OpenGL, matrices.c finds the projection among the matrices
+ * that go by, frame.c draws the effect before the buffers are swapped, options.c reads the environment.
  */
 #ifndef GLSSAO_INJECT_H
 #define GLSSAO_INJECT_H
@@ -41,10 +41,14 @@ void inject_note_matrix(const float m[16]);
  * none in this frame nor before. */
 bool inject_end_frame(float out_projection[16]);
 
-/* ---- hooks.c ---- */
+/* ---- lookup.c ---- */
 
 /* The OpenGL, GLX or EGL function itself, never one of the hooks; NULL where there is none. A glssao_load_fn. */
 void *inject_real(const char *name, void *user);
+/* libc's, never the hook. */
+void *inject_real_dlsym(void *handle, const char *name);
+/* What the program is given for a name whose real function is at `real`: the hook, if there is one. */
+void *inject_hooked(const char *name, void *real);
 
 /* ---- frame.c ---- */
 

@@ -62,8 +62,7 @@ void deferred(glssao_effect *effect, GLuint depth, GLuint normals, const float *
     /* end of snippet */
 }
 
-void linear_depth(glssao_effect *effect, GLuint view_distance, const float *projection,
-                  const glssao_settings *settings)
+void linear_depth(glssao_effect *effect, GLuint view_distance, const float *projection, const glssao_settings *settings)
 {
     /* snippet: linear */
     glssao_frame frame = {.depth_texture = view_distance, /* red channel: -z in view space; 0 or infinite is sky */

@@ -50,6 +50,9 @@ cmp off-before.ppm off-after.ppm || fail "the picture changes although switched 
 inject core "$folder/dropin" --no-ao --frames 5
 cmp core-before.ppm core-after.ppm || fail "the picture changes where the window has no depth"
 unset GLSSAO_INJECT_RADIUS
+GLSSAO_INJECT_FOV=45.8 GLSSAO_INJECT_NEAR=0.1 GLSSAO_INJECT_FAR=50 GLSSAO_INJECT_PICTURE=empty.ppm GLSSAO_INJECT_FRAME=62 \
+    LD_PRELOAD=$library timeout 60 "$folder/dropin" --no-ao >log 2>&1 || fail "empty depth: exit code $?"
+[ "$(grep -c "glssao-inject: the window's depth is empty" log)" = 1 ] || fail "not told once that the window's depth is empty"
 
 for gears in glxgears eglgears_x11; do
     command -v $gears >/dev/null || { echo "inject.sh: no $gears here (mesa-utils)"; continue; }

@@ -142,7 +142,8 @@ static void unknown_version_fails_in_one_line(void **state)
                  {CONTEXT_OSMESA, {"OSMesa", "OSMesa"}}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char error[1024] = "";
-        assert_null(context_create(&(context_options){.kind = cases[i].kind, .major = 9, .minor = 9}, error, sizeof error));
+        assert_null(
+            context_create(&(context_options){.kind = cases[i].kind, .major = 9, .minor = 9}, error, sizeof error));
         assert_non_null(strstr(error, "9.9"));
         assert_non_null(strstr(error, cases[i].tried[0]));
         assert_non_null(strstr(error, cases[i].tried[1]));
