@@ -166,7 +166,7 @@ static float fitting_radius(GLuint texture, int width, int height, const float p
     const size_t step = all > SAMPLES ? all / SAMPLES : 1;
     for (size_t i = 0; depth && i < all; i += step) {
         const float distance = p[14] / (2.0f * depth[i] - 1.0f + p[10]);
-        if (depth[i] < 1.0f && isfinite(distance) && distance > 0.0f)
+        if (depth[i] > 0.0f && depth[i] < 1.0f && isfinite(distance) && distance > 0.0f) /* 0: never cleared */
             depth[count++] = distance;
     }
     float radius = 0.0f;
