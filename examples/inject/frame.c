@@ -34,7 +34,8 @@ typedef struct target {
     int width, height;
     int frame; /* swaps so far */
     float radius;
-    bool works; /* said so once */
+    bool works;    /* said so once */
+    bool is_drawn; /* in this frame, by a blit */
 } target;
 
 static target targets[CONTEXTS];
@@ -178,10 +179,10 @@ static float fitting_radius(GLuint texture, int width, int height, const float p
     return radius;
 }
 
-static bool get_projection(const target *t, float projection[16])
+static bool get_projection(const target *t, GLuint framebuffer, float projection[16])
 {
     const inject_options *o = inject_get_options();
-    const bool found = inject_end_frame(projection);
+    const bool found = inject_get_projection(framebuffer, projection);
     if (o->fov > 0.0f) {
         const float focal = 1.0f / tanf(o->fov * 3.14159265f / 360.0f), n = o->near_plane, f = o->far_plane;
         memset(projection, 0, 16 * sizeof *projection);
@@ -197,7 +198,7 @@ static bool get_projection(const target *t, float projection[16])
     return found;
 }
 
-static void show_map_alone(void)
+static void show_map_alone(GLuint framebuffer)
 {
     REAL(PFNGLGETFLOATVPROC, GetFloatv);
     REAL(PFNGLCLEARCOLORPROC, ClearColor);
@@ -208,24 +209,25 @@ static void show_map_alone(void)
     GLint bound;
     GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
     GetFloatv(GL_COLOR_CLEAR_VALUE, color);
-    BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     ClearColor(1.0f, 1.0f, 1.0f, 1.0f);
     Clear(GL_COLOR_BUFFER_BIT);
     ClearColor(color[0], color[1], color[2], color[3]);
     BindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)bound);
 }
 
-static void draw_effect(target *t)
+/* Into the window, 0, or a framebuffer of the program's own; false where nothing was drawn. */
+static bool draw_effect(target *t, GLuint framebuffer)
 {
     const inject_options *o = inject_get_options();
     float projection[16];
-    if (!get_projection(t, projection) || !is_on)
-        return;
+    if (!get_projection(t, framebuffer, projection) || !is_on)
+        return false;
     const char *why = NULL;
-    const GLuint depth = window_depth_copy(t->depth, 0, t->width, t->height, &why);
+    const GLuint depth = window_depth_copy(t->depth, framebuffer, t->width, t->height, &why);
     if (!depth) {
         say_once(why);
-        return;
+        return false;
     }
     if (o->radius > 0.0f)
         t->radius = o->radius;
@@ -237,7 +239,7 @@ static void draw_effect(target *t)
         if (t->frame >= FRAMES_TO_FIND_A_PROJECTION)
             say_once(
                 "the window's depth is empty: the program draws elsewhere, or clears it before it shows a picture");
-        return;
+        return false;
     }
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)o->quality);
     settings.radius = t->radius;
@@ -246,10 +248,12 @@ static void draw_effect(target *t)
     glssao_frame frame = {.depth_texture = depth};
     memcpy(frame.projection, projection, sizeof frame.projection);
     if (glssao_compute(t->effect, &frame, &settings) != GLSSAO_OK)
-        return;
+        return false;
     if (o->map)
-        show_map_alone();
-    if (glssao_apply(t->effect, 0) == GLSSAO_OK && !t->works) {
+        show_map_alone(framebuffer);
+    if (glssao_apply(t->effect, framebuffer) != GLSSAO_OK)
+        return false;
+    if (!t->works) {
         t->works = true;
         const float far_plane = projection[14] / (projection[10] + 1.0f);
         inject_say("on: %d x %d, field of view %.1f degrees, near %g, far %g, radius %g", t->width, t->height,
@@ -257,27 +261,28 @@ static void draw_effect(target *t)
                    (double)(projection[14] / (projection[10] - 1.0f)), far_plane > 0.0f ? (double)far_plane : HUGE_VAL,
                    (double)t->radius);
     }
+    return true;
 }
 
 /* The window's back buffer as a PPM, for tests and documents. What it sets stays set: the program ends after it. */
-static bool write_picture(const target *t, const char *path)
+static bool write_picture(const char *path, int width, int height)
 {
     REAL(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer);
     REAL(PFNGLPIXELSTOREIPROC, PixelStorei);
     REAL(PFNGLREADPIXELSPROC, ReadPixels);
     REAL(PFNGLREADBUFFERPROC, ReadBuffer);
-    const size_t count = (size_t)t->width * (size_t)t->height, row = (size_t)t->width * 3;
+    const size_t count = (size_t)width * (size_t)height, row = (size_t)width * 3;
     unsigned char *rgb = malloc(4 * count); /* read as RGBA, which embedded contexts insist on */
     FILE *file = fopen(path, "wb");
     if (rgb && file) {
         BindFramebuffer(GL_FRAMEBUFFER, 0);
         ReadBuffer(GL_BACK);
         PixelStorei(GL_PACK_ALIGNMENT, 1);
-        ReadPixels(0, 0, t->width, t->height, GL_RGBA, GL_UNSIGNED_BYTE, rgb);
+        ReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgb);
         for (size_t i = 0; i < count; ++i)
             memmove(rgb + 3 * i, rgb + 4 * i, 3);
-        fprintf(file, "P6 %d %d 255\n", t->width, t->height);
-        for (int y = t->height; y-- > 0;)
+        fprintf(file, "P6 %d %d 255\n", width, height);
+        for (int y = height; y-- > 0;)
             fwrite(rgb + row * (size_t)y, row, 1, file);
     }
     const bool ok = rgb && file && fclose(file) == 0;
@@ -287,24 +292,49 @@ static bool write_picture(const target *t, const char *path)
     return ok;
 }
 
-void inject_draw(void *context, int width, int height)
+/* Locked until release; NULL, and not locked, where there is no effect to be had. */
+static target *acquire(void *context)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     pthread_once(&once, set_up);
     pthread_mutex_lock(&lock);
-    target *t = find_target(context);
-    if (t && width > 0 && height > 0) {
-        const inject_options *o = inject_get_options();
-        const bool is_last = ++t->frame == o->picture_frame && o->picture;
-        if (!t->given_up)
-            t->given_up = !prepare(t, width, height);
-        t->width = width;
-        t->height = height;
-        const bool ok = !is_last || !o->before || write_picture(t, o->before);
-        if (!t->given_up)
-            draw_effect(t);
-        if (is_last)
-            _Exit(write_picture(t, o->picture) && ok ? 0 : 1);
-    }
+    target *t = context ? find_target(context) : NULL;
+    if (!t)
+        pthread_mutex_unlock(&lock);
+    return t;
+}
+
+static bool is_ready(target *t, int width, int height)
+{
+    if (!t->given_up)
+        t->given_up = !prepare(t, width, height);
+    return !t->given_up;
+}
+
+void inject_blit(void *context, unsigned framebuffer, int width, int height)
+{
+    target *t = acquire(context);
+    if (!t)
+        return;
+    float unused[16]; /* a framebuffer that was not drawn anew must not be darkened once more */
+    if (!t->is_drawn && inject_get_projection(framebuffer, unused) && is_ready(t, width, height))
+        t->is_drawn = draw_effect(t, framebuffer);
+    pthread_mutex_unlock(&lock);
+}
+
+void inject_swap(void *context, int width, int height)
+{
+    target *t = width > 0 && height > 0 ? acquire(context) : NULL;
+    if (!t)
+        return;
+    const inject_options *o = inject_get_options();
+    const bool is_last = ++t->frame == o->picture_frame && o->picture;
+    const bool ok = !is_last || !o->before || write_picture(o->before, width, height);
+    if (!t->is_drawn && is_ready(t, width, height))
+        draw_effect(t, 0);
+    t->is_drawn = false;
+    inject_end_frame();
+    if (is_last)
+        _Exit(write_picture(o->picture, width, height) && ok ? 0 : 1);
     pthread_mutex_unlock(&lock);
 }

@@ -35,6 +35,8 @@ HOOK void glLoadMatrixf(const float *m);
 HOOK void glLoadMatrixd(const double *m);
 HOOK void glMultMatrixf(const float *m);
 HOOK void glMultMatrixd(const double *m);
+HOOK void glBlitFramebuffer(int x0, int y0, int x1, int y1, int to_x0, int to_y0, int to_x1, int to_y1, unsigned mask,
+                            unsigned filter);
 HOOK void glFrustum(double left, double right, double bottom, double top, double near_plane, double far_plane);
 
 /* ---- looking functions up ---- */
@@ -97,7 +99,7 @@ void glXSwapBuffers(void *display, unsigned long drawable)
         glXQueryDrawable_real(display, drawable, GLX_HEIGHT, &height);
         void *context = glXGetCurrentContext_real();
         if (context)
-            inject_draw(context, (int)width, (int)height);
+            inject_swap(context, (int)width, (int)height);
     }
     if (glXSwapBuffers_real)
         glXSwapBuffers_real(display, drawable);
@@ -117,7 +119,7 @@ static void draw_egl(void *display, void *surface)
     eglQuerySurface_real(display, surface, EGL_HEIGHT, &height);
     void *context = eglGetCurrentContext_real();
     if (context)
-        inject_draw(context, width, height);
+        inject_swap(context, width, height);
 }
 
 unsigned eglSwapBuffers(void *display, void *surface)
@@ -157,23 +159,23 @@ unsigned eglSwapBuffersWithDamageKHR(void *display, void *surface, const int *re
 
 /* ---- matrices ---- */
 
-static bool draws_into_window(void)
+static unsigned framebuffer_of(GLenum binding)
 {
     REAL(PFNGLGETINTEGERVPROC, glGetIntegerv);
     GLint framebuffer = 0;
     if (glGetIntegerv_real)
-        glGetIntegerv_real(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
-    return framebuffer == 0;
+        glGetIntegerv_real(binding, &framebuffer);
+    return (unsigned)framebuffer;
 }
 
 static void note_uniform(int count, unsigned char transpose, const float *values)
 {
-    if (count != 1 || !values || !draws_into_window())
+    if (count != 1 || !values)
         return;
     float m[16];
     for (int i = 0; i < 16; ++i)
         m[i] = values[transpose ? 4 * (i % 4) + i / 4 : i];
-    inject_note_matrix(m);
+    inject_note_matrix(m, framebuffer_of(GL_DRAW_FRAMEBUFFER_BINDING));
 }
 
 void glUniformMatrix4fv(int location, int count, unsigned char transpose, const float *values)
@@ -201,11 +203,11 @@ static void note_stack(void)
     if (!glGetIntegerv_real || !glGetFloatv_real)
         return;
     glGetIntegerv_real(GL_MATRIX_MODE, &mode);
-    if (mode != GL_PROJECTION || !draws_into_window())
+    if (mode != GL_PROJECTION)
         return;
     float m[16];
     glGetFloatv_real(GL_PROJECTION_MATRIX, m);
-    inject_note_matrix(m);
+    inject_note_matrix(m, framebuffer_of(GL_DRAW_FRAMEBUFFER_BINDING));
 }
 
 #define STACK_HOOK(name, type)                                                                                         \
@@ -229,4 +231,28 @@ void glFrustum(double left, double right, double bottom, double top, double near
     if (glFrustum_real)
         glFrustum_real(left, right, bottom, top, near_plane, far_plane);
     note_stack();
+}
+
+/* ---- pictures drawn elsewhere ---- */
+
+static void *current_context(void)
+{
+    typedef void *(*current_fn)(void);
+    REAL(current_fn, glXGetCurrentContext);
+    REAL(current_fn, eglGetCurrentContext);
+    void *context = glXGetCurrentContext_real ? glXGetCurrentContext_real() : NULL;
+    return context || !eglGetCurrentContext_real ? context : eglGetCurrentContext_real();
+}
+
+void glBlitFramebuffer(int x0, int y0, int x1, int y1, int to_x0, int to_y0, int to_x1, int to_y1, unsigned mask,
+                       unsigned filter)
+{
+    REAL(PFNGLBLITFRAMEBUFFERPROC, glBlitFramebuffer);
+    const unsigned framebuffer = framebuffer_of(GL_READ_FRAMEBUFFER_BINDING);
+    if (++depth_of_calls == 1 && (mask & GL_COLOR_BUFFER_BIT) && framebuffer != 0 && x0 == 0 && y0 == 0 && x1 > 0 &&
+        y1 > 0)
+        inject_blit(current_context(), framebuffer, x1, y1);
+    if (glBlitFramebuffer_real)
+        glBlitFramebuffer_real(x0, y0, x1, y1, to_x0, to_y0, to_x1, to_y1, mask, filter);
+    --depth_of_calls;
 }

@@ -35,11 +35,13 @@ void inject_say(const char *format, ...) __attribute__((format(printf, 1, 2)));
  * moves and scales alike in all directions. Then *out_projection is that projection alone. */
 bool inject_perspective_of(const float m[16], float out_projection[16]);
 
-/* Counts a matrix that the program set while it drew into its window. */
-void inject_note_matrix(const float m[16]);
-/* The projection that most matrices of the frame were made with, and starts the next frame; false where there was
- * none in this frame nor before. */
-bool inject_end_frame(float out_projection[16]);
+/* Counts a matrix that the program set while it drew into `framebuffer` (0: the window). */
+void inject_note_matrix(const float m[16], unsigned framebuffer);
+/* The projection that most matrices of the frame, set for that framebuffer, were made with; false where there was none.
+ * For the window that of an earlier frame is good too, as long as no framebuffer has one in this frame. */
+bool inject_get_projection(unsigned framebuffer, float out_projection[16]);
+/* Forgets the frame's matrices. */
+void inject_end_frame(void);
 
 /* ---- lookup.c ---- */
 
@@ -53,6 +55,8 @@ void *inject_hooked(const char *name, void *real);
 /* ---- frame.c ---- */
 
 /* Before the buffers of the current context, told apart by `context`, are swapped. */
-void inject_draw(void *context, int width, int height);
+void inject_swap(void *context, int width, int height);
+/* Before the colours of a framebuffer of the program's own are blitted somewhere from its whole area. */
+void inject_blit(void *context, unsigned framebuffer, int width, int height);
 
 #endif

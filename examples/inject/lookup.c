@@ -25,6 +25,7 @@ static struct hook {
     {"glMultMatrixf", NULL},
     {"glMultMatrixd", NULL},
     {"glFrustum", NULL},
+    {"glBlitFramebuffer", NULL},
     {"glXGetProcAddress", NULL},
     {"glXGetProcAddressARB", NULL},
     {"eglGetProcAddress", NULL},

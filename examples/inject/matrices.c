@@ -18,11 +18,12 @@ enum { CANDIDATES = 16 };
 
 typedef struct candidate {
     float projection[16];
+    unsigned framebuffer;
     int count;
 } candidate;
 
 static candidate seen[CANDIDATES];
-static candidate last; /* of an earlier frame; count 0: none yet */
+static candidate last; /* the window's, of an earlier frame; count 0: none yet */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
 static double dot3(const double a[4], const double b[4])
@@ -83,35 +84,48 @@ static bool alike(const float a[16], const float b[16])
     return true;
 }
 
-void inject_note_matrix(const float m[16])
+void inject_note_matrix(const float m[16], unsigned framebuffer)
 {
     float projection[16];
     if (!inject_perspective_of(m, projection))
         return;
     pthread_mutex_lock(&lock);
     for (int i = 0; i < CANDIDATES; ++i) {
-        if (seen[i].count > 0 && !alike(seen[i].projection, projection))
+        if (seen[i].count > 0 && (seen[i].framebuffer != framebuffer || !alike(seen[i].projection, projection)))
             continue;
         if (seen[i].count == 0)
             memcpy(seen[i].projection, projection, sizeof projection);
+        seen[i].framebuffer = framebuffer;
         ++seen[i].count;
         break;
     }
     pthread_mutex_unlock(&lock);
 }
 
-bool inject_end_frame(float out_projection[16])
+bool inject_get_projection(unsigned framebuffer, float out_projection[16])
 {
     pthread_mutex_lock(&lock);
-    const candidate *best = &last;
-    for (int i = 0; i < CANDIDATES; ++i)
-        if (seen[i].count > 0 && (best == &last || seen[i].count > best->count))
+    const candidate *best = NULL;
+    bool elsewhere = false;
+    for (int i = 0; i < CANDIDATES && seen[i].count > 0; ++i) {
+        if (seen[i].framebuffer != framebuffer)
+            elsewhere = true;
+        else if (!best || seen[i].count > best->count)
             best = &seen[i];
-    if (best != &last)
+    }
+    if (best && framebuffer == 0)
         last = *best;
-    memcpy(out_projection, last.projection, sizeof last.projection);
-    memset(seen, 0, sizeof seen);
-    const bool found = last.count > 0;
+    if (!best && framebuffer == 0 && !elsewhere && last.count > 0)
+        best = &last;
+    if (best)
+        memcpy(out_projection, best->projection, sizeof best->projection);
     pthread_mutex_unlock(&lock);
-    return found;
+    return best != NULL;
+}
+
+void inject_end_frame(void)
+{
+    pthread_mutex_lock(&lock);
+    memset(seen, 0, sizeof seen);
+    pthread_mutex_unlock(&lock);
 }

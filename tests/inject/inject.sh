@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# inject.sh LIBRARY CHECK FOLDER: the preload library in the dropin programs with their own effect off, under Xvfb: the
-# fixed-function one, which draws into its window, gets occlusion; switched off it gets none; the one that draws into a
-# framebuffer of its own, whose window has no depth to speak of, is left as it was. Then in Debian's gears, by GLX and
-# EGL, and in an OpenGL ES program, which must run on and be told why nothing happens.
+# inject.sh LIBRARY CHECK FOLDER: the preload library in the dropin programs with their own effect off, under Xvfb: in the
+# fixed-function one, which draws into its window, and in the one that draws into a framebuffer of its own and blits it;
+# switched off by the environment and by a signal; where no depth is to be had. Then in Debian's gears, and in an OpenGL ES
+# program, which must run on and be told why nothing happens.
 set -euo pipefail
 library=$1 check=$2 folder=$3
 if ! command -v xvfb-run >/dev/null; then
@@ -48,11 +48,10 @@ grep -q 'glssao-inject: on' log && cmp switched-before.ppm switched-after.ppm ||
 GLSSAO_INJECT_OFF=1 inject off "$folder/dropin-legacy" --no-ao --frames 5
 cmp off-before.ppm off-after.ppm || fail "the picture changes although switched off"
 inject core "$folder/dropin" --no-ao --frames 5
-cmp core-before.ppm core-after.ppm || fail "the picture changes where the window has no depth"
+mv core-after.ppm core-with.ppm
+GLSSAO_INJECT_OFF=1 inject core "$folder/dropin" --no-ao --frames 5
+"$check" core-with.ppm core-after.ppm || fail "core: wrong picture"
 unset GLSSAO_INJECT_RADIUS
-GLSSAO_INJECT_FOV=45.8 GLSSAO_INJECT_NEAR=0.1 GLSSAO_INJECT_FAR=50 GLSSAO_INJECT_PICTURE=empty.ppm GLSSAO_INJECT_FRAME=62 \
-    LD_PRELOAD=$library timeout 60 "$folder/dropin" --no-ao >log 2>&1 || fail "empty depth: exit code $?"
-[ "$(grep -c "glssao-inject: the window's depth is empty" log)" = 1 ] || fail "not told once that the window's depth is empty"
 
 for gears in glxgears eglgears_x11; do
     command -v $gears >/dev/null || { echo "inject.sh: no $gears here (mesa-utils)"; continue; }

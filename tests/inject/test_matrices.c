@@ -106,21 +106,41 @@ static void the_projection_of_most_matrices_is_taken_and_kept(void **state)
 {
     (void)state;
     matrix rare, usual, found;
-    assert_false(inject_end_frame(found));
+    assert_false(inject_get_projection(0, found));
     frustum(0.0f, 0.1f, 10.0f, rare);
     frustum(0.0f, 0.5f, 60.0f, usual);
-    inject_note_matrix(rare);
+    inject_note_matrix(rare, 0);
     for (int i = 0; i < 3; ++i) {
         matrix v, product;
         model_view(1.0f + (float)i, 1.0f + (float)i, 1.0f + (float)i, v);
         multiply(usual, v, product);
-        inject_note_matrix(product);
+        inject_note_matrix(product, 0);
     }
-    assert_true(inject_end_frame(found));
+    assert_true(inject_get_projection(0, found));
     assert_alike(usual, found);
+    inject_end_frame();
     memset(found, 0, sizeof found);
-    assert_true(inject_end_frame(found)); /* a frame that sets none */
+    assert_true(inject_get_projection(0, found)); /* a frame that sets none */
     assert_alike(usual, found);
+}
+
+static void each_framebuffer_has_its_own(void **state)
+{
+    (void)state;
+    matrix in_7, in_window, found;
+    frustum(0.0f, 0.1f, 10.0f, in_7);
+    frustum(0.0f, 0.5f, 60.0f, in_window);
+    inject_end_frame();
+    inject_note_matrix(in_7, 7);
+    inject_note_matrix(in_7, 7);
+    assert_false(inject_get_projection(0, found)); /* the window's of old would be a guess here */
+    inject_note_matrix(in_window, 0);
+    assert_true(inject_get_projection(0, found));
+    assert_alike(in_window, found);
+    assert_true(inject_get_projection(7, found));
+    assert_alike(in_7, found);
+    inject_end_frame();
+    assert_false(inject_get_projection(7, found)); /* nothing of old, where nothing was drawn anew */
 }
 
 int main(void)
@@ -130,6 +150,7 @@ int main(void)
         cmocka_unit_test(a_projection_is_found_in_a_product),
         cmocka_unit_test(other_matrices_are_refused),
         cmocka_unit_test(the_projection_of_most_matrices_is_taken_and_kept),
+        cmocka_unit_test(each_framebuffer_has_its_own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
