@@ -131,13 +131,6 @@ vec3 sample_at(slice_frame f, vec2 step_px, float along, out vec2 layers)
                 scale * f.per_scale);
 }
 
-// Whether a change of height from one sample to the next leads to another surface: it is large, and goes on neither before
-// nor after at the same slope.
-bool is_jump(float before, float change, float after)
-{
-    return abs(change) > JUMP && abs(change - before) > ALIKE && abs(change - after) > ALIKE;
-}
-
 // Sectors that are hidden at x between two heights, where they lie within the sphere, whose half chord is 0 beyond it: top
 // and bottom then come out alike.
 uint hidden_between(float x, float x2, float chord, float top, float bottom, polynomial sectors, bool minus, float lowest, out float cos_top)
@@ -176,14 +169,18 @@ uint hidden_by(vec3 at, vec2 layers, float width, polynomial sectors, bool minus
 // that of the horizon over occluders that veil what is behind them.
 uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, polynomial sectors, bool minus, float lowest, out float highest)
 {
-    float change[STEPS + 1];
+    float change[STEPS];
+    bool bend[STEPS + 1];
     bool jump[STEPS];
     float start[STEPS];
     float end[STEPS];
 #define CHANGE(i) change[i] = samples[i].y - (i > 0 ? samples[max(i - 1, 0)].y : 0.0);
     EACH_STEP(CHANGE)
-    change[STEPS] = 1e3;
-#define FIND_JUMP(i) jump[i] = is_jump(i > 0 ? change[max(i - 1, 0)] : 1e3, change[i], change[i + 1]);
+#define FIND_BEND(i) bend[i] = i == 0 || abs(change[i] - change[max(i - 1, 0)]) > ALIKE;
+    EACH_STEP(FIND_BEND)
+    bend[STEPS] = true;
+    // A change of height leads to another surface where it is large, and goes on neither before nor after at the same slope.
+#define FIND_JUMP(i) jump[i] = abs(change[i]) > JUMP && bend[i] && bend[i + 1];
     EACH_STEP(FIND_JUMP)
     // In steps. The run that the point itself belongs to starts so far off that it is thicker than the sphere.
     float boundary = -100.0;

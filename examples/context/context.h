@@ -22,6 +22,7 @@ typedef struct context_options {
     context_kind kind;
     int major, minor;    /* version asked for; 0, 0 means 3.3 */
     bool compatibility;  /* false: core profile */
+    context *share;      /* textures, buffers and programs are shared with this one; NULL: with none */
 } context_options;
 
 /* Makes a context and makes it current on this thread. NULL on failure, with one line in `error` that says what

@@ -166,7 +166,12 @@ static bool create_context(egl_context *e, bool egl_1_5, const char *extensions,
                                          EGL_CONTEXT_OPENGL_PROFILE_MASK,
                                          profile,
                                          EGL_NONE};
-    e->handle = e->egl.CreateContext(e->display, config, EGL_NO_CONTEXT, context_attributes);
+    const egl_context *share = (const egl_context *)options->share;
+    if (share && (share->base.make_current != make_current || share->display != e->display)) {
+        snprintf(error, error_size, "the context to share with is of another display");
+        return false;
+    }
+    e->handle = e->egl.CreateContext(e->display, config, share ? share->handle : EGL_NO_CONTEXT, context_attributes);
     if (e->handle == EGL_NO_CONTEXT) {
         snprintf(error, error_size, "eglCreateContext failed (%s)", error_name(e->egl.GetError()));
         return false;

@@ -99,6 +99,7 @@
     X(GETUNIFORMLOCATION, GetUniformLocation) \
     X(ISENABLED, IsEnabled) \
     X(ISENABLEDI, IsEnabledi) \
+    X(ISTEXTURE, IsTexture) \
     X(LINKPROGRAM, LinkProgram) \
     X(LOGICOP, LogicOp) \
     X(PIXELSTOREI, PixelStorei) \

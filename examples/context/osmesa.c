@@ -102,8 +102,12 @@ context *context__osmesa_create(const context_options *options, char *error, siz
                               options->minor,
                               0,
                               0};
-    o->handle = o->create(attributes, NULL);
-    if (!o->handle) {
+    const osmesa_context *share = (const osmesa_context *)options->share;
+    const bool alike = !share || share->base.make_current == make_current;
+    o->handle = alike ? o->create(attributes, share ? share->handle : NULL) : NULL;
+    if (!alike) {
+        snprintf(error, error_size, "the context to share with is not OSMesa's");
+    } else if (!o->handle) {
         snprintf(error, error_size, "OSMesaCreateContextAttribs refuses this version");
     } else if (!make_current(&o->base)) {
         snprintf(error, error_size, "OSMesaMakeCurrent failed");

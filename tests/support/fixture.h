@@ -18,7 +18,7 @@
 #include <cmocka.h>
 
 typedef struct fixture {
-    context *context;
+    struct context *context; /* the tag, so that C++ compilers take it too */
     char log[4096]; /* lines since fixture_clear_log */
 } fixture;
 

@@ -142,7 +142,8 @@ static void unknown_version_fails_in_one_line(void **state)
                  {CONTEXT_OSMESA, {"OSMesa", "OSMesa"}}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char error[1024] = "";
-        assert_null(context_create(&(context_options){cases[i].kind, 9, 9, false}, error, sizeof error));
+        assert_null(
+            context_create(&(context_options){.kind = cases[i].kind, .major = 9, .minor = 9}, error, sizeof error));
         assert_non_null(strstr(error, "9.9"));
         assert_non_null(strstr(error, cases[i].tried[0]));
         assert_non_null(strstr(error, cases[i].tried[1]));
@@ -155,7 +156,7 @@ static void short_error_buffers_are_not_overrun(void **state)
     (void)state;
     char error[8];
     memset(error, 'x', sizeof error);
-    assert_null(context_create(&(context_options){CONTEXT_AUTO, 9, 9, false}, error, 4));
+    assert_null(context_create(&(context_options){.major = 9, .minor = 9}, error, 4));
     assert_string_equal(error, "no ");
     assert_int_equal(error[4], 'x');
 }

@@ -104,6 +104,12 @@ static bool is_compatibility(void)
     return (mask & GL_CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0;
 }
 
+/* Of later versions than 3.3. */
+static PFNGLCLIPCONTROLPROC clip_control;
+static PFNGLBLENDFUNCIPROC blend_func_i;
+static PFNGLVIEWPORTINDEXEDFPROC viewport_indexed;
+static PFNGLGETFLOATI_VPROC get_float_i;
+
 static void take(snapshot *s)
 {
     memset(s, 0, sizeof *s);
@@ -120,6 +126,12 @@ static void take(snapshot *s)
         for (int k = 0; k < 4; ++k)
             values[k] = mask[k];
         row(s, "blend of a draw buffer")[0] = gl.IsEnabledi(GL_BLEND, i);
+        GLfloat viewport[4];
+        get_float_i(GL_VIEWPORT, i, viewport);
+        values = row(s, "viewport of an index");
+        for (int k = 0; k < 4; ++k)
+            values[k] = viewport[k];
+        row(s, "scissor test of an index")[0] = gl.IsEnabledi(GL_SCISSOR_TEST, i);
     }
     for (GLuint i = 0; i < 3; ++i) {
         GLint buffer;
@@ -163,10 +175,6 @@ typedef struct host {
         buffers[4];
 } host;
 
-static PFNGLCLIPCONTROLPROC clip_control;
-static PFNGLBLENDFUNCIPROC blend_func_i;
-static PFNGLVIEWPORTINDEXEDFPROC viewport_indexed;
-
 /* Fixed-function state that would stop every fragment, where the context has it. */
 static void(APIENTRY *alpha_func)(GLenum function, GLfloat reference);
 static void(APIENTRY *polygon_stipple)(const GLubyte *mask);
@@ -183,7 +191,10 @@ static void load_newer(fixture *f)
     memcpy(&blend_func_i, &address, sizeof address);
     address = context_load("glViewportIndexedf", f->context);
     memcpy(&viewport_indexed, &address, sizeof address);
-    assert_true(clip_control && blend_func_i && viewport_indexed); /* Mesa has them; without them less is tested */
+    address = context_load("glGetFloati_v", f->context);
+    memcpy(&get_float_i, &address, sizeof address);
+    assert_true(clip_control && blend_func_i && viewport_indexed &&
+                get_float_i); /* Mesa has them; without them less is tested */
 }
 
 static void make_host(host *h)
@@ -345,6 +356,27 @@ static inputs make_inputs(void)
     return in;
 }
 
+/* Calls that fail leave the state alone as well. */
+static void check_refusals(glssao_effect *effect, const host *h, const inputs *in)
+{
+    snapshot before, after;
+    const glssao_settings settings = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_LOW);
+    glssao_frame no_depth = in->frame;
+    no_depth.depth_texture = 0;
+    glssao_effect *none = NULL;
+    const glssao_config no_loader = {.width = W, .height = H};
+    scramble(h);
+    take(&before);
+    assert_int_equal(glssao_compute(effect, &no_depth, &settings), GLSSAO_INVALID_ARGUMENT);
+    assert_int_equal(glssao_resize(effect, 0, H), GLSSAO_INVALID_ARGUMENT);
+    assert_int_equal(glssao_begin_normals(effect, 0), GLSSAO_INVALID_ARGUMENT);
+    assert_int_equal(glssao_end_normals(effect), GLSSAO_INVALID_ARGUMENT);
+    assert_int_equal(glssao_create(&no_loader, &none), GLSSAO_INVALID_ARGUMENT);
+    glssao_destroy(none);
+    take(&after);
+    compare(&before, &after, "calls that are refused");
+}
+
 /* One walk through the API; with a host, its state is scrambled before and compared after every call. */
 static float *walk(fixture *f, const inputs *in, const host *h, double *out_error)
 {
@@ -380,6 +412,8 @@ static float *walk(fixture *f, const inputs *in, const host *h, double *out_erro
         take(&after);
         compare(&before, &after, "glssao_begin_normals and glssao_end_normals");
     }
+    const glssao_settings hemisphere = glssao_default_settings(GLSSAO_HEMISPHERE, GLSSAO_LOW);
+    CALL(glssao_compute(effect, &rebuilt, &hemisphere));
     const glssao_settings horizon = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW), classic = settings;
     CALL(glssao_compute(effect, &in->frame, &horizon)); /* makes maps and programs of its own */
     CALL(glssao_accumulate(effect, &in->frame, &horizon));
@@ -395,12 +429,18 @@ static float *walk(fixture *f, const inputs *in, const host *h, double *out_erro
         (void)glssao_get_stats(effect);
         (void)glssao_plan_frame(effect, &in->frame, &settings);
         (void)glssao_get_constants(effect);
+        (void)glssao_map(effect, GLSSAO_MAP_NORMAL, NULL, NULL);
+        (void)glssao_version();
+        (void)glssao_result_string(GLSSAO_OK);
+        glssao_log_to_stderr(GLSSAO_LOG_INFO, "the host's state is compared after this line too", NULL);
         take(&after);
         compare(&before, &after, "the calls that only tell");
     }
 #undef CALL
-    if (h)
+    if (h) {
+        check_refusals(effect, h, in);
         calm();
+    }
     float *picture = fixture_read_texture(glssao_map(effect, GLSSAO_MAP_AMBIENT, NULL, NULL), W, H, 1);
     /* Rebuilt normals and the cleared spare depth must have come out of the scrambled state as well. */
     float *depth = fixture_read_depth(in->spare_depth, W, H);

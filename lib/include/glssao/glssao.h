@@ -8,7 +8,10 @@
  *
  * Rules for every call
  *   Context    The GL context the effect was created in is current on the calling thread; 3.3 or later, core
- *              or compatibility. One effect belongs to one context and is used by one thread at a time.
+ *              or compatibility. One effect belongs to one context and is used by one thread at a time. Several
+ *              effects may live in one context, and several contexts run on several threads. Contexts that share
+ *              objects may hand their depth and normal textures to an effect and read its maps, ordered by glFinish
+ *              or a fence; the effect itself stays in its own context (framebuffers and vertex arrays aren't shared).
  *   State      GL state is left as found (docs/architecture.md lists what is saved). No transform feedback may
  *              be active, and a running occlusion query counts the effect's fragments too. In release builds
  *              glGetError is never called, so your own errors stay yours.
@@ -25,6 +28,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* Of this header; glssao_version() tells the library's. */
 #define GLSSAO_VERSION_MAJOR 0
 #define GLSSAO_VERSION_MINOR 1
 #define GLSSAO_VERSION_PATCH 0
@@ -38,7 +42,7 @@
 #elif defined(__GNUC__)
 #define GLSSAO_API __attribute__((visibility("default")))
 #else
-#define GLSSAO_API
+#define GLSSAO_API /* before each public function */
 #endif
 
 #ifdef __cplusplus
@@ -49,7 +53,7 @@ extern "C" {
 
 typedef struct glssao_effect glssao_effect; /* one per GL context; opaque */
 
-typedef enum glssao_result {
+typedef enum glssao_result { /* what a call that can fail gives */
     GLSSAO_OK = 0,
     GLSSAO_INVALID_ARGUMENT,    /* the log names the field and its value */
     GLSSAO_UNSUPPORTED_CONTEXT, /* older than 3.3, or a function of 3.3 is missing */
@@ -58,6 +62,7 @@ typedef enum glssao_result {
     GLSSAO_FRAMEBUFFER_ERROR    /* the driver refuses one of the formats or attachments */
 } glssao_result;
 
+/* How much a message matters. */
 typedef enum glssao_log_level { GLSSAO_LOG_ERROR = 0, GLSSAO_LOG_WARNING, GLSSAO_LOG_INFO } glssao_log_level;
 
 /* Finds the GL function `name` ("glClear"); NULL where there is none. glfwGetProcAddress and the like, wrapped. */
@@ -67,11 +72,11 @@ typedef void (*glssao_log_fn)(glssao_log_level level, const char *message, void 
 
 /* ---- config: fixed for the effect's life ---------------------------------------------------------------- */
 
-typedef struct glssao_config {
+typedef struct glssao_config { /* zero means default */
     glssao_load_fn load; /* required */
-    void *load_user;
+    void *load_user;     /* handed to load */
     glssao_log_fn log;   /* NULL: silent */
-    void *log_user;
+    void *log_user;      /* handed to log */
     int width, height;   /* full size in pixels: the size of the depth maps handed over. 1 to GL_MAX_TEXTURE_SIZE */
     uint32_t seed;       /* of every random input: the same seed gives the same bits */
     bool no_timers;      /* true: no timer queries; glssao_stats then holds no times */
@@ -79,15 +84,16 @@ typedef struct glssao_config {
 
 /* ---- settings: may change every frame ------------------------------------------------------------------- */
 
-typedef enum glssao_technique {
+typedef enum glssao_technique { /* how occlusion is estimated */
     GLSSAO_CLASSIC = 0, /* 14 offsets about the point, distance fade, bilateral blur (Luna, D3D12 book, ch. 21) */
     GLSSAO_HEMISPHERE,  /* samples in the half ball about the normal, 4x4 tile of rotations (Chapman 2013) */
     GLSSAO_HORIZON      /* cosine-weighted visibility by slices: nearest to ray-traced truth (Jimenez 2016, Therrien 2023) */
 } glssao_technique;
 
+/* Default settings by cost: see docs/accuracy.md. */
 typedef enum glssao_quality { GLSSAO_LOW = 0, GLSSAO_MEDIUM, GLSSAO_HIGH, GLSSAO_ULTRA } glssao_quality;
 
-typedef enum glssao_blur {
+typedef enum glssao_blur {  /* how noise is taken out of the estimate */
     GLSSAO_BLUR_NONE = 0,
     GLSSAO_BLUR_GAUSSIAN,  /* separable, 11 taps, crosses edges */
     GLSSAO_BLUR_BILATERAL, /* the same taps, kept only where normal and view distance agree */
@@ -96,7 +102,7 @@ typedef enum glssao_blur {
 } glssao_blur;
 
 typedef struct glssao_settings {   /* fill with glssao_default_settings() first, then change what you like */
-    glssao_technique technique;
+    glssao_technique technique;    /* decides which of the fields below count */
     float radius;                  /* scene units, >= 0: how far away an occluder can be. 0 occludes nothing */
     float fade_start, fade_end;    /* scene units of view distance, 0 <= start <= end: an occluder this much nearer
                                       than the point counts fully, or no longer (classic) */
@@ -108,7 +114,7 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
                                       32 (2 x 8), 48 (2 x 12) or 64 (2 x 16) */
     bool half_resolution;          /* estimate at half the size, (w + 1) / 2 by (h + 1) / 2 */
     bool upsample;                 /* a half-size result is brought to full size along surfaces; else it stays half size */
-    glssao_blur blur;
+    glssao_blur blur;              /* of the estimate, before upsampling */
     int blur_rounds;               /* 0 to 16: each is one horizontal and one vertical pass */
     float blur_sigma;              /* pixels of the ambient map, above 0 to 2.5 */
     float blur_normal_threshold;   /* cosine, -1 to 1: taps whose normals' dot product is below are dropped */
@@ -118,23 +124,23 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
 
 /* ---- frame: what the host hands over each time ---------------------------------------------------------- */
 
-typedef enum glssao_depth {
+typedef enum glssao_depth { /* what a texel of depth means */
     GLSSAO_DEPTH_WINDOW = 0,    /* what the depth buffer stores; depth or depth-stencil format */
     GLSSAO_DEPTH_VIEW_DISTANCE, /* view distance in the red channel of a float format; sky: 0, infinite or no number */
     GLSSAO_DEPTH_NORMAL_ALPHA   /* the same in the alpha of normal_texture; depth_texture is not used */
 } glssao_depth;
 
-typedef enum glssao_normal {
+typedef enum glssao_normal { /* how a texel stores a normal */
     GLSSAO_NORMAL_SIGNED = 0, /* xyz in -1..1, any length but 0 */
     GLSSAO_NORMAL_UNSIGNED,   /* xyz stored as 0..1 */
     GLSSAO_NORMAL_OCTAHEDRAL  /* red and green, -1..1 (Meyer et al. 2010) */
 } glssao_normal;
 
-typedef struct glssao_frame {
+typedef struct glssao_frame { /* zero a field that you don't use */
     uint32_t depth_texture;    /* GL_TEXTURE_2D of the effect's full size, level 0 */
-    glssao_depth depth_kind;
+    glssao_depth depth_kind;   /* of depth_texture */
     uint32_t normal_texture;   /* GL_TEXTURE_2D of the full size, view space; 0: rebuilt from depth (one more pass) */
-    glssao_normal normal_kind;
+    glssao_normal normal_kind; /* of normal_texture */
     float projection[16];      /* column-major clip_from_view, finite and invertible: perspective (off-centre,
                                   infinite, reversed: all fine) or orthographic */
     bool clip_zero_to_one;     /* true where the host called glClipControl(..., GL_ZERO_TO_ONE) */
@@ -148,7 +154,7 @@ typedef struct glssao_frame {
 
 /* ---- what the effect tells ------------------------------------------------------------------------------ */
 
-typedef enum glssao_map_id {
+typedef enum glssao_map_id { /* textures to look at */
     GLSSAO_MAP_AMBIENT = 0,   /* the result: accessibility in red, R16; half size where it was estimated so and not upsampled */
     GLSSAO_MAP_AMBIENT_OTHER, /* the second of the two ping-pong maps: the last horizontal blur, in red. R16; RG32F,
                                  with distance in green, after upsampling or the planar blur */
@@ -169,7 +175,7 @@ typedef struct glssao_constants {
     float gPadding[2];           /* std140 rounds the block up to 496 bytes */
 } glssao_constants;
 
-typedef enum glssao_pass {
+typedef enum glssao_pass { /* in the order of the frame */
     GLSSAO_PASS_NORMALS = 0, /* normals rebuilt from depth */
     GLSSAO_PASS_DISTANCE,    /* view distance at the estimate's size */
     GLSSAO_PASS_ESTIMATE,    /* raw accessibility */
@@ -181,13 +187,13 @@ typedef enum glssao_pass {
 } glssao_pass;
 
 typedef struct glssao_plan { /* indexed by glssao_pass; GLSSAO_PASS_APPLY belongs to glssao_apply and is not planned */
-    struct glssao_planned_pass {
+    struct glssao_planned_pass { /* one pass of a frame */
         const char *name;    /* static text, as is `reason` */
         const char *reason;  /* why it runs or is skipped, in words */
-        bool run;
-        int draw_calls;
+        bool run;            /* false: skipped */
+        int draw_calls;      /* 0 where it is skipped */
         int width, height;   /* pixels it covers */
-    } passes[GLSSAO_PASS_COUNT];
+    } passes[GLSSAO_PASS_COUNT]; /* by glssao_pass */
 } glssao_plan;
 
 typedef struct glssao_stats { /* of the last glssao_compute or glssao_accumulate, and glssao_apply */
@@ -197,11 +203,11 @@ typedef struct glssao_stats { /* of the last glssao_compute or glssao_accumulate
     int estimates;           /* in the mean of glssao_accumulate; 0 after glssao_compute */
     double sampling_error;   /* accessibility, RMS over the surfaces seen: how far the mean of glssao_accumulate is
                                 estimated to be from that of endless estimates; negative: not known (yet) */
-    struct glssao_pass_stats {
-        const char *name;
-        int draw_calls;
+    struct glssao_pass_stats { /* one pass of the last frame */
+        const char *name;    /* static text */
+        int draw_calls;      /* 0 where it was skipped */
         double gpu_ms;       /* negative: as above */
-    } passes[GLSSAO_PASS_COUNT];
+    } passes[GLSSAO_PASS_COUNT]; /* by glssao_pass */
 } glssao_stats;
 
 /* ---- functions ------------------------------------------------------------------------------------------ */
@@ -226,6 +232,7 @@ GLSSAO_API glssao_settings glssao_default_settings(glssao_technique technique, g
  * view-space normals to output 0, then call glssao_end_normals, which restores framebuffers and viewport.
  * Hand glssao_map(effect, GLSSAO_MAP_NORMAL, ...) to glssao_compute as normal_texture afterwards. */
 GLSSAO_API glssao_result glssao_begin_normals(glssao_effect *effect, uint32_t depth_texture);
+/* Restores the framebuffer and viewport of glssao_begin_normals. INVALID_ARGUMENT without one. */
 GLSSAO_API glssao_result glssao_end_normals(glssao_effect *effect);
 
 /* Runs the passes of glssao_plan_frame; the result is GLSSAO_MAP_AMBIENT. May fail with INVALID_ARGUMENT, and with

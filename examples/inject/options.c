@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The environment, and the one voice that speaks to the user: lines on stderr that begin with "glssao-inject:".
+ */
+#include "inject.h"
+
+#include <glssao/glssao.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static inject_options options;
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+
+void inject_say(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    fputs("glssao-inject: ", stderr);
+    vfprintf(stderr, format, arguments);
+    fputc('\n', stderr);
+    va_end(arguments);
+}
+
+static float number(const char *name, float least)
+{
+    const char *text = getenv(name);
+    if (!text || !*text)
+        return 0.0f;
+    char *end;
+    float value = strtof(text, &end);
+    if (*end == '\0' && isfinite(value) && value >= least)
+        return value;
+    inject_say("%s=%s is no number from %g up and is not used", name, text, (double)least);
+    return 0.0f;
+}
+
+static bool flag(const char *name)
+{
+    const char *text = getenv(name);
+    return text && *text && strcmp(text, "0") != 0;
+}
+
+static void read_environment(void)
+{
+    static const char *const levels[] = {"low", "medium", "high", "ultra"};
+    options = (inject_options){
+        .fov = number("GLSSAO_INJECT_FOV", 1.0f),
+        .near_plane = number("GLSSAO_INJECT_NEAR", 0.0f),
+        .far_plane = number("GLSSAO_INJECT_FAR", 0.0f),
+        .radius = number("GLSSAO_INJECT_RADIUS", 0.0f),
+        .power = number("GLSSAO_INJECT_POWER", 0.0f),
+        .quality = GLSSAO_HIGH,
+        .off = flag("GLSSAO_INJECT_OFF"),
+        .map = flag("GLSSAO_INJECT_MAP"),
+        .verbose = flag("GLSSAO_INJECT_VERBOSE"),
+        .picture = getenv("GLSSAO_INJECT_PICTURE"),
+        .before = getenv("GLSSAO_INJECT_BEFORE"),
+        .picture_frame = (int)number("GLSSAO_INJECT_FRAME", 1.0f),
+    };
+    if (options.picture_frame == 0)
+        options.picture_frame = 100;
+    const char *quality = getenv("GLSSAO_INJECT_QUALITY");
+    for (int i = 0; quality && i < 4; ++i)
+        if (strcmp(quality, levels[i]) == 0)
+            options.quality = i;
+    if (options.fov > 0.0f &&
+        !(options.near_plane > 0.0f && options.far_plane > options.near_plane && options.fov < 180.0f)) {
+        inject_say("GLSSAO_INJECT_FOV needs GLSSAO_INJECT_NEAR above 0 and GLSSAO_INJECT_FAR beyond it");
+        options.fov = 0.0f;
+    }
+}
+
+const inject_options *inject_get_options(void)
+{
+    pthread_once(&once, read_environment);
+    return &options;
+}

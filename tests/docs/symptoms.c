@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * symptoms FOLDER: the pictures of the troubleshooting table in docs/integration.md, each made with the mistake that it
+ * shows. Fails where a mistake does not show.
+ */
+#include "analytic.h"
+#include "fixture.h"
+#include "picture.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { W = 240, H = 180 };
+
+typedef struct scene {
+    analytic_view view;
+    float *depth, *normals;
+} scene;
+
+typedef enum mistake {
+    NONE,
+    RADIUS_TINY,
+    RADIUS_HUGE,
+    PROJECTION,
+    WORLD_NORMALS,
+    UNSIGNED_NORMALS,
+    NO_BLUR,
+    WRONG_SIZE,
+    MISTAKES
+} mistake;
+
+static const char *const names[MISTAKES] = {"none",          "radius-tiny",      "radius-huge", "projection",
+                                            "world-normals", "unsigned-normals", "grain",       "size"};
+
+static scene make_scene(void)
+{
+    scene s = {.view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0)};
+    analytic_shape room[ANALYTIC_ROOM_SHAPES];
+    analytic_room(room, 1.0);
+    analytic_render(&s.view, room, ANALYTIC_ROOM_SHAPES, W, H, &s.depth, &s.normals);
+    return s;
+}
+
+/* As the host would store them by mistake: seen from a camera that looks down by 40 degrees, or as 0..1. */
+static float *spoil_normals(const scene *s, mistake m)
+{
+    float *normals = malloc(W * H * 3 * sizeof *normals);
+    const float c = cosf(0.7f), d = sinf(0.7f);
+    for (int i = 0; i < W * H; ++i) {
+        const float *n = s->normals + 3 * i;
+        const float turned[3] = {n[0], c * n[1] - d * n[2], d * n[1] + c * n[2]};
+        for (int k = 0; k < 3; ++k)
+            normals[3 * i + k] = m == WORLD_NORMALS ? turned[k] : m == UNSIGNED_NORMALS ? 0.5f * n[k] + 0.5f : n[k];
+    }
+    return normals;
+}
+
+static float *accessibility(fixture *f, const scene *s, mistake m)
+{
+    float *normals = spoil_normals(s, m);
+    glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT24, W, H, s->depth),
+                          .normal_texture = fixture_normal_texture(W, H, normals)};
+    const analytic_view view =
+        m == PROJECTION ? analytic_make_view(PERSPECTIVE, (double)W / H, 0.05, 40.0, 1.0) : s->view;
+    memcpy(frame.projection, view.projection, sizeof frame.projection);
+    glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, m == NO_BLUR ? GLSSAO_LOW : GLSSAO_ULTRA);
+    settings.radius = m == RADIUS_TINY ? 0.02f : m == RADIUS_HUGE ? 12.0f : 0.7f;
+    settings.power = 1.5f; /* so that small pictures tell */
+    if (m == NO_BLUR)
+        settings.blur = GLSSAO_BLUR_NONE;
+    glssao_effect *effect = fixture_effect(f, W, H);
+    int width, height;
+    float *map = fixture_compute(effect, &frame, &settings, &width, &height);
+    glssao_destroy(effect);
+    gl.DeleteTextures(1, &frame.depth_texture);
+    gl.DeleteTextures(1, &frame.normal_texture);
+    free(normals);
+    if (width == W && height == H)
+        return map;
+    free(map);
+    return NULL;
+}
+
+static uint8_t *shade(const scene *s, const float *map, mistake m)
+{
+    uint8_t *rgb = malloc(W * H * 3);
+    for (int i = 0; i < W * H; ++i) {
+        const float *n = s->normals + 3 * i;
+        const int x = i % W * 3 / 2, y = i / W * 3 / 2;
+        const float a = m != WRONG_SIZE ? map[i] : x < W && y < H ? map[y * W + x] : 1.0f;
+        const bool is_sky = s->depth[i] == s->view.sky_depth;
+        const float light = 0.7f + 0.3f * fmaxf(0.0f, 0.4f * n[0] + 0.8f * n[1] + 0.45f * n[2]);
+        static const float sky[3] = {0.5f, 0.6f, 0.8f};
+        for (int k = 0; k < 3; ++k)
+            rgb[3 * i + k] = (uint8_t)(255.0f * (is_sky ? sky[k] : 0.85f * light) * a + 0.5f);
+    }
+    return rgb;
+}
+
+int main(int argc, char **argv)
+{
+    void *state = NULL;
+    if (argc != 2 || fixture_setup(&state) != 0)
+        return 2;
+    fixture *f = state;
+    scene s = make_scene();
+    uint8_t *right = NULL;
+    int failures = 0;
+    for (int m = NONE; m < MISTAKES; ++m) {
+        float *map = accessibility(f, &s, (mistake)m);
+        if (!map)
+            return 1;
+        uint8_t *rgb = shade(&s, map, (mistake)m);
+        char path[1024], error[256];
+        snprintf(path, sizeof path, "%s/symptom-%s.png", argv[1], names[m]);
+        if (!picture_write_png(path, W, H, 3, rgb, error, sizeof error)) {
+            fprintf(stderr, "%s\n", error);
+            ++failures;
+        }
+        double difference = 0.0;
+        for (int i = 0; right && i < W * H * 3; ++i)
+            difference += abs(rgb[i] - right[i]) / (double)(W * H * 3);
+        printf("%-16s %.1f levels from the right picture\n", names[m], difference);
+        if (m != NONE && difference < 1.5) {
+            fprintf(stderr, "%s does not show\n", names[m]);
+            ++failures;
+        }
+        free(map);
+        if (m == NONE)
+            right = rgb;
+        else
+            free(rgb);
+    }
+    free(right);
+    free(s.depth);
+    free(s.normals);
+    fixture_teardown(&state);
+    return failures > 0;
+}

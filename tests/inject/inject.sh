@@ -1,0 +1,67 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# inject.sh LIBRARY CHECK FOLDER: the preload library in the dropin programs with their own effect off, under Xvfb: in the
+# fixed-function one, which draws into its window, and in the one that draws into a framebuffer of its own and blits it;
+# switched off by the environment and by a signal; where no depth is to be had. Then in Debian's gears, and in an OpenGL ES
+# program, which must run on and be told why nothing happens.
+set -euo pipefail
+library=$1 check=$2 folder=$3
+if ! command -v xvfb-run >/dev/null; then
+    echo "inject.sh: skipped: no xvfb-run (Debian and Ubuntu: apt install xvfb xauth)"
+    exit 77
+fi
+if [ -z "${INSIDE_XVFB:-}" ]; then
+    INSIDE_XVFB=1 LIBGL_ALWAYS_SOFTWARE=1 exec xvfb-run -a -s "-screen 0 800x600x24" bash "$0" "$@"
+fi
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
+fail() {
+    echo "inject.sh: $*" >&2
+    cat log >&2
+    exit 1
+}
+inject() { # name command...
+    local name=$1
+    shift
+    GLSSAO_INJECT_BEFORE=$name-before.ppm GLSSAO_INJECT_PICTURE=$name-after.ppm GLSSAO_INJECT_FRAME=3 \
+        LD_PRELOAD=$library timeout 60 "$@" >log 2>&1 || fail "$name: exit code $?"
+}
+
+export GLSSAO_INJECT_RADIUS=0.5
+for options in "" "--samples 4" "--egl"; do
+    # shellcheck disable=SC2086
+    inject legacy "$folder/dropin-legacy" --no-ao --frames 5 $options
+    grep -q 'glssao-inject: on: 640 x 480, field of view 45.8 degrees, near 0.1, far 50' log || fail "legacy $options: not on"
+    "$check" legacy-after.ppm legacy-before.ppm || fail "legacy $options: wrong picture"
+done
+GLSSAO_INJECT_FOV=45.8 GLSSAO_INJECT_NEAR=0.1 GLSSAO_INJECT_FAR=50 inject told "$folder/dropin-legacy" --no-ao --frames 5
+"$check" told-after.ppm told-before.ppm || fail "projection told by hand: wrong picture"
+GLSSAO_INJECT_BEFORE=switched-before.ppm GLSSAO_INJECT_PICTURE=switched-after.ppm GLSSAO_INJECT_FRAME=120 GLSSAO_INJECT_QUALITY=low \
+    LD_PRELOAD=$library "$folder/dropin-legacy" --no-ao >log 2>&1 &
+for _ in $(seq 200); do
+    grep -q 'glssao-inject: on' log && break
+    sleep 0.05
+done
+kill -USR1 $! && wait $! || fail "switched off by a signal: exit code $?"
+grep -q 'glssao-inject: on' log && cmp switched-before.ppm switched-after.ppm || fail "the signal does not switch off"
+GLSSAO_INJECT_OFF=1 inject off "$folder/dropin-legacy" --no-ao --frames 5
+cmp off-before.ppm off-after.ppm || fail "the picture changes although switched off"
+inject core "$folder/dropin" --no-ao --frames 5
+mv core-after.ppm core-with.ppm
+GLSSAO_INJECT_OFF=1 inject core "$folder/dropin" --no-ao --frames 5
+"$check" core-with.ppm core-after.ppm || fail "core: wrong picture"
+unset GLSSAO_INJECT_RADIUS
+
+for gears in glxgears eglgears_x11; do
+    command -v $gears >/dev/null || { echo "inject.sh: no $gears here (mesa-utils)"; continue; }
+    inject $gears $gears
+    grep -q 'glssao-inject: on: 300 x 300, field of view 22.6 degrees, near 5, far 60' log || fail "$gears: not on"
+    ! cmp -s $gears-before.ppm $gears-after.ppm || fail "$gears: the picture does not change"
+done
+if command -v es2gears_x11 >/dev/null; then
+    inject es2gears es2gears_x11
+    [ "$(grep -c 'glssao-inject: no effect in this context' log)" = 1 ] || fail "es2gears: not told once why nothing happens"
+    cmp es2gears-before.ppm es2gears-after.ppm || fail "es2gears: the picture changes"
+fi
+echo "inject: good"

@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * glssao-inject's search for a projection among the matrices that a program sets.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "inject.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef float matrix[16];
+
+static void multiply(const matrix a, const matrix b, matrix out)
+{
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r) {
+            double sum = 0.0;
+            for (int k = 0; k < 4; ++k)
+                sum += (double)a[4 * k + r] * (double)b[4 * c + k];
+            out[4 * c + r] = (float)sum;
+        }
+}
+
+static void frustum(float shift_x, float near_plane, float far_plane, matrix out)
+{
+    memset(out, 0, sizeof(matrix));
+    out[0] = 1.3f;
+    out[5] = 1.9f;
+    out[8] = shift_x;
+    out[10] = isinf(far_plane) ? -1.0f : (far_plane + near_plane) / (near_plane - far_plane);
+    out[11] = -1.0f;
+    out[14] = isinf(far_plane) ? -2.0f * near_plane : 2.0f * far_plane * near_plane / (near_plane - far_plane);
+}
+
+/* Turned about y and x, scaled along the axes, moved. */
+static void model_view(float sx, float sy, float sz, matrix out)
+{
+    const float cy = cosf(0.7f), dy = sinf(0.7f), cx = cosf(0.4f), dx = sinf(0.4f);
+    const matrix turn_y = {cy, 0, -dy, 0, 0, 1, 0, 0, dy, 0, cy, 0, 0, 0, 0, 1};
+    const matrix turn_x = {1, 0, 0, 0, 0, cx, dx, 0, 0, -dx, cx, 0, 3, -2, -9, 1};
+    const matrix scale = {sx, 0, 0, 0, 0, sy, 0, 0, 0, 0, sz, 0, 0, 0, 0, 1};
+    matrix turned;
+    multiply(turn_x, turn_y, turned);
+    multiply(turned, scale, out);
+}
+
+static void assert_alike(const matrix a, const matrix b)
+{
+    for (int i = 0; i < 16; ++i)
+        assert_float_equal(a[i], b[i], 2e-4f * (1.0f + fabsf(a[i])));
+}
+
+static void a_projection_is_its_own(void **state)
+{
+    (void)state;
+    matrix p, found;
+    frustum(0.0f, 0.1f, 100.0f, p);
+    assert_true(inject_perspective_of(p, found));
+    assert_alike(p, found);
+    frustum(0.3f, 0.5f, INFINITY, p);
+    assert_true(inject_perspective_of(p, found));
+    assert_alike(p, found);
+}
+
+static void a_projection_is_found_in_a_product(void **state)
+{
+    (void)state;
+    static const float scales[] = {1.0f, 0.02f, 40.0f};
+    for (int i = 0; i < 3; ++i) {
+        matrix p, v, product, found;
+        frustum(0.2f, 0.1f, 60.0f, p);
+        model_view(scales[i], scales[i], scales[i], v);
+        multiply(p, v, product);
+        assert_true(inject_perspective_of(product, found));
+        assert_alike(p, found);
+    }
+}
+
+static void other_matrices_are_refused(void **state)
+{
+    (void)state;
+    const matrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    const matrix orthographic = {0.1f, 0, 0, 0, 0, 0.1f, 0, 0, 0, 0, -0.02f, 0, 0, 0, -1.0f, 1};
+    matrix p, v, product, found;
+    assert_false(inject_perspective_of(identity, found));
+    assert_false(inject_perspective_of(orthographic, found));
+    model_view(1.0f, 1.0f, 1.0f, v);
+    assert_false(inject_perspective_of(v, found));
+    frustum(0.0f, 0.1f, 60.0f, p);
+    model_view(1.0f, 3.0f, 0.5f, v); /* would give a wrong field of view */
+    multiply(p, v, product);
+    assert_false(inject_perspective_of(product, found));
+    frustum(0.0f, 60.0f, 0.1f, p); /* reversed depth, which a window of old has not */
+    assert_false(inject_perspective_of(p, found));
+    p[5] = NAN;
+    assert_false(inject_perspective_of(p, found));
+}
+
+static void the_projection_of_most_matrices_is_taken_and_kept(void **state)
+{
+    (void)state;
+    matrix rare, usual, found;
+    assert_false(inject_get_projection(0, found));
+    frustum(0.0f, 0.1f, 10.0f, rare);
+    frustum(0.0f, 0.5f, 60.0f, usual);
+    inject_note_matrix(rare, 0);
+    for (int i = 0; i < 3; ++i) {
+        matrix v, product;
+        model_view(1.0f + (float)i, 1.0f + (float)i, 1.0f + (float)i, v);
+        multiply(usual, v, product);
+        inject_note_matrix(product, 0);
+    }
+    assert_true(inject_get_projection(0, found));
+    assert_alike(usual, found);
+    inject_end_frame();
+    memset(found, 0, sizeof found);
+    assert_true(inject_get_projection(0, found)); /* a frame that sets none */
+    assert_alike(usual, found);
+}
+
+static void each_framebuffer_has_its_own(void **state)
+{
+    (void)state;
+    matrix in_7, in_window, found;
+    frustum(0.0f, 0.1f, 10.0f, in_7);
+    frustum(0.0f, 0.5f, 60.0f, in_window);
+    inject_end_frame();
+    inject_note_matrix(in_7, 7);
+    inject_note_matrix(in_7, 7);
+    assert_false(inject_get_projection(0, found)); /* the window's of old would be a guess here */
+    inject_note_matrix(in_window, 0);
+    assert_true(inject_get_projection(0, found));
+    assert_alike(in_window, found);
+    assert_true(inject_get_projection(7, found));
+    assert_alike(in_7, found);
+    inject_end_frame();
+    assert_false(inject_get_projection(7, found)); /* nothing of old, where nothing was drawn anew */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_projection_is_its_own),
+        cmocka_unit_test(a_projection_is_found_in_a_product),
+        cmocka_unit_test(other_matrices_are_refused),
+        cmocka_unit_test(the_projection_of_most_matrices_is_taken_and_kept),
+        cmocka_unit_test(each_framebuffer_has_its_own),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * A real renderer of somebody else's: Dear ImGui's OpenGL 3 back end, as Debian builds it, draws the same pixels
+ * before and after every call that draws, and the effect the same map before and after it.
+ */
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+extern "C" {
+#include "analytic.h"
+#include "fixture.h"
+}
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <set>
+#include <vector>
+
+namespace
+{
+
+constexpr int W = 256, H = 192;
+using picture = std::vector<float>;
+
+/* The demo window into the bound framebuffer, whose texture is `color`: the same frame each time. Binds nothing and
+ * sets nothing, so what the library left behind shows. */
+picture draw_imgui(GLuint color)
+{
+    const float clear[4] = {0.2f, 0.3f, 0.4f, 1.0f};
+    gl.ClearBufferfv(GL_COLOR, 0, clear);
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    float *texels = fixture_read_texture(color, W, H, 4);
+    picture result(texels, texels + 4 * W * H);
+    free(texels);
+    return result;
+}
+
+glssao_frame make_frame()
+{
+    analytic_shape room[ANALYTIC_ROOM_SHAPES];
+    analytic_room(room, 1.0);
+    const analytic_view view = analytic_make_view(PERSPECTIVE, double(W) / H, 0.5, 40.0, 1.0);
+    float *depth, *normals;
+    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, W, H, &depth, &normals);
+    glssao_frame frame = {};
+    frame.depth_texture = fixture_depth_texture(GL_DEPTH24_STENCIL8, W, H, depth);
+    std::memcpy(frame.projection, view.projection, sizeof frame.projection);
+    free(depth);
+    free(normals);
+    return frame;
+}
+
+void imgui_draws_the_same_before_and_after(void **state)
+{
+    fixture *f = static_cast<fixture *>(*state);
+    GLuint framebuffer, color;
+    gl.GenTextures(1, &color);
+    gl.BindTexture(GL_TEXTURE_2D, color);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, W, H, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+    gl.GenFramebuffers(1, &framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
+    gl.Viewport(0, 0, W, H);
+    glssao_frame frame = make_frame();
+
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    ImGui::GetIO().DisplaySize = ImVec2(W, H);
+    assert_true(ImGui_ImplOpenGL3_Init("#version 330"));
+    for (int i = 0; i < 3; ++i) { /* windows settle within frames */
+        ImGui_ImplOpenGL3_NewFrame();
+        ImGui::NewFrame();
+        ImGui::SetNextWindowPos(ImVec2(8, 8));
+        ImGui::SetNextWindowSize(ImVec2(W - 16, H - 16));
+        ImGui::ShowDemoWindow();
+        ImGui::Render();
+    }
+    const picture before = draw_imgui(color);
+    assert_true(std::set<float>(before.begin(), before.end()).size() > 20); /* text and widgets, no blank window */
+
+    glssao_effect *effect = fixture_effect(f, W, H);
+    assert_true(draw_imgui(color) == before);
+    const glssao_technique techniques[] = {GLSSAO_CLASSIC, GLSSAO_HEMISPHERE, GLSSAO_HORIZON};
+    for (const glssao_technique technique : techniques) {
+        const glssao_settings settings = glssao_default_settings(technique, GLSSAO_MEDIUM);
+        int width, height;
+        float *map = fixture_compute(effect, &frame, &settings, &width, &height);
+        assert_true(draw_imgui(color) == before);
+        float *again = fixture_compute(effect, &frame, &settings, &width, &height);
+        assert_memory_equal(map, again, size_t(width) * size_t(height) * sizeof *map);
+        free(map);
+        free(again);
+    }
+    assert_int_equal(glssao_apply(effect, framebuffer), GLSSAO_OK);
+    assert_true(draw_imgui(color) == before);
+    assert_int_equal(glssao_begin_normals(effect, frame.depth_texture), GLSSAO_OK);
+    assert_int_equal(glssao_end_normals(effect), GLSSAO_OK);
+    assert_true(draw_imgui(color) == before);
+    assert_int_equal(glssao_resize(effect, W / 2, H / 2), GLSSAO_OK);
+    assert_true(draw_imgui(color) == before);
+    glssao_destroy(effect);
+    assert_true(draw_imgui(color) == before);
+
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui::DestroyContext();
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    gl.DeleteFramebuffers(1, &framebuffer);
+    gl.DeleteTextures(1, &color);
+    gl.DeleteTextures(1, &frame.depth_texture);
+}
+
+} // namespace
+
+int main()
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(imgui_draws_the_same_before_and_after, nullptr, fixture_no_gl_error),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+}
