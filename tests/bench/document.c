@@ -96,7 +96,9 @@ static void print_configs(FILE *f, const results *r)
     fputs(
         "## Everything else that was measured\n\nOne choice of a level made otherwise. `full`, `half`: the size of the "
         "estimate; `gaussian-2`: that blur, two rounds; `upsample`, `noupsample`: brought to full size along surfaces "
-        "or left to the host; `8samples`: fewer samples; `noangle`: classic without its "
+        "or left to the host; `8samples`: fewer samples; `beyond`: with a margin of a sixth of the width and a second "
+        "layer, "
+        "which the host draws in its own time; `noangle`: classic without its "
         "angle weight, which shows the self-occlusion that the weight prevents.\n\n",
         f);
     print_config_head(f, r);

@@ -147,7 +147,9 @@ void document_split(FILE *f, const results *r)
     fputs(". The oracle is the same for all: rays marched through the depth map, the best that a technique can do that "
           "sees one layer and takes every surface to be equally thick. *After the blur* is measured against the "
           "converged estimate: what is left of the noise, and what the blur did wrong. In parentheses: what half size "
-          "would cost a technique that does not use it.\n\n",
+          "would cost a technique that does not use it. Horizon's noise is a tile, the same for all seeds: its step of "
+          "half "
+          "size holds the noise too, and its convergence is that of estimates that glssao_accumulate adds up.\n\n",
           f);
     print_steps(f, r);
     print_oracle(f, r);

@@ -39,4 +39,8 @@ glssao_effect *effects_get(effects *e, const gbuffer *g, const glssao_settings *
 bool effects_run(effects *e, map_reader *m, const gbuffer *g, float radius, const glssao_settings *settings, float *out,
                  char *error, size_t error_size);
 
+/* The same for the first estimate of glssao_accumulate, whose noise follows the effect's seed; horizon, full size. */
+bool effects_run_noise(effects *e, map_reader *m, const gbuffer *g, float radius, const glssao_settings *settings,
+                       float *out, char *error, size_t error_size);
+
 #endif

@@ -151,6 +151,7 @@ static bool write_reports(run *r)
            report_tsv(out, path[1], r->error, sizeof r->error) &&
            report_chart(out, path[2], path[3], &drawn, r->error, sizeof r->error) &&
            report_strips(out, &r->effects, &r->reader, r->options.out, r->error, sizeof r->error) &&
+           report_worst_places(out, &r->effects, &r->reader, r->options.out, r->error, sizeof r->error) &&
            (!r->options.doc || report_document(out, r->options.doc, drawn, r->error, sizeof r->error));
 }
 

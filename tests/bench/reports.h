@@ -22,6 +22,12 @@ bool report_chart(const results *r, const char *script, const char *picture, boo
  * signed error; below, for the contrast techniques, the last two again with the best exponent. */
 bool report_strips(const results *r, effects *e, map_reader *m, const char *folder, char *error, size_t error_size);
 
+/* worst-horizon.png in the folder: of each scene, in order down the left half and then the right, the place where the
+ * level `high` of horizon is worst: truth, result, error, in full size. Nothing where the pictures are smaller than a
+ * place. */
+bool report_worst_places(const results *r, effects *e, map_reader *m, const char *folder, char *error,
+                         size_t error_size);
+
 /* The report for people. Copies the chart, and one strip a technique, from the output folder to pictures/ beside it. */
 bool report_document(const results *r, const char *path, bool has_chart, char *error, size_t error_size);
 

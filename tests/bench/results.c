@@ -15,11 +15,17 @@ const config_result *results_find(const results *r, const char *id)
     return NULL;
 }
 
+const config_result *results_level(const results *r, glssao_technique technique, glssao_quality level)
+{
+    static const char *const names[] = {"low", "medium", "high", "ultra"};
+    char id[48];
+    snprintf(id, sizeof id, "%s-%s", bench_technique_name(technique), names[level]);
+    return results_find(r, id);
+}
+
 const config_result *results_default(const results *r, glssao_technique technique)
 {
-    char id[48];
-    snprintf(id, sizeof id, "%s-high", bench_technique_name(technique));
-    return results_find(r, id);
+    return results_level(r, technique, GLSSAO_HIGH);
 }
 
 double results_rmse(const config_result *c)

@@ -62,6 +62,9 @@ typedef struct oracle_result {
     double rmse_own; /* each view with its own best */
 } oracle_result;
 
+/* The default level of each technique, and the others of horizon. */
+enum { BENCH_SPLITS = BENCH_TECHNIQUES + GLSSAO_ULTRA };
+
 typedef struct results {
     const options *options;
     const char *context;
@@ -75,13 +78,15 @@ typedef struct results {
     const char *time_scene; /* NULL: no times */
     bool split;
     oracle_result oracle;
-    split_result splits[BENCH_TECHNIQUES];
+    split_result splits[BENCH_SPLITS];
     int split_count;
     double seconds; /* the whole run */
 } results;
 
 /* The configuration with that id; NULL where it was not measured. */
 const config_result *results_find(const results *r, const char *id);
+/* NULL where it was not measured. */
+const config_result *results_level(const results *r, glssao_technique technique, glssao_quality level);
 /* The default level of a technique. */
 const config_result *results_default(const results *r, glssao_technique technique);
 

@@ -165,8 +165,11 @@ static bool run_variants(splitter *s, effects *e, int technique, int view, int s
         if (v > HALF && seed >= SINGLE_SEEDS)
             break;
         const glssao_settings settings = variant_settings(split, (variant)v);
-        if (!effects_run(e, s->reader, &r->views[view].gbuffer, r->views[view].radius, &settings, s->picture, error,
-                         error_size))
+        const bench_view *on = &r->views[view];
+        /* Horizon's noise is a tile, the same for all seeds; the estimates that it accumulates differ. */
+        const bool noise = v == FULL && settings.technique == GLSSAO_HORIZON;
+        if (!(noise ? effects_run_noise : effects_run)(e, s->reader, &on->gbuffer, on->radius, &settings, s->picture,
+                                                       error, error_size))
             return false;
         for (int i = 0; i < pixels->count; i++) {
             const float value = s->picture[pixels->index[i]];
@@ -291,12 +294,13 @@ static bool finish(splitter *s)
 bool split_measure(results *r, context *c, map_reader *m, char *error, size_t error_size)
 {
     splitter s = {.results = r, .reader = m};
-    for (int t = 0; t < BENCH_TECHNIQUES; t++) {
-        const config_result *of = results_default(r, (glssao_technique)t);
-        if (of)
-            r->splits[r->split_count++] =
-                (split_result){.of = of, .exponent = bench_has_contrast((glssao_technique)t) ? of->exponent : 1};
-    }
+    for (int t = 0; t < BENCH_TECHNIQUES; t++)
+        for (int level = GLSSAO_LOW; level <= GLSSAO_ULTRA; level++) {
+            const config_result *of = results_level(r, (glssao_technique)t, (glssao_quality)level);
+            const bool contrast = bench_has_contrast((glssao_technique)t);
+            if (of && (level == GLSSAO_HIGH || t == GLSSAO_HORIZON))
+                r->splits[r->split_count++] = (split_result){.of = of, .exponent = contrast ? of->exponent : 1};
+        }
     snprintf(error, error_size, "out of memory, or of threads");
     r->split = allocate(&s) && measure_oracle(&s) && run_seeds(&s, c, error, error_size) && finish(&s);
     progress_clear();

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { PLACE_WIDTH = 160, PLACE_HEIGHT = 90, PLACE_BLOCKS = 2 };
 enum { COLUMNS = 3, GAP = 4, BAR_HEIGHT = 12, FOOT = 40, GLYPH_SCALE = 2 };
 static const double error_range = 0.5; /* the colours end here */
 
@@ -170,6 +171,78 @@ bool report_strips(const results *r, effects *e, map_reader *m, const char *fold
     }
     free(as_is);
     return written;
+}
+
+/* The window of PLACE_WIDTH x PLACE_HEIGHT with the largest sum of squared errors, on a grid of a quarter of its sides.
+ */
+static void find_place(const bench_view *v, const float *picture, int *out_x, int *out_y)
+{
+    const int w = v->gbuffer.view.width, h = v->gbuffer.view.height;
+    double most = -1;
+    for (int top = 0; top + PLACE_HEIGHT <= h; top += PLACE_HEIGHT / 4) {
+        for (int left = 0; left + PLACE_WIDTH <= w; left += PLACE_WIDTH / 4) {
+            double sum = 0;
+            for (int y = top; y < top + PLACE_HEIGHT; y++) {
+                for (int x = left; x < left + PLACE_WIDTH; x++) {
+                    const size_t i = (size_t)y * (size_t)w + (size_t)x;
+                    const double e = (double)picture[i] - (double)v->truth.accessibility[i];
+                    sum += v->classes[i] == PIXEL_NONE ? 0 : e * e;
+                }
+            }
+            if (sum > most) {
+                most = sum;
+                *out_x = left;
+                *out_y = top;
+            }
+        }
+    }
+}
+
+static void draw_place(canvas *c, const bench_view *v, const float *picture, int left, int bottom)
+{
+    const panel panels[COLUMNS] = {
+        {v->truth.accessibility, 1, false, 0, 0}, {picture, 1, false, 1, 0}, {picture, 1, true, 2, 0}};
+    int from_x = 0, from_y = 0;
+    find_place(v, picture, &from_x, &from_y);
+    for (int p = 0; p < COLUMNS; p++) {
+        for (int i = 0; i < PLACE_WIDTH * PLACE_HEIGHT; i++) {
+            const int x = i % PLACE_WIDTH, y = i / PLACE_WIDTH;
+            double rgb[3];
+            pixel_color(v, &panels[p], (size_t)(from_y + y) * (size_t)v->gbuffer.view.width + (size_t)(from_x + x),
+                        rgb);
+            put(c, left + p * (PLACE_WIDTH + GAP) + x, bottom + y, rgb);
+        }
+    }
+}
+
+bool report_worst_places(const results *r, effects *e, map_reader *m, const char *folder, char *error,
+                         size_t error_size)
+{
+    const config_result *c = results_default(r, GLSSAO_HORIZON);
+    if (!c || m->width < PLACE_WIDTH || m->height < PLACE_HEIGHT)
+        return true;
+    const int rows = (r->view_count + PLACE_BLOCKS - 1) / PLACE_BLOCKS, block = COLUMNS * (PLACE_WIDTH + GAP) + 3 * GAP;
+    canvas image = {.width = PLACE_BLOCKS * block - 4 * GAP, .height = rows * (PLACE_HEIGHT + GAP) - GAP};
+    const size_t bytes = 3 * (size_t)image.width * (size_t)image.height;
+    float *picture = malloc((size_t)m->width * (size_t)m->height * sizeof *picture);
+    image.rgb = malloc(bytes);
+    bool made = picture && image.rgb;
+    if (made)
+        memset(image.rgb, 255, bytes);
+    else
+        snprintf(error, error_size, "out of memory");
+    for (int i = 0; made && i < r->view_count; i++) {
+        const bench_view *v = &r->views[i];
+        made = effects_run(e, m, &v->gbuffer, v->radius, &c->config.settings, picture, error, error_size);
+        if (made)
+            draw_place(&image, v, picture, i / rows * block, (rows - 1 - i % rows) * (PLACE_HEIGHT + GAP));
+    }
+    char path[2048];
+    snprintf(path, sizeof path, "%s/worst-horizon.png", folder);
+    made = made && picture_write_png(path, image.width, image.height, 3, image.rgb, error, error_size);
+    free(image.rgb);
+    free(picture);
+    return made;
 }
 
 const char *report_worst_built_in(const results *r, const config_result *c)
