@@ -42,6 +42,28 @@ press() {
     xdotool key --delay 20 "$@"
     sleep 0.05
 }
+# Waits until the command is true, for up to 10 seconds.
+await() {
+    local try
+    for try in $(seq 100); do
+        "$@" && return
+        sleep 0.1
+    done
+    fail "never: $*"
+}
+has_title() { [ "$(xdotool getwindowname "$window")" = "$1" ]; }
+# The command line that the viewer prints, and the picture that it saves.
+save() {
+    rm -f saved.png
+    press ctrl+c
+    press ctrl+s
+    await test -s saved.png
+    sleep 0.1
+    command=$(tail -n 1 view.out)
+    case $command in "glssao-render "*) ;; *) fail "no command line: $command" ;; esac
+    eval "draw ${command#glssao-render }"
+    same "the command line: $command" saved.png picture.png
+}
 draw() { "$render" "$@" 2>/dev/null || fail "glssao-render $*"; }
 start() {
     "$view" "$@" >view.out 2>view.err &
@@ -137,14 +159,7 @@ press bracketright
 press w
 shot turned
 different "dragging turns" 20000 on.png turned.png
-rm -f saved.png
-press ctrl+c
-press ctrl+s
-sleep 0.2
-command=$(tail -n 1 view.out)
-case $command in "glssao-render "*) ;; *) fail "no command line: $command" ;; esac
-eval "draw ${command#glssao-render }"
-same "the command line: $command" saved.png picture.png
+save
 same "what is saved is what is shown" saved.png turned.png 0,0,640x300
 
 # Help, another scene, a file by its name, one that is broken.
@@ -154,9 +169,9 @@ different "help" 20000 turned.png help.png
 press F1
 shot closed
 press Next
+await has_title cornell
 shot cornell
 different "the next scene" 50000 turned.png cornell.png
-[ "$(xdotool getwindowname "$window")" = cornell ] || fail "the title is not the scene's"
 cat >triangle.gltf <<'GLTF'
 {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
@@ -168,29 +183,22 @@ echo '{"asset":' >broken.gltf
 press ctrl+o
 xdotool type --delay 5 triangle.gltf
 press Return
+await has_title triangle.gltf
 shot triangle
 different "the opened file" 50000 cornell.png triangle.png
-[ "$(xdotool getwindowname "$window")" = triangle.gltf ] || fail "the file was not opened"
 press ctrl+o
 sleep 0.1
 press ctrl+a
 xdotool type --delay 5 broken.gltf
 press Return
-shot broken
-grep -q 'glssao-view: .*broken.gltf' view.err || fail "nothing is said of a broken file"
-[ "$(xdotool getwindowname "$window")" = triangle.gltf ] || fail "a broken file took the scene away"
+await grep -q 'glssao-view: .*broken.gltf' view.err
+has_title triangle.gltf || fail "a broken file took the scene away"
 press Escape
 
 # Resized.
 xdotool windowsize "$window" 500 300
 sleep 0.3
-rm -f saved.png
-press ctrl+c
-press ctrl+s
-sleep 0.2
-command=$(tail -n 1 view.out)
-eval "draw ${command#glssao-render }"
-same "after resizing" saved.png picture.png
+save
 [[ $command = *" -s 500x300 "* ]] || fail "the picture did not take the window's size: $command"
 stop
 
