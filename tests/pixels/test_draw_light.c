@@ -194,9 +194,9 @@ static void lights_of_the_scene_take_the_suns_place(void **state)
     l = scene_lighting_of(&s->scene, rest);
     assert_int_equal(l.light_count, 2);
     assert_float_equal(l.direction_world[0], 1, 0);
-    assert_float_equal(l.directional[0], pi, 1e-5); /* dimmed from 100, and the rest alike */
-    assert_float_equal(l.directional[1], pi / 2, 1e-5);
-    assert_float_equal(l.lights[1].color[0], pi / 100, 1e-5);
+    assert_float_equal(l.directional[0], (float)pi, 1e-5); /* dimmed from 100, and the rest alike */
+    assert_float_equal(l.directional[1], (float)pi / 2, 1e-5);
+    assert_float_equal(l.lights[1].color[0], (float)pi / 100, 1e-5);
     lights[1].color[0] = lights[1].color[1] = 2; /* none too bright: as they are */
     l = scene_lighting_of(&s->scene, rest);
     assert_float_equal(l.directional[0], 2, 0);

@@ -1,19 +1,32 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # view.sh GLSSAO_VIEW GLSSAO_RENDER EYES: the viewer as a person uses it: real keys and mouse on a virtual screen, and
-# screenshots. Runs itself under xvfb-run. Pictures stay in GLSSAO_VIEW_SHOTS where that names a folder.
+# screenshots. Starts an X server of its own. Pictures stay in GLSSAO_VIEW_SHOTS where that names a folder.
 set -uo pipefail
-if [ -z "${GLSSAO_VIEW_INSIDE:-}" ]; then
-    GLSSAO_VIEW_INSIDE=1 exec xvfb-run -a -s "-screen 0 800x600x24" bash "$0" "$@"
-fi
 view=$1
 render=$2
 eyes=$3
 work=${GLSSAO_VIEW_SHOTS:-$(mktemp -d)}
-[ -n "${GLSSAO_VIEW_SHOTS:-}" ] || trap 'rm -rf "$work"' EXIT
+server=
+viewer=
+# shellcheck disable=SC2086
+finish() {
+    kill $viewer $server 2>/dev/null
+    wait
+    [ -n "${GLSSAO_VIEW_SHOTS:-}" ] || rm -rf "$work"
+}
+trap finish EXIT
 cd "$work" || exit 1
+Xvfb -displayfd 4 -screen 0 800x600x24 -nolisten tcp 4>display 2>server.err &
+server=$!
+for try in $(seq 100); do
+    [ -s display ] && break
+    sleep 0.05
+done
+[ -s display ] || { cat server.err; exit 1; }
+DISPLAY=:$(<display)
+export DISPLAY
 failures=0
-viewer=0
 window=
 
 fail() {
@@ -87,6 +100,7 @@ start() {
 stop() {
     press ctrl+q
     wait $viewer || fail "the viewer left with $?"
+    viewer=
     grep -i 'opengl error\|glssao: error\|Sanitizer' view.err && fail "errors on stderr"
 }
 
