@@ -206,7 +206,8 @@ static bool render(run *r, double start_ms)
     stopwatch_start(&r->times);
     if (!viewpoint_choose(o, r->loader.scene, &r->viewpoint, r->error, sizeof r->error) ||
         !viewpoint_view(&r->viewpoint, r->loader.scene, 0, o->width, o->height, &view, r->error, sizeof r->error) ||
-        !pipeline_create(&r->pipeline, r->loader.scene, context_load, r->context, o, choose_wants(o), r->error, sizeof r->error)) {
+        !pipeline_create(&r->pipeline, r->loader.scene, context_load, r->context, o, choose_wants(o), r->error,
+                         sizeof r->error)) {
         return false;
     }
     stopwatch_lap(&r->times, PHASE_SETUP);

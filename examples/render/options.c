@@ -115,7 +115,9 @@ static void print_help(const program *p)
     for (int i = 0; i < setting_count; i++) {
         const setting *s = &setting_table[i];
         printf("  %-28s %s%s%s%s%s\n", s->name, s->help, s->unit[0] ? ", " : "", s->unit, s->words ? ": " : "",
-               s->words ? s->words : s->kind == SETTING_SWITCH ? ": off|on" : "");
+               s->words                    ? s->words
+               : s->kind == SETTING_SWITCH ? ": off|on"
+                                           : "");
     }
     puts(p->end);
 }
@@ -357,7 +359,8 @@ static bool check_together(const options *o, const program *p, char *error, size
     } else if (o->eye.given && o->target.given && memcmp(&o->eye, &o->target, sizeof o->eye) == 0) {
         snprintf(error, error_size, "--eye and --target are the same point");
     } else if (p->is_viewer && (o->ao || o->normals || o->depth || o->stats || o->bench || o->plan || o->frames)) {
-        snprintf(error, error_size, "glssao-view takes no --ao, --normals, --depth, --stats, --bench, --plan, --frames");
+        snprintf(error, error_size,
+                 "glssao-view takes no --ao, --normals, --depth, --stats, --bench, --plan, --frames");
     } else if (p->is_viewer && traced) {
         snprintf(error, error_size, "--technique raytrace: the viewer shows it as the difference to it (key T)");
     } else if (!file_wanted) {
@@ -437,9 +440,10 @@ options_result options_parse_for_viewer(int argc, char **argv, options *out, cha
 {
     static const program view = {
         .name = "glssao-view",
-        .usage = "usage: glssao-view [options] [scene.gltf|scene.glb]\n"
-                 "Shows a glTF scene, or a built-in one, with screen-space ambient occlusion, in a window. F1 there shows\n"
-                 "the keys. The options are glssao-render's; --output is where pictures are saved.\n",
+        .usage =
+            "usage: glssao-view [options] [scene.gltf|scene.glb]\n"
+            "Shows a glTF scene, or a built-in one, with screen-space ambient occlusion, in a window. F1 there shows\n"
+            "the keys. The options are glssao-render's; --output is where pictures are saved.\n",
         .end = "\nExit code: 0 done, 1 no window or no scene, 2 wrong usage.",
         .is_viewer = true};
     return parse(argc, argv, &view, out, error, error_size);

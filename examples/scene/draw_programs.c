@@ -52,7 +52,7 @@ static unsigned main_variant(const draw_item *item, const scene_lighting *lighti
     const bool occluded = !item->blended;
     return item->variant | (shadowed ? VARIANT_SHADOWED : 0u) | (lighting->light_count ? VARIANT_LIGHTS : 0u) |
            (options->specular_occlusion && occluded && item->variant & VARIANT_REFLECTIVE ? VARIANT_SPECULAR_OCCLUSION
-                                                                                         : 0u) |
+                                                                                          : 0u) |
            (options->multi_bounce && occluded ? VARIANT_MULTI_BOUNCE : 0u);
 }
 
@@ -127,10 +127,10 @@ static bool any_instances(const scene_renderer *r)
 static const char *shadow_reason(const scene_renderer *r, const scene_lighting *lighting)
 {
     const float *sun = lighting->directional;
-    return r->shadow.used                                ? "a directional light casts, and surfaces receive"
-           : !r->options.shadows                         ? "not asked for"
+    return r->shadow.used                              ? "a directional light casts, and surfaces receive"
+           : !r->options.shadows                       ? "not asked for"
            : !(sun[0] > 0 || sun[1] > 0 || sun[2] > 0) ? "no directional light"
-                                                         : "nothing casts, or nothing lit receives";
+                                                       : "nothing casts, or nothing lit receives";
 }
 
 void scene_renderer_effects(const scene_renderer *r, const scene_lighting *lighting, scene_effect *out)

@@ -30,7 +30,8 @@ bool draw_shadow_wanted(const scene_renderer *r, const scene_lighting *lighting,
     bool received = false;
     for (uint32_t i = 0; i < r->item_count; i++)
         received = received || r->items[i].variant & VARIANT_LIT;
-    return options->shadows && !options->no_picture && (sun[0] > 0 || sun[1] > 0 || sun[2] > 0) && r->opaque_count && received;
+    return options->shadows && !options->no_picture && (sun[0] > 0 || sun[1] > 0 || sun[2] > 0) && r->opaque_count &&
+           received;
 }
 
 void draw_shadow_free(draw_shadow *s)

@@ -170,9 +170,9 @@ static bool key_of_show(viewer *v, int key, bool shift)
     static const struct {
         int key;
         viewer_shown shown;
-    } maps[] = {{GLFW_KEY_O, SHOWN_AO},       {GLFW_KEY_U, SHOWN_RAW},    {GLFW_KEY_N, SHOWN_NORMALS},
-                {GLFW_KEY_V, SHOWN_DISTANCE}, {GLFW_KEY_X, SHOWN_RANDOM}, {GLFW_KEY_H, SHOWN_SHADOW},
-                {GLFW_KEY_T, SHOWN_DIFFERENCE}, {GLFW_KEY_Y, SHOWN_TRUTH}, {GLFW_KEY_P, SHOWN_PICTURE}};
+    } maps[] = {{GLFW_KEY_O, SHOWN_AO},         {GLFW_KEY_U, SHOWN_RAW},    {GLFW_KEY_N, SHOWN_NORMALS},
+                {GLFW_KEY_V, SHOWN_DISTANCE},   {GLFW_KEY_X, SHOWN_RANDOM}, {GLFW_KEY_H, SHOWN_SHADOW},
+                {GLFW_KEY_T, SHOWN_DIFFERENCE}, {GLFW_KEY_Y, SHOWN_TRUTH},  {GLFW_KEY_P, SHOWN_PICTURE}};
     for (size_t i = 0; i < sizeof maps / sizeof maps[0]; i++)
         if (maps[i].key == key) {
             show(v, maps[i].shown);

@@ -102,8 +102,8 @@ static bool draw_setting(viewer *v, const setting *s, const glssao_settings *sta
     switch (s->kind) {
     case SETTING_NUMBER: {
         float value = *(float *)at;
-        const float usual = s->offset == offsetof(glssao_settings, radius) ? camera_suggest_radius(v->scene)
-                                                                           : *(const float *)from;
+        const float usual =
+            s->offset == offsetof(glssao_settings, radius) ? camera_suggest_radius(v->scene) : *(const float *)from;
         changed = gui_slider(s->name, s->unit, &value, s->low, slider_end(s, v, usual), s->length, usual);
         if (changed && s->offset == offsetof(glssao_settings, radius))
             setting_scale_radius(&v->settings, value);

@@ -97,8 +97,7 @@ static int shot(unsigned long window, const char *path, const char *before_path)
             break;
     }
     XCloseDisplay(display);
-    const bool written =
-        now.rgb && picture_write_png(path, now.width, now.height, 3, now.rgb, error, sizeof error);
+    const bool written = now.rgb && picture_write_png(path, now.width, now.height, 3, now.rgb, error, sizeof error);
     free(now.rgb);
     free(before.rgb);
     return written ? 0 : 2;
