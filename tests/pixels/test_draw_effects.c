@@ -185,10 +185,14 @@ static void outside_the_view_nothing_is_drawn(void **state)
         const float m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1.4f * (float)(k - 4), 0, 0, 1};
         frame_add_quad(s, small_scene_material(), m);
     }
+    /* All its corners are outside, and it fills the picture. */
+    const float large[16] = {10, 0, 0, 0, 0, 10, 0, 0, 0, 0, 1, 0, 0, 0, -0.5f, 1};
+    frame_add_quad(s, small_scene_material(), large);
     const scene_lighting lighting = scene_default_lighting();
     frame f = frame_draw(s, &frame_front, &lighting, 0);
-    assert_int_equal(f.counts.main, 3);
-    assert_int_equal(f.counts.normals, 3);
+    assert_int_equal(frame_count_drawn(&f, FRAME_SIZE * FRAME_SIZE), FRAME_SIZE * FRAME_SIZE);
+    assert_int_equal(f.counts.main, 4);
+    assert_int_equal(f.counts.normals, 4);
     assert_int_equal(f.counts.culled, 6);
     frame_free(&f);
     free(s);
