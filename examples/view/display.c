@@ -48,6 +48,8 @@ bool viewer_resize(viewer *v, int width, int height)
         viewer_say(v, true, "%s", v->error);
         return false;
     }
+    if (!v->moved)
+        viewer_frame_scene(v); /* as glssao-render would for this size */
     return true;
 }
 

@@ -142,6 +142,7 @@ static bool key_of_view(viewer *v, int key)
     const float step = 0.1f;
     switch (key) {
     case GLFW_KEY_F:
+        v->moved = true; /* the whole scene, not the file's or the command line's view */
         viewer_frame_scene(v);
         return true;
     case GLFW_KEY_LEFT:

@@ -187,7 +187,7 @@ await has_title cornell
 shot cornell
 different "the next scene" 50000 turned.png cornell.png
 cat >triangle.gltf <<'GLTF'
-{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "scale": [4, 1, 1]}],
  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
  "bufferViews": [{"buffer": 0, "byteLength": 36}],
@@ -209,11 +209,11 @@ await grep -q 'glssao-view: .*broken.gltf' view.err
 has_title triangle.gltf || fail "a broken file took the scene away"
 press Escape
 
-# Resized.
-xdotool windowsize "$window" 500 300
+# Resized: the camera that frames the scene follows.
+xdotool windowsize "$window" 300 400
 sleep 0.3
 save
-[[ $command = *" -s 500x300 "* ]] || fail "the picture did not take the window's size: $command"
+[[ $command = *" -s 300x400 "* ]] || fail "the picture did not take the window's size: $command"
 stop
 
 [ $failures = 0 ] && echo "all holds"
