@@ -48,21 +48,23 @@ static unsigned choose_variant(const scene *s, const scene_material *m, bool col
     const struct {
         bool wanted;
         unsigned bits;
-    } always[] = {
-        {m->base_color_texture >= 0, VARIANT_BASE_MAPPED | VARIANT_TEXTURED},
-        {colored, VARIANT_COLORED},
-        {m->alpha == SCENE_ALPHA_MASK, VARIANT_MASKED},
-        {m->alpha == SCENE_ALPHA_BLEND, VARIANT_BLENDED},
-        {!m->unlit, VARIANT_LIT},
-    }, where_lit[] = {
-        {m->double_sided, VARIANT_DOUBLE_SIDED},
-        {m->normal_map.used && s->tangents && m->normal_scale != 0, VARIANT_NORMAL_MAPPED | VARIANT_TEXTURED},
-        {m->metallic_roughness, VARIANT_REFLECTIVE},
-        {m->metallic_roughness && m->metallic_roughness_map.used, VARIANT_ROUGHNESS_MAPPED | VARIANT_TEXTURED},
-        {m->occlusion_map.used && m->occlusion_strength > 0, VARIANT_BAKED | VARIANT_TEXTURED},
-        {m->emissive[0] > 0 || m->emissive[1] > 0 || m->emissive[2] > 0,
-         VARIANT_EMISSIVE | (m->emissive_map.used ? VARIANT_EMISSION_MAPPED | VARIANT_TEXTURED : 0u)},
-    };
+    } always[] =
+        {
+            {m->base_color_texture >= 0, VARIANT_BASE_MAPPED | VARIANT_TEXTURED},
+            {colored, VARIANT_COLORED},
+            {m->alpha == SCENE_ALPHA_MASK, VARIANT_MASKED},
+            {m->alpha == SCENE_ALPHA_BLEND, VARIANT_BLENDED},
+            {!m->unlit, VARIANT_LIT},
+        },
+      where_lit[] = {
+          {m->double_sided, VARIANT_DOUBLE_SIDED},
+          {m->normal_map.used && s->tangents && m->normal_scale != 0, VARIANT_NORMAL_MAPPED | VARIANT_TEXTURED},
+          {m->metallic_roughness, VARIANT_REFLECTIVE},
+          {m->metallic_roughness && m->metallic_roughness_map.used, VARIANT_ROUGHNESS_MAPPED | VARIANT_TEXTURED},
+          {m->occlusion_map.used && m->occlusion_strength > 0, VARIANT_BAKED | VARIANT_TEXTURED},
+          {m->emissive[0] > 0 || m->emissive[1] > 0 || m->emissive[2] > 0,
+           VARIANT_EMISSIVE | (m->emissive_map.used ? VARIANT_EMISSION_MAPPED | VARIANT_TEXTURED : 0u)},
+      };
     unsigned variant = 0;
     for (size_t i = 0; i < sizeof always / sizeof always[0]; i++)
         variant |= always[i].wanted ? always[i].bits : 0u;

@@ -6,8 +6,7 @@
 #include "gl.h"
 #include "scene_shaders.h"
 
-static void begin(const scene_renderer *r, const draw_program *p, unsigned map, unsigned sampler,
-                  scene_rectangle place)
+static void begin(const scene_renderer *r, const draw_program *p, unsigned map, unsigned sampler, scene_rectangle place)
 {
     draw_set_defaults();
     gl.Viewport(place.x, place.y, place.width, place.height);

@@ -30,7 +30,8 @@ bool draw_shadow_wanted(const scene_renderer *r, const scene_lighting *lighting,
     bool received = false;
     for (uint32_t i = 0; i < r->item_count; i++)
         received = received || r->items[i].variant & VARIANT_LIT;
-    return options->shadows && !options->no_picture && (sun[0] > 0 || sun[1] > 0 || sun[2] > 0) && r->opaque_count && received;
+    return options->shadows && !options->no_picture && (sun[0] > 0 || sun[1] > 0 || sun[2] > 0) && r->opaque_count &&
+           received;
 }
 
 void draw_shadow_free(draw_shadow *s)
@@ -83,7 +84,7 @@ bool draw_shadow_make(scene_renderer *r, int size, char *error, size_t error_siz
 }
 
 /* Looks along the light; the box holds the scene's bounds, with a little room. */
-static void fit_box(draw_shadow *s, const scene *scene, const float direction_world[3])
+static void fit_box(draw_shadow *s, const scene *fitted, const float direction_world[3])
 {
     double axes[3][3], low[3], high[3]; /* right, up, back */
     const int helper = fabsf(direction_world[1]) < 0.99f ? 1 : 2;
@@ -105,13 +106,13 @@ static void fit_box(draw_shadow *s, const scene *scene, const float direction_wo
     for (int i = 0; i < 3; i++) {
         low[i] = INFINITY;
         high[i] = -INFINITY;
-        size = fmax(size, (double)scene->bounds_max[i] - (double)scene->bounds_min[i]);
+        size = fmax(size, (double)fitted->bounds_max[i] - (double)fitted->bounds_min[i]);
     }
     for (int corner = 0; corner < 8; corner++)
         for (int i = 0; i < 3; i++) {
             double at = 0;
             for (int k = 0; k < 3; k++)
-                at += axes[i][k] * (double)(corner >> k & 1 ? scene->bounds_max[k] : scene->bounds_min[k]);
+                at += axes[i][k] * (double)(corner >> k & 1 ? fitted->bounds_max[k] : fitted->bounds_min[k]);
             low[i] = fmin(low[i], at);
             high[i] = fmax(high[i], at);
         }

@@ -78,7 +78,7 @@ static bool agree(const work *w, uint32_t a, uint32_t b)
 static uint32_t hash(const work *w, uint32_t index)
 {
     const scene_vertex *v = &w->vertices[index];
-    const float parts[8] = {v->position[0], v->position[1], v->position[2],   v->normal[0],
+    const float parts[8] = {v->position[0], v->position[1], v->position[2],  v->normal[0],
                             v->normal[1],   v->normal[2],   v->uv[w->uv][0], v->uv[w->uv][1]};
     uint32_t h = 2166136261u; /* FNV-1a, a word at a time */
     for (int i = 0; i < 8; i++) {

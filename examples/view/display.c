@@ -48,6 +48,8 @@ bool viewer_resize(viewer *v, int width, int height)
         viewer_say(v, true, "%s", v->error);
         return false;
     }
+    if (!v->moved)
+        viewer_frame_scene(v); /* as glssao-render would for this size */
     return true;
 }
 
@@ -103,12 +105,10 @@ static void draw_off(viewer *v)
 
 static void draw_map(viewer *v)
 {
-    static const options_map maps[SHOWN_COUNT] = {[SHOWN_AO] = OPTIONS_MAP_AO,
-                                                  [SHOWN_RAW] = OPTIONS_MAP_AO,
-                                                  [SHOWN_NORMALS] = OPTIONS_MAP_NORMALS,
-                                                  [SHOWN_DISTANCE] = OPTIONS_MAP_DEPTH,
-                                                  [SHOWN_RANDOM] = OPTIONS_MAP_RANDOM,
-                                                  [SHOWN_SHADOW] = OPTIONS_MAP_SHADOW};
+    static const options_map maps[SHOWN_COUNT] = {
+        [SHOWN_AO] = OPTIONS_MAP_AO,           [SHOWN_RAW] = OPTIONS_MAP_AO,
+        [SHOWN_NORMALS] = OPTIONS_MAP_NORMALS, [SHOWN_DISTANCE] = OPTIONS_MAP_DEPTH,
+        [SHOWN_RANDOM] = OPTIONS_MAP_RANDOM,   [SHOWN_SHADOW] = OPTIONS_MAP_SHADOW};
     scene_rectangle place = {0, 0, v->width, v->height};
     const float black[4] = {0, 0, 0, 1};
     if (!v->map)

@@ -26,18 +26,6 @@ std::string zero_separated(const char *names)
     return list;
 }
 
-// A button that puts a value back to its standard, at the end of the line before.
-bool reset_button(const char *label, bool differs)
-{
-    ImGui::SameLine();
-    ImGui::PushID(label);
-    ImGui::BeginDisabled(!differs);
-    const bool pressed = ImGui::SmallButton("reset");
-    ImGui::EndDisabled();
-    ImGui::PopID();
-    return pressed && differs;
-}
-
 } // namespace
 
 extern "C" {
@@ -162,6 +150,17 @@ bool gui_button(const char *label)
     return ImGui::Button(label);
 }
 
+bool gui_reset(const char *label, bool differs)
+{
+    ImGui::SameLine();
+    ImGui::PushID(label);
+    ImGui::BeginDisabled(!differs);
+    const bool pressed = ImGui::SmallButton("reset");
+    ImGui::EndDisabled();
+    ImGui::PopID();
+    return pressed && differs;
+}
+
 void gui_tip(const char *text)
 {
     if (ImGui::IsItemHovered())
@@ -185,7 +184,7 @@ bool gui_slider(const char *label, const char *unit, float *value, float low, fl
     std::snprintf(text, sizeof text, "%s%s%s", label, unit[0] ? ", " : "", unit);
     bool changed = ImGui::SliderFloat(text, value, low, high, "%.4g",
                                       ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0));
-    if (reset_button(label, *value != standard)) {
+    if (gui_reset(label, *value != standard)) {
         *value = standard;
         changed = true;
     }
@@ -197,7 +196,7 @@ bool gui_slider_whole(const char *label, const char *unit, int *value, int low, 
     char text[128];
     std::snprintf(text, sizeof text, "%s%s%s", label, unit[0] ? ", " : "", unit);
     bool changed = ImGui::SliderInt(text, value, low, high, "%d", ImGuiSliderFlags_AlwaysClamp);
-    if (reset_button(label, *value != standard)) {
+    if (gui_reset(label, *value != standard)) {
         *value = standard;
         changed = true;
     }

@@ -37,6 +37,8 @@ void gui_text(const char *text);
 void gui_text_wrapped(const char *text);
 void gui_same_line(void);
 bool gui_button(const char *label);
+/* Behind the widget before: pressed, where `differs`. */
+bool gui_reset(const char *label, bool differs);
 void gui_tip(const char *text); /* of the widget before */
 bool gui_check(const char *label, bool *value);
 /* `names` separated by '|'. */

@@ -48,7 +48,7 @@ const char *const input_help[][2] = {
 typedef struct drag {
     int button; /* -1: none */
     bool on_line, across;
-    double x, y; /* where the pointer last was */
+    double x, y; /* where the pointer was by the events so far; glfwGetCursorPos tells where it is by now */
 } drag;
 static drag dragging = {.button = -1}; /* one pointer, one window */
 
@@ -142,6 +142,7 @@ static bool key_of_view(viewer *v, int key)
     const float step = 0.1f;
     switch (key) {
     case GLFW_KEY_F:
+        v->moved = true; /* the whole scene, not the file's or the command line's view */
         viewer_frame_scene(v);
         return true;
     case GLFW_KEY_LEFT:
@@ -170,9 +171,9 @@ static bool key_of_show(viewer *v, int key, bool shift)
     static const struct {
         int key;
         viewer_shown shown;
-    } maps[] = {{GLFW_KEY_O, SHOWN_AO},       {GLFW_KEY_U, SHOWN_RAW},    {GLFW_KEY_N, SHOWN_NORMALS},
-                {GLFW_KEY_V, SHOWN_DISTANCE}, {GLFW_KEY_X, SHOWN_RANDOM}, {GLFW_KEY_H, SHOWN_SHADOW},
-                {GLFW_KEY_T, SHOWN_DIFFERENCE}, {GLFW_KEY_Y, SHOWN_TRUTH}, {GLFW_KEY_P, SHOWN_PICTURE}};
+    } maps[] = {{GLFW_KEY_O, SHOWN_AO},         {GLFW_KEY_U, SHOWN_RAW},    {GLFW_KEY_N, SHOWN_NORMALS},
+                {GLFW_KEY_V, SHOWN_DISTANCE},   {GLFW_KEY_X, SHOWN_RANDOM}, {GLFW_KEY_H, SHOWN_SHADOW},
+                {GLFW_KEY_T, SHOWN_DIFFERENCE}, {GLFW_KEY_Y, SHOWN_TRUTH},  {GLFW_KEY_P, SHOWN_PICTURE}};
     for (size_t i = 0; i < sizeof maps / sizeof maps[0]; i++)
         if (maps[i].key == key) {
             show(v, maps[i].shown);
@@ -277,7 +278,6 @@ static void on_button(GLFWwindow *window, int button, int action, int modifiers)
         return;
     gui_leave();
     glfwGetWindowSize(window, &width, &height);
-    glfwGetCursorPos(window, &dragging.x, &dragging.y);
     dragging.button = button;
     dragging.across = button == GLFW_MOUSE_BUTTON_MIDDLE || modifiers & GLFW_MOD_SHIFT;
     dragging.on_line = button == GLFW_MOUSE_BUTTON_LEFT && v->mode == MODE_SPLIT && v->shown == SHOWN_PICTURE &&
@@ -288,12 +288,12 @@ static void on_pointer(GLFWwindow *window, double x, double y)
 {
     viewer *v = of_window(window);
     int width = 1, height = 1;
-    if (dragging.button < 0 || !v->scene)
-        return;
     glfwGetWindowSize(window, &width, &height);
     const float right = (float)((x - dragging.x) / height), up = (float)((dragging.y - y) / height);
     dragging.x = x;
     dragging.y = y;
+    if (dragging.button < 0 || (right == 0 && up == 0))
+        return;
     if (dragging.on_line) {
         v->split = fminf(fmaxf((float)(x / width), 0), 1);
         return;

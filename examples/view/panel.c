@@ -91,6 +91,10 @@ static bool draw_samples(viewer *v, int standard)
             at = i;
     const bool changed = gui_choice("samples, a pixel", &at, "12|16|24|32|48|64");
     v->settings.sample_count = counts[at];
+    if (gui_reset("samples", counts[at] != standard)) {
+        v->settings.sample_count = standard;
+        return true;
+    }
     return changed;
 }
 
@@ -102,8 +106,8 @@ static bool draw_setting(viewer *v, const setting *s, const glssao_settings *sta
     switch (s->kind) {
     case SETTING_NUMBER: {
         float value = *(float *)at;
-        const float usual = s->offset == offsetof(glssao_settings, radius) ? camera_suggest_radius(v->scene)
-                                                                           : *(const float *)from;
+        const float usual =
+            s->offset == offsetof(glssao_settings, radius) ? camera_suggest_radius(v->scene) : *(const float *)from;
         changed = gui_slider(s->name, s->unit, &value, s->low, slider_end(s, v, usual), s->length, usual);
         if (changed && s->offset == offsetof(glssao_settings, radius))
             setting_scale_radius(&v->settings, value);
@@ -118,10 +122,18 @@ static bool draw_setting(viewer *v, const setting *s, const glssao_settings *sta
         break;
     case SETTING_SWITCH:
         changed = gui_check(s->name, at);
+        if (gui_reset(s->name, *(bool *)at != *(const bool *)from)) {
+            *(bool *)at = *(const bool *)from;
+            changed = true;
+        }
         break;
     case SETTING_WORD: {
         int value = *(int *)at;
         changed = gui_choice(s->name, &value, s->words);
+        if (gui_reset(s->name, value != *(const int *)from)) {
+            value = *(const int *)from;
+            changed = true;
+        }
         *(int *)at = value;
         break;
     }

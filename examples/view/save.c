@@ -123,8 +123,8 @@ bool viewer_command_line(const viewer *v, char *out, size_t out_size)
         add(&l, " --no-shadows");
     if (o->shadow_size && !o->no_shadows)
         add(&l, " --shadow-size %d", o->shadow_size);
-    add(&l, "%s%s%s", o->mapped_normals ? " --mapped-normals" : "", o->specular_occlusion ? " --specular-occlusion" : "",
-        o->multi_bounce ? " --multi-bounce" : "");
+    add(&l, "%s%s%s", o->mapped_normals ? " --mapped-normals" : "",
+        o->specular_occlusion ? " --specular-occlusion" : "", o->multi_bounce ? " --multi-bounce" : "");
     if (o->debug_map)
         add(&l, " --debug-map %s", maps[o->debug_map]);
     if (o->seed)

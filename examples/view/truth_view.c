@@ -48,15 +48,15 @@ static void paint(viewer *v, const float *ao, uint8_t (*out)[4])
     double sum = 0;
     size_t seen = 0;
     for (size_t i = 0; i < (size_t)v->width * (size_t)v->height; i++) {
-        const float truth = v->settings.power == 1 ? v->truth_mean[i] : powf(v->truth_mean[i], v->settings.power);
-        const float difference = ao[i] - truth;
+        const float traced = v->settings.power == 1 ? v->truth_mean[i] : powf(v->truth_mean[i], v->settings.power);
+        const float difference = ao[i] - traced;
         const bool sky = v->truth_mean[i] == 1 && ao[i] == 1;
         sum += sky ? 0 : (double)difference * (double)difference;
         seen += !sky;
         const float off = difference_gain * difference;
-        const float red = v->shown == SHOWN_TRUTH ? truth : 0.5f + fmaxf(-off, 0) - fmaxf(off, 0);
-        const float green = v->shown == SHOWN_TRUTH ? truth : 0.5f - fabsf(off);
-        const float blue = v->shown == SHOWN_TRUTH ? truth : 0.5f + fmaxf(off, 0) - fmaxf(-off, 0);
+        const float red = v->shown == SHOWN_TRUTH ? traced : 0.5f + fmaxf(-off, 0) - fmaxf(off, 0);
+        const float green = v->shown == SHOWN_TRUTH ? traced : 0.5f - fabsf(off);
+        const float blue = v->shown == SHOWN_TRUTH ? traced : 0.5f + fmaxf(off, 0) - fmaxf(-off, 0);
         out[i][0] = to_byte(red);
         out[i][1] = to_byte(green);
         out[i][2] = to_byte(blue);

@@ -28,41 +28,41 @@ typedef enum viewer_shown {
     SHOWN_DIFFERENCE, /* to the truth */
     SHOWN_COUNT
 } viewer_shown;
-#define VIEWER_SHOWN \
-    "picture|accessibility|raw estimate|normals|view distance|random vectors|shadow map|ray-traced accessibility|" \
+#define VIEWER_SHOWN                                                                                                   \
+    "picture|accessibility|raw estimate|normals|view distance|random vectors|shadow map|ray-traced accessibility|"     \
     "difference to ray-traced"
 
 enum { GRAPH_LENGTH = 120, GRAPH_COUNT = GLSSAO_PASS_COUNT + 2, GRAPH_PREPASS = GLSSAO_PASS_COUNT, GRAPH_MAIN };
 
 typedef struct viewer {
     struct GLFWwindow *window;
-    options options;         /* of the command line, with what was changed since, the settings aside */
-    char scene_path[4096];   /* "": the built-in scene options.scene_name */
+    options options;       /* of the command line, with what was changed since, the settings aside */
+    char scene_path[4096]; /* "": the built-in scene options.scene_name */
     scene *scene;
     pipeline pipeline;
     viewpoint viewpoint;
-    bool moved;              /* the camera is no longer the command line's */
+    bool moved; /* the camera is no longer the command line's */
     glssao_settings settings;
-    scene_view view;         /* of the frame last drawn */
-    int width, height;       /* of the framebuffer, pixels */
+    scene_view view;   /* of the frame last drawn */
+    int width, height; /* of the framebuffer, pixels */
 
     viewer_mode mode;
     viewer_shown shown;
-    float split;             /* of the width, from the left */
-    bool blink_off;          /* this half of the blink shows no occlusion */
+    float split;    /* of the width, from the left */
+    bool blink_off; /* this half of the blink shows no occlusion */
     bool panel_open, panel_focus_due, help_open, opening, about_to_open;
     char typed_path[4096];
 
-    bool frame_due;          /* the frame has to be drawn again */
+    bool frame_due; /* the frame has to be drawn again */
     GLuint off_color, off_framebuffer, map, map_framebuffer;
     truth_job *truth;
     int truth_rounds, truth_shown_rounds;
-    float *truth_mean;       /* of the last rounds read */
-    double truth_rmse;       /* against accessibility; negative: not known */
+    float *truth_mean; /* of the last rounds read */
+    double truth_rmse; /* against accessibility; negative: not known */
 
     char notice[1024];
     bool notice_is_error;
-    double notice_until;     /* seconds of glfwGetTime; 0: stays until the next */
+    double notice_until;                    /* seconds of glfwGetTime; 0: stays until the next */
     float graph[GRAPH_COUNT][GRAPH_LENGTH]; /* milliseconds */
     int graph_next;
     unsigned frames, updates; /* frames drawn; times the screen was updated */

@@ -81,9 +81,9 @@ static void smooth_surfaces_alone_do_not_shadow_themselves(void **state)
     small_scene *plane = frame_one_quad(small_scene_material(), floor);
     for (int k = 0; k < 24; k++) {
         const double slope = k % 8 * 0.19, turn = 0.3 + k / 8 * 0.7; /* up to 76 degrees */
-        scene_lighting lighting = {.direction_world = {(float)(sin(slope) * cos(turn)), (float)(sin(slope) * sin(turn)),
-                                                       (float)-cos(slope)},
-                                   .directional = {3, 3, 3}};
+        scene_lighting lighting = {
+            .direction_world = {(float)(sin(slope) * cos(turn)), (float)(sin(slope) * sin(turn)), (float)-cos(slope)},
+            .directional = {3, 3, 3}};
         frame with = frame_draw_with(plane, &frame_front, &lighting, &shadowed, 0);
         frame without = frame_draw_with(plane, &frame_front, &lighting, &(scene_draw_options){0}, 0);
         int darker = 0;
@@ -124,8 +124,7 @@ static void normal_map_bends_normals_in_the_tangent_frame(void **state)
         frame f = frame_draw_with(s, &frame_front, &lighting, &(scene_draw_options){.mapped_normals = true}, 0);
         for (int i = 0; i < 3; i++) {
             /* tangent m[0..2], bitangent the image of +-y, normal z */
-            const double wanted =
-                m[i] * mapped[0] + sign * (double)m[4 + i] * mapped[1] + (i == 2 ? mapped[2] : 0);
+            const double wanted = m[i] * mapped[0] + sign * (double)m[4 + i] * mapped[1] + (i == 2 ? mapped[2] : 0);
             if (!(fabs((double)f.normals[4 * FRAME_MIDDLE + i] - wanted) < 0.01))
                 fail_msg("case %d: component %d is %g, not %g", k, i, (double)f.normals[4 * FRAME_MIDDLE + i], wanted);
         }
@@ -186,10 +185,14 @@ static void outside_the_view_nothing_is_drawn(void **state)
         const float m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1.4f * (float)(k - 4), 0, 0, 1};
         frame_add_quad(s, small_scene_material(), m);
     }
+    /* All its corners are outside, and it fills the picture. */
+    const float large[16] = {10, 0, 0, 0, 0, 10, 0, 0, 0, 0, 1, 0, 0, 0, -0.5f, 1};
+    frame_add_quad(s, small_scene_material(), large);
     const scene_lighting lighting = scene_default_lighting();
     frame f = frame_draw(s, &frame_front, &lighting, 0);
-    assert_int_equal(f.counts.main, 3);
-    assert_int_equal(f.counts.normals, 3);
+    assert_int_equal(frame_count_drawn(&f, FRAME_SIZE * FRAME_SIZE), FRAME_SIZE * FRAME_SIZE);
+    assert_int_equal(f.counts.main, 4);
+    assert_int_equal(f.counts.normals, 4);
     assert_int_equal(f.counts.culled, 6);
     frame_free(&f);
     free(s);

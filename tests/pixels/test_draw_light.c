@@ -102,8 +102,8 @@ static void reflection_is_that_of_the_model(void **state)
         set_normals(s, sqrt(1 - cos_eye * cos_eye), 0, cos_eye);
         for (size_t i = 0; i < sizeof angles / sizeof angles[0]; i++) {
             const float e = (float)irradiance;
-            const scene_lighting lighting = {
-                .direction_world = {(float)-sin(angles[i]), 0, (float)-cos(angles[i])}, .directional = {e, e, e}};
+            const scene_lighting lighting = {.direction_world = {(float)-sin(angles[i]), 0, (float)-cos(angles[i])},
+                                             .directional = {e, e, e}};
             double got[3];
             const double wanted = irradiance * reflection_model(base, (double)material.metallic,
                                                                 (double)material.roughness, cos_eye, angles[i]);
@@ -158,12 +158,27 @@ static void punctual_lights_fall_off_as_the_extension_says(void **state)
         {{.kind = SCENE_LIGHT_POINT, .position_world = {0, 0, 1}, .range = 2}, 2 / pi * (1 - 1 / 16.0), "range"},
         {{.kind = SCENE_LIGHT_POINT, .position_world = {0, 0, 1}, .range = 0.9f}, 0, "out of range"},
         {{.kind = SCENE_LIGHT_DIRECTIONAL, .direction_world = {0, 0, -1}}, 2 / pi, "directional"},
-        {{.kind = SCENE_LIGHT_SPOT, .position_world = {0, 0, 1}, .direction_world = {0, 0, -1}, .inner_cos = 0.9f,
-          .outer_cos = 0.8f}, 2 / pi, "in the cone"},
-        {{.kind = SCENE_LIGHT_SPOT, .position_world = {0, 0, 1}, .direction_world = {0.6f, 0, -0.8f},
-          .inner_cos = 0.9f, .outer_cos = 0.7f}, 0.1896, "half way out of it"}, /* 0.1592 in the very middle, 1/64 away */
-        {{.kind = SCENE_LIGHT_SPOT, .position_world = {0, 0, 1}, .direction_world = {0.8f, 0, -0.6f},
-          .inner_cos = 0.9f, .outer_cos = 0.7f}, 0, "out of the cone"},
+        {{.kind = SCENE_LIGHT_SPOT,
+          .position_world = {0, 0, 1},
+          .direction_world = {0, 0, -1},
+          .inner_cos = 0.9f,
+          .outer_cos = 0.8f},
+         2 / pi,
+         "in the cone"},
+        {{.kind = SCENE_LIGHT_SPOT,
+          .position_world = {0, 0, 1},
+          .direction_world = {0.6f, 0, -0.8f},
+          .inner_cos = 0.9f,
+          .outer_cos = 0.7f},
+         0.1896,
+         "half way out of it"}, /* 0.1592 in the very middle, 1/64 away */
+        {{.kind = SCENE_LIGHT_SPOT,
+          .position_world = {0, 0, 1},
+          .direction_world = {0.8f, 0, -0.6f},
+          .inner_cos = 0.9f,
+          .outer_cos = 0.7f},
+         0,
+         "out of the cone"},
     };
     small_scene *s = frame_one_quad(small_scene_material(), NULL);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
@@ -194,9 +209,9 @@ static void lights_of_the_scene_take_the_suns_place(void **state)
     l = scene_lighting_of(&s->scene, rest);
     assert_int_equal(l.light_count, 2);
     assert_float_equal(l.direction_world[0], 1, 0);
-    assert_float_equal(l.directional[0], pi, 1e-5); /* dimmed from 100, and the rest alike */
-    assert_float_equal(l.directional[1], pi / 2, 1e-5);
-    assert_float_equal(l.lights[1].color[0], pi / 100, 1e-5);
+    assert_float_equal(l.directional[0], (float)pi, 1e-5); /* dimmed from 100, and the rest alike */
+    assert_float_equal(l.directional[1], (float)pi / 2, 1e-5);
+    assert_float_equal(l.lights[1].color[0], (float)pi / 100, 1e-5);
     lights[1].color[0] = lights[1].color[1] = 2; /* none too bright: as they are */
     l = scene_lighting_of(&s->scene, rest);
     assert_float_equal(l.directional[0], 2, 0);
@@ -208,10 +223,8 @@ int main(void)
 {
 #define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
-        TEST(gradient_lights_as_its_integral_says),
-        TEST(reflection_is_that_of_the_model),
-        TEST(nothing_is_brighter_than_its_surroundings),
-        TEST(punctual_lights_fall_off_as_the_extension_says),
+        TEST(gradient_lights_as_its_integral_says),      TEST(reflection_is_that_of_the_model),
+        TEST(nothing_is_brighter_than_its_surroundings), TEST(punctual_lights_fall_off_as_the_extension_says),
         TEST(lights_of_the_scene_take_the_suns_place),
     };
 #undef TEST

@@ -48,6 +48,42 @@ static const char *find_primitive_flaw(const scene *s)
     return NULL;
 }
 
+static bool is_sound_map(const scene *s, const scene_map *map)
+{
+    return !map->used || (map->texture >= 0 && map->texture < (int)s->texture_count && map->uv >= 0 && map->uv <= 1 &&
+                          all_finite(map->uv_from_uv, 6));
+}
+
+/* Where a normal map is read, each corner has a unit tangent and a sign. */
+static const char *find_tangent_flaw(const scene *s)
+{
+    for (uint32_t i = 0; i < s->primitive_count; ++i) {
+        const scene_primitive *p = &s->primitives[i];
+        if (!s->materials[p->material].normal_map.used)
+            continue;
+        if (!s->tangents)
+            return "a normal map has no tangents";
+        for (uint32_t k = p->first_index; k < p->first_index + p->index_count; ++k) {
+            const float *t = s->tangents[s->indices[k]];
+            const float length = sqrtf(t[0] * t[0] + t[1] * t[1] + t[2] * t[2]);
+            if (fabsf(t[3]) != 1 || !(length == 0 || fabsf(length - 1) < 1e-4f))
+                return "a tangent is not one";
+        }
+    }
+    return NULL;
+}
+
+static const char *find_light_flaw(const scene *s)
+{
+    for (uint32_t i = 0; i < s->light_count; ++i) {
+        const scene_light *l = &s->lights[i];
+        if (!all_finite(l->color, 3) || !all_finite(l->position_world, 3) || !all_finite(l->direction_world, 3) ||
+            !(l->range >= 0))
+            return "a light is not finite";
+    }
+    return NULL;
+}
+
 static const char *find_material_flaw(const scene *s)
 {
     if (!s->material_count)
@@ -59,6 +95,11 @@ static const char *find_material_flaw(const scene *s)
         if (m->base_color_uv < 0 || m->base_color_uv > 1)
             return "a material's uv set is not there";
         if (!all_finite(m->base_color, 4) || !all_finite(m->base_color_uv_from_uv, 6) || !isfinite(m->alpha_cutoff))
+            return "a material is not finite";
+        if (!is_sound_map(s, &m->normal_map) || !is_sound_map(s, &m->metallic_roughness_map) ||
+            !is_sound_map(s, &m->occlusion_map) || !is_sound_map(s, &m->emissive_map))
+            return "a material's map is not sound";
+        if (!all_finite(m->emissive, 3) || !isfinite(m->normal_scale + m->metallic + m->roughness))
             return "a material is not finite";
     }
     for (uint32_t i = 0; i < s->texture_count; ++i)
@@ -116,6 +157,8 @@ const char *scene_find_flaw(const scene *s)
     const char *flaw = find_vertex_flaw(s);
     flaw = flaw ? flaw : find_primitive_flaw(s);
     flaw = flaw ? flaw : find_material_flaw(s);
+    flaw = flaw ? flaw : find_tangent_flaw(s);
+    flaw = flaw ? flaw : find_light_flaw(s);
     flaw = flaw ? flaw : find_instance_flaw(s);
     if (!flaw && (!all_finite(s->bounds_min, 3) || !all_finite(s->bounds_max, 3)))
         flaw = "the bounds are not finite";

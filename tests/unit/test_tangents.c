@@ -45,10 +45,10 @@ static void quad_has_its_us_direction_and_a_bitangent_against_v(void **state)
         float(*t)[4] = make(s);
         for (uint32_t i = 0; i < s->scene.index_count; i++) {
             const double sign = mirrored ? -1 : 1;
-            assert_float_equal(t[i][0], sign * cos(angle), 1e-5f);
-            assert_float_equal(t[i][1], sign * sin(angle), 1e-5f);
+            assert_float_equal(t[i][0], (float)(sign * cos(angle)), 1e-5f);
+            assert_float_equal(t[i][1], (float)(sign * sin(angle)), 1e-5f);
             assert_float_equal(t[i][2], 0, 1e-5f);
-            assert_float_equal(t[i][3], sign, 0);
+            assert_float_equal(t[i][3], (float)sign, 0);
         }
         free(t);
         free(s);

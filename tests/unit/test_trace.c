@@ -353,6 +353,32 @@ static void wrong_arguments_are_named(void **state)
     free(s);
 }
 
+static bool is_stopped(void *user)
+{
+    ++*(int *)user;
+    return true;
+}
+
+static void tracing_ends_when_told_to(void **state)
+{
+    (void)state;
+    char error[ERROR_LENGTH] = "";
+    scene_view view;
+    int asked = 0;
+    small_scene *s = make_hollow(&view, 1);
+    trace_scene *t = trace_shot_open(&s->scene);
+    static float out[TRACE_SHOT_PIXELS];
+    trace_stats stats;
+    const trace_options options = {
+        .radius = 1, .samples = 64, .threads = 1, .stopped = is_stopped, .stopped_user = &asked};
+    assert_false(trace_accessibility(t, &view, &options, out, NULL, &stats, error, sizeof error));
+    assert_string_equal(error, "stopped");
+    assert_true(asked > 0);
+    assert_int_equal(stats.rays, 0);
+    trace_scene_destroy(t);
+    free(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -360,7 +386,7 @@ int main(void)
         cmocka_unit_test(same_seed_gives_same_bits),         cmocka_unit_test(scale_does_not_matter),
         cmocka_unit_test(back_faces_are_unseen_but_block),   cmocka_unit_test(projections_agree),
         cmocka_unit_test(flat_instances_are_seen),           cmocka_unit_test(nothing_is_fully_accessible),
-        cmocka_unit_test(wrong_arguments_are_named),
+        cmocka_unit_test(wrong_arguments_are_named),         cmocka_unit_test(tracing_ends_when_told_to),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,220 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# view.sh GLSSAO_VIEW GLSSAO_RENDER EYES: the viewer as a person uses it: real keys and mouse on a virtual screen, and
+# screenshots. Starts an X server of its own. Pictures stay in GLSSAO_VIEW_SHOTS where that names a folder.
+set -uo pipefail
+view=$1
+render=$2
+eyes=$3
+work=${GLSSAO_VIEW_SHOTS:-$(mktemp -d)}
+server=
+viewer=
+# shellcheck disable=SC2086
+finish() {
+    kill $viewer $server 2>/dev/null
+    wait
+    [ -n "${GLSSAO_VIEW_SHOTS:-}" ] || rm -rf "$work"
+}
+trap finish EXIT
+cd "$work" || exit 1
+Xvfb -displayfd 4 -screen 0 800x600x24 -nolisten tcp 4>display 2>server.err &
+server=$!
+for try in $(seq 100); do
+    [ -s display ] && break
+    sleep 0.05
+done
+[ -s display ] || { cat server.err; exit 1; }
+DISPLAY=:$(<display)
+export DISPLAY
+failures=0
+window=
+
+fail() {
+    echo "FAILED: $*"
+    failures=$((failures + 1))
+}
+
+same() { # what, one, other, [X,Y,WxH]
+    local count
+    count=$("$eyes" differ "$2" "$3" ${4:+"$4"})
+    [ "$count" = 0 ] || fail "$1: $2 and $3 differ in $count pixels"
+}
+different() { # what, at least, one, other
+    local count
+    count=$("$eyes" differ "$3" "$4")
+    [ "$count" -ge "$2" ] 2>/dev/null || fail "$1: $3 and $4 differ in $count pixels alone"
+}
+
+# A screenshot once the window shows something else than in the last one, and then stands still.
+last=
+shot() {
+    "$eyes" shot "$window" "$1.png" ${last:+"$last"}
+    last=$1.png
+}
+press() {
+    xdotool key --delay 20 "$@"
+    sleep 0.05
+}
+# Waits until the command is true, for up to 10 seconds.
+await() {
+    local try
+    for try in $(seq 100); do
+        "$@" && return
+        sleep 0.1
+    done
+    fail "never: $*"
+}
+has_title() { [ "$(xdotool getwindowname "$window")" = "$1" ]; }
+# The command line that the viewer prints, and the picture that it saves.
+save() {
+    rm -f saved.png
+    press ctrl+c
+    press ctrl+s
+    await test -s saved.png
+    sleep 0.1
+    command=$(tail -n 1 view.out)
+    case $command in "glssao-render "*) ;; *) fail "no command line: $command" ;; esac
+    eval "draw ${command#glssao-render }"
+    same "the command line: $command" saved.png picture.png
+}
+draw() { "$render" "$@" 2>/dev/null || fail "glssao-render $*"; }
+start() {
+    "$view" "$@" >view.out 2>view.err &
+    viewer=$!
+    local try
+    for try in $(seq 100); do
+        window=$(xdotool search --onlyvisible --name '^(columns|plane|steps|cornell)$' 2>/dev/null | head -n 1)
+        [ -n "$window" ] && break
+        kill -0 $viewer 2>/dev/null || break
+        sleep 0.05
+    done
+    [ -n "$window" ] || { cat view.err; fail "no window"; exit 1; }
+    xdotool mousemove 400 200 windowfocus "$window"
+    last=
+    for try in $(seq 100); do # black until the first frame
+        "$eyes" shot "$window" started.png
+        [ "$("$eyes" colors started.png)" -gt 20 ] && break
+    done
+    last=started.png
+}
+stop() {
+    press ctrl+q
+    wait $viewer || fail "the viewer left with $?"
+    viewer=
+    grep -i 'opengl error\|glssao: error\|Sanitizer' view.err && fail "errors on stderr"
+}
+
+# Nobody does anything: nothing is drawn again.
+start -s 320x200 --scene plane
+sleep 0.8
+stop
+read -r frames updates < <(sed -n 's/.*; \([0-9]*\) frames drawn, \([0-9]*\) screen updates/\1 \2/p' view.err)
+[ "${frames:-99}" -le 2 ] || fail "$frames frames for a picture that stands still"
+[ "${updates:-99}" -le 25 ] || fail "$updates screen updates while nothing happens"
+
+start -s 640x400 -o saved.png
+press g # the panel away
+shot on
+draw -s 640x400 -o render-on.png
+draw -s 640x400 --no-ao -o render-off.png
+same "on the screen is what glssao-render draws" on.png render-on.png
+different "the panel is seen" 20000 started.png on.png
+
+press 2
+shot off
+same "off" off.png render-off.png
+different "on and off" 2000 on.png off.png
+
+press 3
+shot split
+same "left of the line" split.png off.png 0,40,200x340
+same "right of the line" split.png on.png 440,40,200x340
+xdotool mousemove 320 200 mousedown 1 mousemove 250 210 mousemove 120 200 mouseup 1
+shot moved
+same "right of the moved line" moved.png on.png 140,40,480x340
+same "left of the moved line" moved.png off.png 0,40,100x340
+different "the line moved" 300 split.png moved.png
+
+press 4
+"$eyes" shot "$window" blink.png
+"$eyes" shot "$window" blink-other.png blink.png
+different "blink" 2000 blink.png blink-other.png
+last=blink-other.png
+press 1
+sleep 0.3
+"$eyes" shot "$window" still.png
+last=still.png
+
+# Maps.
+draw -s 640x400 --ao render-ao.png --normals render-normals.png
+press o
+shot ao
+same "accessibility" ao.png render-ao.png
+press n
+shot normals
+same "normals" normals.png render-normals.png
+for map in u v x h; do
+    before=$last
+    press $map
+    shot map-$map
+    different "map $map" 20000 map-$map.png "$before"
+done
+press t
+shot truth # black until the first rays are there
+[ "$("$eyes" colors truth.png)" -gt 50 ] || shot truth
+[ "$("$eyes" colors truth.png)" -gt 50 ] || fail "no difference to the ray-traced reference"
+press p
+
+# The camera by mouse and key; the command line makes the same picture.
+xdotool mousemove 400 200 mousedown 1 mousemove 430 190 mousemove 470 180 mouseup 1
+xdotool click 4
+press comma
+press bracketright
+press w
+shot turned
+different "dragging turns" 20000 on.png turned.png
+save
+same "what is saved is what is shown" saved.png turned.png 0,0,640x300
+
+# Help, another scene, a file by its name, one that is broken.
+press F1
+shot help
+different "help" 20000 turned.png help.png
+press F1
+shot closed
+press Next
+await has_title cornell
+shot cornell
+different "the next scene" 50000 turned.png cornell.png
+cat >triangle.gltf <<'GLTF'
+{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "scale": [4, 1, 1]}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+ "bufferViews": [{"buffer": 0, "byteLength": 36}],
+ "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}
+GLTF
+echo '{"asset":' >broken.gltf
+press ctrl+o
+xdotool type --delay 5 triangle.gltf
+press Return
+await has_title triangle.gltf
+shot triangle
+different "the opened file" 50000 cornell.png triangle.png
+press ctrl+o
+sleep 0.1
+press ctrl+a
+xdotool type --delay 5 broken.gltf
+press Return
+await grep -q 'glssao-view: .*broken.gltf' view.err
+has_title triangle.gltf || fail "a broken file took the scene away"
+press Escape
+
+# Resized: the camera that frames the scene follows.
+xdotool windowsize "$window" 300 400
+sleep 0.3
+save
+[[ $command = *" -s 300x400 "* ]] || fail "the picture did not take the window's size: $command"
+stop
+
+[ $failures = 0 ] && echo "all holds"
+exit $((failures > 0))
