@@ -9,3 +9,6 @@ float gBlurNormalThreshold; // cosine
 float gBlurDepthThreshold;  // scene units of view distance
 int gSampleCount;           // offset vectors or kernel samples in use
 int gFactor;                // full-size texels per texel of the estimate: 1 or 2
+vec2 gNoise;                // offset of the tile of noise: of the angle and of the jitter, 0..1 (accumulation)
+vec4 gAccumulation;         // xy: 1 for the replicate that the estimate belongs to; zw: estimates in each
+vec4 gProbe;                // pixels: lower left corner of what is probed, size of a cell

@@ -1,13 +1,40 @@
 // SPDX-License-Identifier: MIT
 // Makes the distance map, so that the passes after it fetch view distances ready-made.
 // in  u_depth_map  stored depth, point sampled
-// out o_distance   view distance (scene units), R32F; FAR_AWAY where nothing was drawn
+// LAYERS 1: in u_back_map the nearest back face at or behind the surface, in u_second_map the nearest front face behind it
+// out o_distance   x: view distance (scene units); FAR_AWAY where nothing was drawn. With LAYERS 1 also
+//                  y: how thick what is seen there is (scene units); negative: not known
+//                  z: how far behind it the next front face lies (scene units); FAR_AWAY: none
 
+#if LAYERS
+out vec4 o_distance;
+uniform sampler2D u_back_map;
+uniform sampler2D u_second_map;
+
+// In units of the radius; docs/decisions.md, "A second layer", says what was tried.
+const float GAP = 0.15;  // where another front face begins less than this behind the back, both may be one solid
+const float THIN = 0.03; // what is thinner is a sheet or a seam, whose thickness says nothing of what is behind it
+#else
 out float o_distance;
+#endif
+
+float distance_at(sampler2D map, vec2 uv)
+{
+    float depth = textureLod(map, uv, 0.0).r;
+    return is_sky(depth) ? FAR_AWAY : distance_from_depth(depth);
+}
 
 void main()
 {
-    vec2 texel = floor(gl_FragCoord.xy) * float(gFactor);
-    float depth = depth_component(textureLod(u_depth_map, (texel + 0.5) / vec2(textureSize(u_depth_map, 0)), 0.0));
-    o_distance = is_sky(depth) ? FAR_AWAY : distance_from_depth(depth);
+    vec2 uv = (floor(gl_FragCoord.xy) * float(gFactor) + 0.5) / vec2(textureSize(u_depth_map, 0));
+    float depth = depth_component(textureLod(u_depth_map, uv, 0.0));
+    float distance = is_sky(depth) ? FAR_AWAY : distance_from_depth(depth);
+#if LAYERS
+    float back = distance_at(u_back_map, uv);
+    float second = distance_at(u_second_map, uv);
+    bool known = back < FAR_AWAY && second - back >= GAP * gOcclusionRadius && back - distance >= THIN * gOcclusionRadius;
+    o_distance = vec4(distance, known ? back - distance : -1.0, second < FAR_AWAY ? max(second - distance, 0.0) : FAR_AWAY, 0.0);
+#else
+    o_distance = distance;
+#endif
 }

@@ -4,9 +4,11 @@
 // with Visibility Bitmask", 2023) that are of equal cosine-weighted measure here. An occluder is taken to be as thick as
 // it is wide along the slice, and each sample is cut by the sphere of the radius, as the traced truth is.
 // in  u_normal_map    view space; point sampled
-// in  u_distance_map  view distance at the estimate's size; point sampled, clamped
+// in  u_distance_map  view distance at the estimate's size, with LAYERS 1 thickness and second layer too; point sampled,
+//                     clamped
 // in  u_depth_map     bound for its size alone
-// out o_ambient       accessibility, and the linear quantity of distance
+// out o_ambient       accessibility, and the linear quantity of distance; with ACCUMULATE 1 the linear accessibility,
+//                     to be added to the sum of its replicate
 // STEPS_8, STEPS_12, STEPS_16 1: that many samples on each side of a slice, else 6. SLICES_2 1: two slices, else one.
 //
 // In a slice, x is the distance along it from the point, outwards on either side, and y the height towards the eye, both
@@ -48,7 +50,12 @@ const float JUMP = 0.3;        // a step in height of more than this ends a run 
 const float ALIKE = 0.4;       // ... unless the step before or after it differs by less than this: a steep surface
 const float OPEN_END = 1.25;   // where a run ends that is not seen to end
 const float WIDTH = 1.0;       // thickness of a run that a jump separates from the point, in units of its width
-const float VEIL = 0.15;       // share of what lies hidden behind occluders that counts as occluded, however deep
+#if LAYERS
+const float VEIL = 0.03;       // share of what lies hidden behind occluders that counts as occluded, however deep
+const float SECOND = 0.3;      // thickness of the second layer's surfaces, in units of what is guessed for the first's
+#else
+const float VEIL = 0.15;
+#endif
 const float VEIL_WIDTH = 0.2;  // but not behind occluders thinner than this
 #if STEPS_16 || STEPS_12
 const float CALIBRATION = 1.0; // exponent that makes up for what few samples miss
@@ -85,11 +92,11 @@ float value(polynomial p, float c)
     return (p.low.y + c2 * (p.low.w + c2 * p.c5)) * c + (p.low.x + c2 * p.low.z);
 }
 
-// The value, rounded and bounded to 0..31. Adding 1.5 * 2^23 leaves the rounded number in a float's lowest bits, which
-// GPUs have sooner than a conversion.
+// The value, rounded. The polynomial leaves 0..31 by an eighth at most, which rounding takes back; a shift by more than 31
+// would be undefined.
 uint sector(polynomial p, float c)
 {
-    return floatBitsToUint(clamp(value(p, c), 0.0, SECTORS) + 12582912.0) & 31u;
+    return uint(int(value(p, c) + 0.5)) & 31u;
 }
 
 // What turns a sample's offset in pixels and its view distance into x and y.
@@ -105,10 +112,18 @@ struct slice_frame {
 
 // Snapped to a texel's centre, and beyond the border to the border's; the height is corrected for the distance off the
 // slice as if the surface there were parallel to the point's own. z: the width of one step at the sample's distance.
-vec3 sample_at(slice_frame f, vec2 step_px, float along)
+// `layers`: the thickness of what is seen, negative where it is not known, and how far behind it the second layer lies.
+vec3 sample_at(slice_frame f, vec2 step_px, float along, out vec2 layers)
 {
     vec2 texel = clamp(floor(f.center + along * step_px), vec2(0.0), f.size - 1.0);
+#if LAYERS
+    vec3 texels = textureLod(u_distance_map, (texel + 0.5) / f.size, 0.0).rgb;
+    float distance = texels.r;
+    layers = min(f.y_per_distance * texels.gb, vec2(1e6)); // bounded, so that no square overflows
+#else
+    layers = vec2(0.0);
     float distance = textureLod(u_distance_map, (texel + 0.5) / f.size, 0.0).r;
+#endif
     vec2 offset = texel + 0.5 - f.center;
     float scale = orthographic() ? 1.0 : distance;
     return vec3(scale * dot(offset, f.x_per_px),
@@ -123,28 +138,43 @@ bool is_jump(float before, float change, float after)
     return abs(change) > JUMP && abs(change - before) > ALIKE && abs(change - after) > ALIKE;
 }
 
-// Sectors that one sample hides, whose run is `width` steps wide. Beyond the sphere the chord is 0, and top and bottom come
-// out alike. Raises `highest` to the sample's top where it veils what is behind it.
-uint hidden_by(vec3 at, float width, polynomial sectors, bool minus, float lowest, inout float highest)
+// Sectors that are hidden at x between two heights, where they lie within the sphere, whose half chord is 0 beyond it: top
+// and bottom then come out alike.
+uint hidden_between(float x, float x2, float chord, float top, float bottom, polynomial sectors, bool minus, float lowest, out float cos_top)
 {
-    float x2 = at.x * at.x + 1e-12;
-    float thickness = WIDTH * width * at.z;
-    float chord = sqrt(max(1.0 - x2, 0.0));
     // Sky can lie so deep that its square overflows, and its cosine would come out as 0.
-    float top = clamp(at.y, -1e6, chord);
-    float bottom = max(at.y - thickness, -chord);
+    top = clamp(top, -1e6, chord);
+    bottom = max(bottom, -chord);
     // x is 0 on the point's own texel, and below it where the border holds a sample on the other side.
-    float cos_top = at.x > 0.0 ? max(top * inversesqrt(x2 + top * top), lowest) : lowest;
+    cos_top = x > 0.0 ? max(top * inversesqrt(x2 + top * top), lowest) : lowest;
     float cos_bottom = clamp(bottom * inversesqrt(x2 + bottom * bottom), lowest, cos_top);
-    highest = max(highest, thickness > VEIL_WIDTH && x2 < 1.0 ? cos_top : lowest);
     uint near = 1u << sector(sectors, cos_top);
     uint far = 1u << sector(sectors, cos_bottom);
     return minus ? near - far : far - near;
 }
 
+// Sectors that one sample hides, whose run is `width` steps wide. Raises `highest` to the sample's top where it veils what is
+// behind it.
+uint hidden_by(vec3 at, vec2 layers, float width, polynomial sectors, bool minus, float lowest, inout float highest)
+{
+    float x2 = at.x * at.x + 1e-12;
+    float chord = sqrt(max(1.0 - x2, 0.0));
+    float thickness = WIDTH * width * at.z;
+    float cos_top;
+    uint mask = 0u;
+#if LAYERS
+    float second = min(at.y - layers.y, chord); // its thickness counts from where it is within the sphere
+    mask = hidden_between(at.x, x2, chord, second, second - SECOND * thickness, sectors, minus, lowest, cos_top);
+    thickness = layers.x >= 0.0 ? layers.x : thickness;
+#endif
+    mask |= hidden_between(at.x, x2, chord, at.y, at.y - thickness, sectors, minus, lowest, cos_top);
+    highest = max(highest, thickness > VEIL_WIDTH && x2 < 1.0 ? cos_top : lowest);
+    return mask;
+}
+
 // Sectors that one side's samples hide. `lowest` is the cosine of the angle at which the hemisphere ends there, `highest`
 // that of the horizon over occluders that veil what is behind them.
-uint hidden_sectors(vec3 samples[STEPS], float jitter, polynomial sectors, bool minus, float lowest, out float highest)
+uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, polynomial sectors, bool minus, float lowest, out float highest)
 {
     float change[STEPS + 1];
     bool jump[STEPS];
@@ -164,7 +194,7 @@ uint hidden_sectors(vec3 samples[STEPS], float jitter, polynomial sectors, bool 
     EACH_STEP_BACK(FIND_END)
     uint mask = 0u;
     highest = lowest;
-#define HIDE(i) mask |= hidden_by(samples[i], end[i] - start[i], sectors, minus, lowest, highest);
+#define HIDE(i) mask |= hidden_by(samples[i], layers[i], end[i] - start[i], sectors, minus, lowest, highest);
     EACH_STEP(HIDE)
     return mask;
 }
@@ -172,11 +202,16 @@ uint hidden_sectors(vec3 samples[STEPS], float jitter, polynomial sectors, bool 
 // Ordered tile: 4x4 Bayer for the angle, the same bits reversed for the jitter along the slice.
 vec2 tile_noise()
 {
-    uvec2 p = uvec2(gl_FragCoord.xy) & 3u;
+    uvec2 p = uvec2(pixel_center()) & 3u;
     uint x = p.x ^ p.y;
     uint bayer = ((x & 1u) << 3) | ((p.y & 1u) << 2) | (x & 2u) | (p.y >> 1);
     uint reversed = ((bayer & 1u) << 3) | ((bayer & 2u) << 1) | ((bayer & 4u) >> 1) | (bayer >> 3);
-    return (vec2(bayer, reversed) + 0.5) / 16.0;
+    vec2 noise = (vec2(bayer, reversed) + 0.5) / 16.0;
+#if ACCUMULATE
+    // The second replicate has the tile turned over, so that the two differ by another offset in each pixel of the tile.
+    noise = fract((gAccumulation.x > 0.0 ? noise : noise.yx) + gNoise);
+#endif
+    return noise;
 }
 
 // What the slice adds to occlusion. `px`: view xy that a pixel gains, per unit of distance in perspective.
@@ -212,14 +247,16 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
 
     vec3 plus_samples[STEPS];
     vec3 minus_samples[STEPS];
+    vec2 plus_layers[STEPS];
+    vec2 minus_layers[STEPS];
     vec3 mirror = vec3(-1.0, 1.0, 1.0);
-#define TAKE_PLUS(i) plus_samples[i] = sample_at(f, step_px, (float(i) + 1.0 - jitter) * STEP);
-#define TAKE_MINUS(i) minus_samples[i] = mirror * sample_at(f, step_px, (jitter - 1.0 - float(i)) * STEP);
+#define TAKE_PLUS(i) plus_samples[i] = sample_at(f, step_px, (float(i) + 1.0 - jitter) * STEP, plus_layers[i]);
+#define TAKE_MINUS(i) minus_samples[i] = mirror * sample_at(f, step_px, (jitter - 1.0 - float(i)) * STEP, minus_layers[i]);
     EACH_STEP(TAKE_PLUS)
     EACH_STEP(TAKE_MINUS)
     float highest_plus, highest_minus;
-    uint mask = hidden_sectors(plus_samples, jitter, plus_sectors, false, -sin_g, highest_plus) |
-                hidden_sectors(minus_samples, jitter, minus_sectors, true, sin_g, highest_minus);
+    uint mask = hidden_sectors(plus_samples, plus_layers, jitter, plus_sectors, false, -sin_g, highest_plus) |
+                hidden_sectors(minus_samples, minus_layers, jitter, minus_sectors, true, sin_g, highest_minus);
     float hidden = total * float(count_bits(mask)) / SECTORS;
     float veiled = total - value(plus, highest_plus) - value(minus, highest_minus);
     return projected * mix(hidden, veiled, VEIL);
@@ -228,11 +265,15 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
 void main()
 {
     vec2 map_size = vec2(textureSize(u_distance_map, 0));
-    float distance = textureLod(u_distance_map, gl_FragCoord.xy / map_size, 0.0).r;
+    float distance = textureLod(u_distance_map, pixel_center() / map_size, 0.0).r;
     vec2 full_size = vec2(textureSize(u_depth_map, 0));
-    vec2 uv = (floor(gl_FragCoord.xy) * float(gFactor) + 0.5) / full_size;
+    vec2 uv = (floor(pixel_center()) * float(gFactor) + 0.5) / full_size;
     vec3 normal_view = normal_view_at_uv(uv);
+#if ACCUMULATE
+    o_ambient = gAccumulation.xy;
+#else
     o_ambient = vec2(1.0, linear_from_distance(distance));
+#endif
     // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
     if (distance >= FAR_AWAY || normal_view == vec3(0.0))
         return;
@@ -242,7 +283,7 @@ void main()
     vec2 px = float(gFactor) / full_size * (orthographic() ? gRayOrigin.xy : gRayDirection.xy);
     slice_frame f;
     f.size = map_size;
-    f.center = gl_FragCoord.xy;
+    f.center = pixel_center();
     f.center_distance = distance;
     f.per_scale = STEP / (orthographic() ? 1.0 : distance);
     f.y_per_distance = ray_length / gOcclusionRadius;
@@ -252,5 +293,10 @@ void main()
     occlusion = 0.5 * (occlusion + slice_occlusion(f, normal_view, up, px, 0.5 * (noise.x + 1.0), noise.y));
 #endif
     // pow() is undefined for a base of 0 with power 0, and for the negative that rounding can leave.
-    o_ambient.x = clamp(pow(max(1.0 - occlusion, 1e-6), CALIBRATION * gPower), 0.0, 1.0);
+    float open = max(1.0 - occlusion, 1e-6);
+#if ACCUMULATE
+    o_ambient = gAccumulation.xy * pow(open, CALIBRATION);
+#else
+    o_ambient.x = clamp(pow(open, CALIBRATION * gPower), 0.0, 1.0);
+#endif
 }

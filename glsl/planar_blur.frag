@@ -15,7 +15,7 @@ const float TOLERANCE = 0.02;
 void main()
 {
     vec2 step_uv = gHorizontalBlur ? vec2(gInvRenderTargetSize.x, 0.0) : vec2(0.0, gInvRenderTargetSize.y);
-    vec2 uv = gl_FragCoord.xy * gInvRenderTargetSize;
+    vec2 uv = pixel_center() * gInvRenderTargetSize;
     vec2 center = textureLod(u_ambient_map, uv, 0.0).rg;
     vec2 before = textureLod(u_ambient_map, uv - step_uv, 0.0).rg;
     vec2 after = textureLod(u_ambient_map, uv + step_uv, 0.0).rg;

@@ -13,7 +13,7 @@ const float TOLERANCE = 0.02;
 
 void main()
 {
-    vec2 pixel = gl_FragCoord.xy - 0.5;
+    vec2 pixel = pixel_center() - 0.5;
     // A half-size texel stands for the full-size texel of twice its index: odd pixels lie midway between two, and where
     // a coordinate is even, both are the same, so that the mean of the four is the linear interpolation.
     vec2 half_pixel = floor(0.5 * pixel);
@@ -23,7 +23,7 @@ void main()
     vec2 b = textureLod(u_ambient_map, vec2(uv_d.x, uv_a.y), 0.0).rg;
     vec2 c = textureLod(u_ambient_map, vec2(uv_a.x, uv_d.y), 0.0).rg;
     vec2 d = textureLod(u_ambient_map, uv_d, 0.0).rg;
-    float depth = depth_component(textureLod(u_depth_map, gl_FragCoord.xy / vec2(textureSize(u_depth_map, 0)), 0.0));
+    float depth = depth_component(textureLod(u_depth_map, pixel_center() / vec2(textureSize(u_depth_map, 0)), 0.0));
     float own = linear_from_depth(depth);
     float tolerance = linear_error(TOLERANCE * gOcclusionRadius, own);
     vec4 neighbours = vec4(a.y, b.y, c.y, d.y);

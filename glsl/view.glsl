@@ -4,6 +4,15 @@
 // DEPTH_IS_DISTANCE 1: the host stores view distance, not window depth. DEPTH_IN_ALPHA 1: in the alpha of its normal map.
 uniform sampler2D u_depth_map; // as the host stores it
 
+// Where the target's lower left corner lies in the maps, in pixels: not 0 for the last pass of a frame with a margin.
+uniform vec2 gOrigin;
+
+// The pixel's centre in the maps that the passes read.
+vec2 pixel_center()
+{
+    return gl_FragCoord.xy + gOrigin;
+}
+
 // Farther than any surface: stands for sky and for depths that are no number. Its square still fits a float.
 const float FAR_AWAY = 1e15;
 

@@ -114,6 +114,7 @@
     X(SAMPLECOVERAGE, SampleCoverage) \
     X(SAMPLEMASKI, SampleMaski) \
     X(SAMPLERPARAMETERF, SamplerParameterf) \
+    X(SAMPLERPARAMETERFV, SamplerParameterfv) \
     X(SAMPLERPARAMETERI, SamplerParameteri) \
     X(SCISSOR, Scissor) \
     X(SHADERSOURCE, ShaderSource) \
@@ -126,6 +127,7 @@
     X(UNIFORM2F, Uniform2f) \
     X(UNIFORM3F, Uniform3f) \
     X(UNIFORM3FV, Uniform3fv) \
+    X(UNIFORM2FV, Uniform2fv) \
     X(UNIFORM4F, Uniform4f) \
     X(UNIFORM4FV, Uniform4fv) \
     X(UNIFORMBLOCKBINDING, UniformBlockBinding) \

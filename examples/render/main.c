@@ -89,15 +89,28 @@ static pipeline_wants choose_wants(const options *o)
     pipeline_wants wants = {.picture = o->bench || !maps_alone};
     wants.ao = !o->no_ao && (wants.picture || o->ao);
     wants.traced = wants.ao && o->technique == OPTIONS_RAYTRACE;
-    wants.normals = (wants.ao && !wants.traced) || o->normals;
+    wants.normals = (wants.ao && !wants.traced) || o->normals || o->debug_map == OPTIONS_MAP_NORMALS ||
+                    o->debug_map == OPTIONS_MAP_RANDOM;
+    wants.timers = o->stats || o->bench;
     wants.prepass = wants.picture || wants.normals || o->depth;
     return wants;
 }
 
+/* With the margin on it. */
+static bool find_view(run *r, float angle_rad, scene_view *out_view)
+{
+    const options *o = &r->options;
+    if (!viewpoint_view(&r->viewpoint, r->loader.scene, angle_rad, o->width, o->height, out_view, r->error,
+                        sizeof r->error)) {
+        return false;
+    }
+    *out_view = camera_widened_view(out_view, o->margin);
+    return true;
+}
+
 static bool draw(run *r, float angle_rad, scene_view *out_view)
 {
-    return viewpoint_view(&r->viewpoint, r->loader.scene, angle_rad, r->options.width, r->options.height, out_view,
-                          r->error, sizeof r->error) &&
+    return find_view(r, angle_rad, out_view) &&
            pipeline_draw(&r->pipeline, out_view, &r->times, r->error, sizeof r->error);
 }
 
@@ -178,6 +191,7 @@ static bool write_stats(run *r, const glssao_stats *passes, const char *context_
                           .context = context_text,
                           .settings = r->pipeline.wants.ao ? &r->pipeline.settings : NULL,
                           .passes = *passes,
+                          .reached = r->pipeline.reached.estimates ? &r->pipeline.reached : NULL,
                           .times = &r->times,
                           .traced = r->pipeline.wants.traced ? &r->pipeline.truth.stats : NULL,
                           .bench = r->bench.recorded ? &r->bench : NULL,
@@ -202,9 +216,9 @@ static bool render(run *r, double start_ms)
     }
     scene_view view;
     stopwatch_start(&r->times);
-    if (!viewpoint_choose(o, r->loader.scene, &r->viewpoint, r->error, sizeof r->error) ||
-        !viewpoint_view(&r->viewpoint, r->loader.scene, 0, o->width, o->height, &view, r->error, sizeof r->error) ||
-        !pipeline_create(&r->pipeline, r->loader.scene, r->context, o, choose_wants(o), r->error, sizeof r->error)) {
+    if (!viewpoint_choose(o, r->loader.scene, &r->viewpoint, r->error, sizeof r->error) || !find_view(r, 0, &view) ||
+        !pipeline_create(&r->pipeline, r->loader.scene, context_load, r->context, o, choose_wants(o), r->error,
+                         sizeof r->error)) {
         return false;
     }
     stopwatch_lap(&r->times, PHASE_SETUP);

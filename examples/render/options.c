@@ -4,6 +4,7 @@
  */
 #include "options.h"
 
+#include "setting_table.h"
 #include "trace.h"
 
 #include <errno.h>
@@ -55,6 +56,15 @@ static const option table[] = {
     {0, "samples", "N", "classic 1 to 14, hemisphere 1 to 64, horizon 12, 16, 24, 32, 48 or 64, raytrace rays (512)",
      KIND_INT, AT(sample_count), 1, 65536, "a whole number from 1 to 65536"},
     {0, "blur-rounds", "N", "0 to 16", KIND_INT, AT(blur_rounds), 0, 16, "a whole number from 0 to 16"},
+    {0, "error", "E", "horizon: adds up estimates until their sampling error is at most E", KIND_NUMBER, AT(error),
+     1e-6, 1, "a number from 0.000001 to 1"},
+    {0, "budget", "MS", "horizon: adds up estimates for MS milliseconds a frame", KIND_NUMBER, AT(budget_ms), 0.001,
+     1e9, "a number of milliseconds above 0"},
+    {0, "margin", "N", "draws N pixels more on each side, even, for occluders beyond the edge (0)", KIND_INT,
+     AT(margin), 0, 4096, "an even whole number from 0 to 4096"},
+    {0, "layers", "N", "horizon: 2 also draws what lies behind the surfaces seen, to read thickness from (1)", KIND_INT,
+     AT(layers), 1, 2, "1 or 2"},
+    {0, "set", "NAME=V,...", "any of the settings that --help lists at its end", KIND_TEXT, AT(set), 0, 0, ""},
     {0, "eye", "X,Y,Z", "where the camera stands (default: frames the scene)", KIND_VECTOR, AT(eye), 0, 0,
      "three numbers X,Y,Z"},
     {0, "target", "X,Y,Z", "what it looks at", KIND_VECTOR, AT(target), 0, 0, "three numbers X,Y,Z"},
@@ -76,6 +86,16 @@ static const option table[] = {
     {0, "stats", "FILE.json", "what was drawn and where the time went", KIND_FILE, AT(stats), 0, 0, ""},
     {0, "plan", NULL, "prints which passes run, and why", KIND_FLAG, AT(plan), 0, 0, NULL},
     {0, "no-ao", NULL, "no occlusion pass at all", KIND_FLAG, AT(no_ao), 0, 0, NULL},
+    {0, "no-shadows", NULL, "direct light goes through everything", KIND_FLAG, AT(no_shadows), 0, 0, NULL},
+    {0, "shadow-size", "N", "side of the shadow map in texels (2048)", KIND_INT, AT(shadow_size), 1, 16384,
+     "a whole number from 1 to 16384"},
+    {0, "mapped-normals", NULL, "occlusion sees normal maps (it sees the mesh alone)", KIND_FLAG, AT(mapped_normals), 0,
+     0, NULL},
+    {0, "specular-occlusion", NULL, "occlusion darkens reflections by their lobe", KIND_FLAG, AT(specular_occlusion), 0,
+     0, NULL},
+    {0, "multi-bounce", NULL, "occluded light takes on the surface's colour", KIND_FLAG, AT(multi_bounce), 0, 0, NULL},
+    {0, "debug-map", "NAME", "in the picture's lower right: ao, normals, depth, random or shadow", KIND_WORD,
+     AT(debug_map), 0, 0, "none|ao|normals|depth|random|shadow"},
     {0, "seed", "N", "of every random input (0)", KIND_SEED, AT(seed), 0, 4294967295.0,
      "a whole number from 0 to 4294967295"},
     {'h', "help", NULL, "prints this", KIND_FLAG, AT(help), 0, 0, NULL},
@@ -83,10 +103,15 @@ static const option table[] = {
 };
 enum { TABLE_LENGTH = sizeof table / sizeof table[0] };
 
-static void print_help(void)
+/* What the two programs that share the table do differently. */
+typedef struct program {
+    const char *name, *usage, *end;
+    bool is_viewer;
+} program;
+
+static void print_help(const program *p)
 {
-    puts("usage: glssao-render [options] [scene.gltf|scene.glb]\n"
-         "Renders a glTF scene, or a built-in one, with screen-space ambient occlusion, without a display.\n");
+    puts(p->usage);
     for (int i = 0; i < TABLE_LENGTH; i++) {
         const option *o = &table[i];
         char left[64];
@@ -94,7 +119,15 @@ static void print_help(void)
                  o->letter ? ',' : ' ', o->name, o->value ? o->value : "");
         printf("  %-28s %s\n", left, o->help);
     }
-    puts("\nExit code: 0 done, 1 could not render, 2 wrong usage.");
+    puts("\nSettings for --set, such as --set blur=none,half=off:");
+    for (int i = 0; i < setting_count; i++) {
+        const setting *s = &setting_table[i];
+        printf("  %-28s %s%s%s%s%s\n", s->name, s->help, s->unit[0] ? ", " : "", s->unit, s->words ? ": " : "",
+               s->words                    ? s->words
+               : s->kind == SETTING_SWITCH ? ": off|on"
+                                           : "");
+    }
+    puts(p->end);
 }
 
 /* strtod takes leading blanks, hexadecimal, "nan" and "inf"; a command line should not. */
@@ -297,8 +330,10 @@ static bool is_horizon_count(int n)
 }
 
 /* What no value alone tells: options that need or exclude each other. */
-static bool check_together(const options *o, char *error, size_t error_size)
+static bool check_together(const options *o, const program *p, char *error, size_t error_size)
 {
+    const bool file_wanted =
+        o->output || o->ao || o->normals || o->depth || o->stats || o->bench || o->plan || p->is_viewer;
     const bool traced = o->technique == OPTIONS_RAYTRACE;
     const int most_samples = o->technique == GLSSAO_CLASSIC ? 14 : 64;
     if (traced && !GLSSAO_HAS_EMBREE) {
@@ -312,12 +347,31 @@ static bool check_together(const options *o, char *error, size_t error_size)
         snprintf(error, error_size, "--samples \"%d\": this technique takes at most %d", o->sample_count, most_samples);
     } else if (o->technique == GLSSAO_HORIZON && o->sample_count && !is_horizon_count(o->sample_count)) {
         snprintf(error, error_size, "--samples \"%d\": horizon takes 12, 16, 24, 32, 48 or 64", o->sample_count);
+    } else if ((o->error.given || o->budget_ms.given) && o->technique != GLSSAO_HORIZON) {
+        snprintf(error, error_size, "--%s %g: only the horizon technique adds up estimates",
+                 o->error.given ? "error" : "budget", (double)(o->error.given ? o->error.value : o->budget_ms.value));
+    } else if ((o->error.given || o->budget_ms.given) && (o->no_ao || o->bench)) {
+        snprintf(error, error_size, "--%s and %s exclude each other", o->error.given ? "error" : "budget",
+                 o->no_ao ? "--no-ao" : "--bench");
+    } else if (o->margin % 2) {
+        snprintf(error, error_size, "--margin \"%d\": must be an even whole number", o->margin);
+    } else if (traced && (o->margin || o->layers)) {
+        snprintf(error, error_size, "--technique raytrace and --%s exclude each other: rays see the whole scene",
+                 o->margin ? "margin" : "layers");
+    } else if (o->layers == 2 && o->technique != GLSSAO_HORIZON) {
+        snprintf(error, error_size, "--layers 2: only the horizon technique reads a second layer");
     } else if (o->scene_path && o->scene_name) {
         snprintf(error, error_size, "--scene %s and the file %s exclude each other", o->scene_name, o->scene_path);
     } else if (o->scene_name && find_word("columns|cornell|steps|plane", o->scene_name) < 0) {
         snprintf(error, error_size, "--scene \"%s\": must be one of columns|cornell|steps|plane", o->scene_name);
     } else if (o->no_ao && o->ao) {
         snprintf(error, error_size, "--no-ao and --ao %s exclude each other", o->ao);
+    } else if (o->no_shadows && (o->shadow_size || o->debug_map == OPTIONS_MAP_SHADOW)) {
+        snprintf(error, error_size, "--no-shadows excludes --shadow-size and --debug-map shadow");
+    } else if (o->debug_map == OPTIONS_MAP_AO && o->no_ao) {
+        snprintf(error, error_size, "--no-ao and --debug-map ao exclude each other");
+    } else if (o->debug_map && !o->output && !p->is_viewer) {
+        snprintf(error, error_size, "--debug-map: needs a picture, -o FILE.png");
     } else if (o->frames && o->bench) {
         snprintf(error, error_size, "--frames %d and --bench %d exclude each other", o->frames, o->bench);
     } else if (o->near_plane.given && o->far_plane.given && o->near_plane.value >= o->far_plane.value) {
@@ -325,7 +379,12 @@ static bool check_together(const options *o, char *error, size_t error_size)
                  (double)o->far_plane.value);
     } else if (o->eye.given && o->target.given && memcmp(&o->eye, &o->target, sizeof o->eye) == 0) {
         snprintf(error, error_size, "--eye and --target are the same point");
-    } else if (!o->output && !o->ao && !o->normals && !o->depth && !o->stats && !o->bench && !o->plan) {
+    } else if (p->is_viewer && (o->ao || o->normals || o->depth || o->stats || o->bench || o->plan || o->frames)) {
+        snprintf(error, error_size,
+                 "glssao-view takes no --ao, --normals, --depth, --stats, --bench, --plan, --frames");
+    } else if (p->is_viewer && traced) {
+        snprintf(error, error_size, "--technique raytrace: the viewer shows it as the difference to it (key T)");
+    } else if (!file_wanted) {
         snprintf(
             error, error_size,
             "nothing to do: give -o FILE.png, --ao, --normals, --depth, --stats, --bench or --plan (-h lists all)");
@@ -337,7 +396,19 @@ static bool check_together(const options *o, char *error, size_t error_size)
     return false;
 }
 
-options_result options_parse(int argc, char **argv, options *out, char *error, size_t error_size)
+/* The text of --set, tried on some settings. */
+static bool check_settings(const options *o, char *error, size_t error_size)
+{
+    char fault[256];
+    glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
+    if (!o->set || setting_apply(o->set, &settings, fault, sizeof fault)) {
+        return true;
+    }
+    snprintf(error, error_size, "--set %s", fault);
+    return false;
+}
+
+static options_result parse(int argc, char **argv, const program *p, options *out, char *error, size_t error_size)
 {
     *out =
         (options){.width = 1280, .height = 720, .quality = GLSSAO_HIGH, .technique = GLSSAO_HORIZON, .blur_rounds = -1};
@@ -358,20 +429,43 @@ options_result options_parse(int argc, char **argv, options *out, char *error, s
         }
     }
     if (out->help) {
-        print_help();
+        print_help(p);
         return OPTIONS_DONE;
     }
     if (out->version) {
         const uint32_t v = glssao_version();
-        printf("glssao-render %d.%d.%d (library %u.%u.%u)\n", GLSSAO_VERSION_MAJOR, GLSSAO_VERSION_MINOR,
+        printf("%s %d.%d.%d (library %u.%u.%u)\n", p->name, GLSSAO_VERSION_MAJOR, GLSSAO_VERSION_MINOR,
                GLSSAO_VERSION_PATCH, v >> 16, v >> 8 & 255, v & 255);
         return OPTIONS_DONE;
     }
-    if (!check_together(out, error, error_size)) {
+    if (!check_together(out, p, error, error_size) || !check_settings(out, error, error_size)) {
         return OPTIONS_WRONG;
     }
     if (!out->scene_path && !out->scene_name) {
         out->scene_name = "columns";
     }
     return OPTIONS_RUN;
+}
+
+options_result options_parse(int argc, char **argv, options *out, char *error, size_t error_size)
+{
+    static const program render = {
+        .name = "glssao-render",
+        .usage = "usage: glssao-render [options] [scene.gltf|scene.glb]\n"
+                 "Renders a glTF scene, or a built-in one, with screen-space ambient occlusion, without a display.\n",
+        .end = "\nExit code: 0 done, 1 could not render, 2 wrong usage."};
+    return parse(argc, argv, &render, out, error, error_size);
+}
+
+options_result options_parse_for_viewer(int argc, char **argv, options *out, char *error, size_t error_size)
+{
+    static const program view = {
+        .name = "glssao-view",
+        .usage =
+            "usage: glssao-view [options] [scene.gltf|scene.glb]\n"
+            "Shows a glTF scene, or a built-in one, with screen-space ambient occlusion, in a window. F1 there shows\n"
+            "the keys. The options are glssao-render's; --output is where pictures are saved.\n",
+        .end = "\nExit code: 0 done, 1 no window or no scene, 2 wrong usage.",
+        .is_viewer = true};
+    return parse(argc, argv, &view, out, error, error_size);
 }

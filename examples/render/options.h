@@ -22,26 +22,45 @@ typedef struct options_vector {
 typedef struct options {
     const char *scene_path;                            /* NULL: the built-in scene */
     const char *scene_name;                            /* of the built-in scene; NULL where a file is given */
+    const char *set;                                   /* setting_table.h; NULL: nothing */
     const char *output, *ao, *normals, *depth, *stats; /* NULL: not wanted */
     int width, height;
     int quality, technique, context; /* glssao_quality, glssao_technique, context_kind */
-    options_number radius, power, fov_deg, near_plane, far_plane;
+    options_number radius, power, fov_deg, near_plane, far_plane, error, budget_ms;
     options_vector eye, target, up;
     int sample_count;  /* 0: the quality's own */
     int blur_rounds;   /* -1: the quality's own */
+    int margin;        /* pixels on each side */
+    int layers;        /* 1 or 2; 0: not given */
     int camera;        /* the scene's N-th, counted from 1; 0: not given */
     int frames, bench; /* 0: not given */
     uint32_t seed;
+    bool no_shadows, mapped_normals, specular_occlusion, multi_bounce;
+    int shadow_size; /* texels; 0: not given */
+    int debug_map;   /* options_map; OPTIONS_MAP_NONE: not given */
     bool plan, no_ao, help, version;
 } options;
 
 /* Of options.technique, behind the library's own. */
 enum { OPTIONS_RAYTRACE = GLSSAO_HORIZON + 1 };
 
+/* Of options.debug_map; the shadow map only where one is drawn. */
+typedef enum options_map {
+    OPTIONS_MAP_NONE = 0,
+    OPTIONS_MAP_AO,
+    OPTIONS_MAP_NORMALS,
+    OPTIONS_MAP_DEPTH,
+    OPTIONS_MAP_RANDOM,
+    OPTIONS_MAP_SHADOW
+} options_map;
+
 typedef enum options_result { OPTIONS_RUN, OPTIONS_DONE, OPTIONS_WRONG } options_result;
 
 /* OPTIONS_DONE: help or version was asked for and printed to stdout. OPTIONS_WRONG: one line in `error` names the
  * option and the value. The strings live as long as argv. */
 options_result options_parse(int argc, char **argv, options *out, char *error, size_t error_size);
+
+/* The same command line for glssao-view, which needs no output and takes none of the options that are about files. */
+options_result options_parse_for_viewer(int argc, char **argv, options *out, char *error, size_t error_size);
 
 #endif

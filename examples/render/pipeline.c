@@ -5,13 +5,15 @@
 #include "pipeline.h"
 
 #include "camera.h"
+#include "map_view.h"
+#include "setting_table.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* The effect's lengths belong together: a radius other than the default's scales the others along. */
-static glssao_settings choose_settings(const options *o, const scene *s)
+glssao_settings pipeline_settings(const options *o, const scene *s)
 {
     const bool traced = o->technique == OPTIONS_RAYTRACE;
     glssao_settings settings =
@@ -26,14 +28,7 @@ static glssao_settings choose_settings(const options *o, const scene *s)
     } else if (o->scene_path) {
         radius = camera_suggest_radius(s);
     }
-    if (radius > 0) {
-        const float scale = radius / settings.radius;
-        settings.fade_start *= scale;
-        settings.fade_end *= scale;
-        settings.surface_epsilon *= scale;
-        settings.blur_depth_threshold *= scale;
-    }
-    settings.radius = radius;
+    setting_scale_radius(&settings, radius);
     if (o->power.given) {
         settings.power = o->power.value;
     }
@@ -42,6 +37,10 @@ static glssao_settings choose_settings(const options *o, const scene *s)
     }
     if (o->blur_rounds >= 0) {
         settings.blur_rounds = o->blur_rounds;
+    }
+    if (o->set) {
+        char fault[256];
+        setting_apply(o->set, &settings, fault, sizeof fault); /* options_parse saw that it is right */
     }
     return settings;
 }
@@ -87,43 +86,35 @@ static bool check_size(int width, int height, char *error, size_t error_size)
     return true;
 }
 
-bool pipeline_create(pipeline *p, const scene *s, context *c, const options *o, pipeline_wants wants, char *error,
-                     size_t error_size)
+static void free_targets(pipeline *p)
 {
-    *p = (pipeline){.wants = wants, .width = o->width, .height = o->height, .seed = o->seed};
-    if (!check_size(o->width, o->height, error, error_size)) {
-        return false;
-    }
-    p->settings = choose_settings(o, s);
-    p->lighting = scene_default_lighting();
-    p->renderer = scene_renderer_create(s, error, error_size);
-    if (!p->renderer) {
-        return false;
-    }
-    if (wants.traced && !truth_open(&p->truth, s, o->width, o->height, error, error_size)) {
-        return false;
-    }
-    p->depth = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, p->width, p->height);
+    gl.DeleteFramebuffers(1, &p->depth_framebuffer);
+    gl.DeleteFramebuffers(1, &p->color_framebuffer);
+    gl.DeleteTextures(1, &p->depth);
+    gl.DeleteTextures(1, &p->color);
+    gl.DeleteFramebuffers(1, &p->layer_framebuffer);
+    gl.DeleteTextures(2, p->layers);
+    p->layers[0] = p->layers[1] = p->layer_framebuffer = 0;
+    p->depth_framebuffer = p->color_framebuffer = p->depth = p->color = 0;
+    map_view_free(p);
+}
+
+static bool make_targets(pipeline *p, char *error, size_t error_size)
+{
     bool complete = true;
-    if (wants.normals) {
-        const glssao_config config = {.load = context_load,
-                                      .load_user = c,
-                                      .log = glssao_log_to_stderr,
-                                      .width = o->width,
-                                      .height = o->height,
-                                      .seed = o->seed,
-                                      .no_timers = !o->stats && !o->bench};
-        const glssao_result result = glssao_create(&config, &p->effect);
-        if (result != GLSSAO_OK) {
-            snprintf(error, error_size, "the effect can't be made: %s", glssao_result_string(result));
-            return false;
-        }
-    } else {
+    p->depth = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, p->width, p->height);
+    if (!p->effect) {
         complete = make_framebuffer(0, p->depth, &p->depth_framebuffer);
     }
-    if (wants.picture) {
+    if (p->wants.picture) {
         p->color = make_texture(GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, p->width, p->height);
         complete = make_framebuffer(p->color, p->depth, &p->color_framebuffer) && complete;
+    }
+    for (int i = 0; p->draw_options.layers && i < 2; i++) {
+        p->layers[i] = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, p->width, p->height);
+    }
+    if (p->draw_options.layers) {
+        complete = make_framebuffer(0, p->layers[0], &p->layer_framebuffer) && complete;
     }
     const GLenum gl_error = gl.GetError();
     if (!complete || gl_error != GL_NO_ERROR) {
@@ -134,17 +125,81 @@ bool pipeline_create(pipeline *p, const scene *s, context *c, const options *o, 
     return true;
 }
 
+bool pipeline_resize(pipeline *p, int width, int height, char *error, size_t error_size)
+{
+    if (!check_size(width, height, error, error_size)) {
+        return false;
+    }
+    const glssao_result result = p->effect ? glssao_resize(p->effect, width, height) : GLSSAO_OK;
+    if (result != GLSSAO_OK) {
+        snprintf(error, error_size, "glssao_resize failed: %s", glssao_result_string(result));
+        return false;
+    }
+    free_targets(p);
+    p->width = width;
+    p->height = height;
+    return make_targets(p, error, error_size);
+}
+
+bool pipeline_create(pipeline *p, const scene *s, glssao_load_fn load, void *load_user, const options *o,
+                     pipeline_wants wants, char *error, size_t error_size)
+{
+    *p = (pipeline){.wants = wants,
+                    .width = o->width + 2 * o->margin,
+                    .height = o->height + 2 * o->margin,
+                    .margin = o->margin,
+                    .seed = o->seed};
+    if (!check_size(p->width, p->height, error, error_size)) {
+        return false;
+    }
+    p->settings = pipeline_settings(o, s);
+    p->goal = (progressive_goal){.error = (double)o->error.value, .budget_ms = (double)o->budget_ms.value};
+    p->lights = malloc((s->light_count + 1u) * sizeof *p->lights);
+    p->renderer = p->lights ? scene_renderer_create(s, error, error_size) : NULL;
+    if (!p->renderer) {
+        return false;
+    }
+    p->lighting = scene_lighting_of(s, p->lights);
+    p->draw_options = (scene_draw_options){.shadows = !o->no_shadows,
+                                           .shadow_size = o->shadow_size,
+                                           .mapped_normals = o->mapped_normals,
+                                           .specular_occlusion = o->specular_occlusion,
+                                           .multi_bounce = o->multi_bounce,
+                                           .layers = wants.ao && o->layers == 2,
+                                           .no_picture = !wants.picture};
+    if (!scene_renderer_configure(p->renderer, &p->lighting, &p->draw_options, error, error_size)) {
+        return false;
+    }
+    p->debug_map = (options_map)o->debug_map;
+    if (wants.traced && !truth_open(&p->truth, s, o->width, o->height, error, error_size)) {
+        return false;
+    }
+    if (wants.normals) {
+        const glssao_config config = {.load = load,
+                                      .load_user = load_user,
+                                      .log = glssao_log_to_stderr,
+                                      .width = p->width,
+                                      .height = p->height,
+                                      .seed = o->seed,
+                                      .no_timers = !wants.timers};
+        const glssao_result result = glssao_create(&config, &p->effect);
+        if (result != GLSSAO_OK) {
+            snprintf(error, error_size, "the effect can't be made: %s", glssao_result_string(result));
+            return false;
+        }
+    }
+    return make_targets(p, error, error_size);
+}
+
 void pipeline_destroy(pipeline *p)
 {
     glssao_destroy(p->effect);
     truth_close(&p->truth);
     if (p->renderer) {
+        free_targets(p);
         scene_renderer_destroy(p->renderer);
-        gl.DeleteFramebuffers(1, &p->depth_framebuffer);
-        gl.DeleteFramebuffers(1, &p->color_framebuffer);
-        gl.DeleteTextures(1, &p->depth);
-        gl.DeleteTextures(1, &p->color);
     }
+    free(p->lights);
     *p = (pipeline){0};
 }
 
@@ -163,7 +218,15 @@ static bool draw_prepass(pipeline *p, const scene_view *view, char *error, size_
             return false;
         }
         scene_draw_normals(p->renderer, view);
-        return check(glssao_end_normals(p->effect), "glssao_end_normals", error, error_size);
+        if (!check(glssao_end_normals(p->effect), "glssao_end_normals", error, error_size)) {
+            return false;
+        }
+        for (int i = 0; p->draw_options.layers && i < 2; i++) {
+            gl.BindFramebuffer(GL_FRAMEBUFFER, p->layer_framebuffer);
+            gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, p->layers[i], 0);
+            scene_draw_layer(p->renderer, view, p->depth, i == 0 ? SCENE_LAYER_BACK : SCENE_LAYER_SECOND);
+        }
+        return true;
     }
     gl.BindFramebuffer(GL_FRAMEBUFFER, p->depth_framebuffer);
     gl.Viewport(0, 0, p->width, p->height);
@@ -176,6 +239,9 @@ static bool draw_prepass(pipeline *p, const scene_view *view, char *error, size_
 static glssao_frame make_frame(const pipeline *p, const scene_view *view)
 {
     glssao_frame frame = {.depth_texture = p->depth,
+                          .margin = p->margin,
+                          .back_texture = p->layers[0],
+                          .second_texture = p->layers[1],
                           .normal_texture = glssao_map(p->effect, GLSSAO_MAP_NORMAL, NULL, NULL)};
     memcpy(frame.projection, view->clip_from_view, sizeof frame.projection);
     return frame;
@@ -187,12 +253,35 @@ static bool find_accessibility(pipeline *p, const scene_view *view, char *error,
         return truth_trace(&p->truth, view, &p->settings, p->seed, error, error_size);
     }
     const glssao_frame frame = make_frame(p, view);
-    return check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", error, error_size);
+    if (p->goal.error <= 0 && p->goal.budget_ms <= 0) {
+        return check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", error, error_size);
+    }
+    const glssao_result result = progressive_run(p->effect, &frame, &p->settings, &p->goal, &p->reached);
+    if (result == GLSSAO_OK) {
+        progressive_print(&p->reached, &p->goal);
+    }
+    return check(result, "glssao_accumulate", error, error_size);
 }
 
-static GLuint ambient_map(const pipeline *p)
+GLuint pipeline_ambient_map(const pipeline *p)
 {
     return p->wants.traced ? p->truth.map : glssao_map(p->effect, GLSSAO_MAP_AMBIENT, NULL, NULL);
+}
+
+void pipeline_shade(pipeline *p, const scene_view *view, GLuint ambient_map, GLuint framebuffer)
+{
+    scene_draw_shadow(p->renderer, &p->lighting);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl.Viewport(0, 0, p->width, p->height);
+    if (p->margin) {
+        gl.Enable(GL_SCISSOR_TEST);
+        gl.Scissor(p->margin, p->margin, p->width - 2 * p->margin, p->height - 2 * p->margin);
+    }
+    scene_draw_main(p->renderer, view, &p->lighting, ambient_map);
+    gl.Disable(GL_SCISSOR_TEST);
+    if (p->debug_map) {
+        map_view_draw(p, view, p->debug_map, map_view_inset(p, p->debug_map), framebuffer);
+    }
 }
 
 bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, char *error, size_t error_size)
@@ -210,15 +299,13 @@ bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, char *
         stopwatch_lap(times, PHASE_AO);
     }
     if (p->wants.picture) {
-        gl.BindFramebuffer(GL_FRAMEBUFFER, p->color_framebuffer);
-        gl.Viewport(0, 0, p->width, p->height);
-        scene_draw_main(p->renderer, view, &p->lighting, p->wants.ao ? ambient_map(p) : 0);
+        pipeline_shade(p, view, p->wants.ao ? pipeline_ambient_map(p) : 0, p->color_framebuffer);
         stopwatch_lap(times, PHASE_MAIN);
     }
     return true;
 }
 
-static void *read_framebuffer(GLuint framebuffer, int width, int height, pixel_kind kind)
+static void *read_framebuffer(const pipeline *p, GLuint framebuffer, pixel_kind kind)
 {
     static const struct {
         GLenum format, type;
@@ -226,23 +313,25 @@ static void *read_framebuffer(GLuint framebuffer, int width, int height, pixel_k
     } layouts[] = {[PIXELS_RGBA8] = {GL_RGBA, GL_UNSIGNED_BYTE, 4},
                    [PIXELS_GREY8] = {GL_RED, GL_UNSIGNED_BYTE, 1},
                    [PIXELS_FLOAT] = {GL_RED, GL_FLOAT, 4}};
+    const int width = p->width - 2 * p->margin, height = p->height - 2 * p->margin;
     void *pixels = malloc((size_t)width * (size_t)height * layouts[kind].size);
     if (pixels) {
         gl.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
         gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-        gl.ReadPixels(0, 0, width, height, layouts[kind].format, layouts[kind].type, pixels);
+        gl.ReadPixels(p->margin, p->margin, width, height, layouts[kind].format, layouts[kind].type, pixels);
     }
     return pixels;
 }
 
 void *pipeline_read_picture(pipeline *p)
 {
-    return read_framebuffer(p->color_framebuffer, p->width, p->height, PIXELS_RGBA8);
+    return read_framebuffer(p, p->color_framebuffer, PIXELS_RGBA8);
 }
 
 /* How to draw a map over a target that is read back at full size. */
 typedef struct map_drawing {
     GLuint texture;
+    scene_rectangle place;
     bool red_only;
     float scale, bias;
     const scene_view *view; /* not NULL: view distances of the depth texture instead */
@@ -264,10 +353,10 @@ static void *read_map(pipeline *p, const map_drawing *drawing, pixel_kind kind)
         if (drawing->view) {
             scene_draw_view_distance(p->renderer, drawing->view, drawing->texture);
         } else {
-            scene_draw_map(p->renderer, drawing->texture, p->width, p->height, drawing->red_only, drawing->scale,
-                           drawing->bias);
+            scene_draw_map_in(p->renderer, drawing->texture, drawing->place, drawing->red_only, drawing->scale,
+                              drawing->bias);
         }
-        pixels = read_framebuffer(framebuffer, p->width, p->height, kind);
+        pixels = read_framebuffer(p, framebuffer, kind);
     }
     gl.DeleteFramebuffers(1, &framebuffer);
     gl.DeleteTextures(1, &texture);
@@ -281,13 +370,17 @@ void *pipeline_read_ao(pipeline *p, pixel_kind kind)
         void *copy = malloc(size);
         return copy ? memcpy(copy, p->truth.accessibility, size) : NULL;
     }
-    return read_map(p, &(map_drawing){.texture = ambient_map(p), .red_only = true, .scale = 1}, kind);
+    const int m = p->margin;
+    const scene_rectangle delivered = {m, m, p->width - 2 * m, p->height - 2 * m};
+    return read_map(
+        p, &(map_drawing){.texture = pipeline_ambient_map(p), .place = delivered, .red_only = true, .scale = 1}, kind);
 }
 
 void *pipeline_read_normals(pipeline *p)
 {
     const GLuint map = glssao_map(p->effect, GLSSAO_MAP_NORMAL, NULL, NULL);
-    return read_map(p, &(map_drawing){.texture = map, .scale = 0.5f, .bias = 0.5f}, PIXELS_RGBA8);
+    const scene_rectangle whole = {0, 0, p->width, p->height};
+    return read_map(p, &(map_drawing){.texture = map, .place = whole, .scale = 0.5f, .bias = 0.5f}, PIXELS_RGBA8);
 }
 
 void *pipeline_read_view_distance(pipeline *p, const scene_view *view)
@@ -328,8 +421,16 @@ void pipeline_print_plan(const pipeline *p, const scene_view *view)
     } else {
         print_row("occlusion", false, 0, 0, 0, "no output reads it");
     }
+    print_row("layers", p->draw_options.layers, -1, p->width, p->height,
+              p->draw_options.layers ? "back faces and the next fronts, for thickness" : "not asked for");
     print_row("main", p->wants.picture, -1, p->width, p->height,
               !p->wants.picture ? "no shaded picture is wanted"
               : p->wants.ao     ? "shades, ambient light scaled by accessibility"
                                 : "shades, ambient light in full");
+    scene_effect effects[SCENE_EFFECT_COUNT];
+    scene_renderer_effects(p->renderer, &p->lighting, effects);
+    for (int i = 0; p->wants.picture && i < SCENE_EFFECT_COUNT; i++) {
+        printf("%-12s %-5s %5s  %-12s %s\n", effects[i].name, effects[i].used ? "use" : "skip", "-", "-",
+               effects[i].reason);
+    }
 }

@@ -6,6 +6,7 @@
 #define GLSSAO_EXAMPLES_REPORT_H
 
 #include "options.h"
+#include "progressive.h"
 #include "scene.h"
 #include "trace.h"
 
@@ -47,8 +48,9 @@ typedef struct report {
     const options *options;
     const scene *scene;
     const char *context;
-    const glssao_settings *settings; /* NULL without occlusion */
-    glssao_stats passes;             /* of the last frame */
+    const glssao_settings *settings;   /* NULL without occlusion */
+    glssao_stats passes;               /* of the last frame */
+    const progressive_report *reached; /* NULL but with --error or --budget */
     const stopwatch *times;
     const trace_stats *traced; /* NULL but with -t raytrace */
     const bench *bench;        /* NULL without --bench */

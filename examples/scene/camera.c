@@ -250,3 +250,16 @@ float camera_suggest_radius(const scene *s)
     double diagonal = bounds_diagonal(s);
     return diagonal > 0.0 ? (float)(diagonal / 20.0) : 0.5f;
 }
+
+scene_view camera_widened_view(const scene_view *view, int margin)
+{
+    scene_view wide = *view;
+    wide.width += 2 * margin;
+    wide.height += 2 * margin;
+    wide.margin = margin;
+    for (int column = 0; column < 4; column++) {
+        wide.clip_from_view[4 * column] *= (float)view->width / (float)wide.width;
+        wide.clip_from_view[4 * column + 1] *= (float)view->height / (float)wide.height;
+    }
+    return wide;
+}

@@ -35,4 +35,7 @@ scene_view camera_view(const camera *c, int width, int height);
 /* The occlusion radius suggested for a scene: 1/20 of its bounds' diagonal, 0.5 for an empty one. */
 float camera_suggest_radius(const scene *s);
 
+/* The same view with more of the scene on each side. */
+scene_view camera_widened_view(const scene_view *view, int margin);
+
 #endif

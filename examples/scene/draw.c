@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Draws a scene_renderer's items: the pre-pass, the main pass, and two full-screen passes over maps. Each function
- * sets all the state it needs and leaves GL's defaults behind.
+ * Draws a scene_renderer's items: the pre-pass, the main pass with sky and blended materials, and for draw_shadow.c
+ * the shadow map. Each function sets all the state it needs and leaves GL's defaults behind.
  */
 #define CGLM_ALL_UNALIGNED /* the matrices are plain float[16] */
 #include "draw_internal.h"
@@ -10,40 +10,37 @@
 #include <cglm/cglm.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-scene_lighting scene_default_lighting(void)
-{
-    /* Tuned by eye: a bluish sky and a warm sun from the upper left front, near 1 together on a white wall. The sky
-     * gives about half, so that occlusion is seen in the lit parts too. */
-    return (scene_lighting){.ambient = {0.46f, 0.50f, 0.56f},
-                            .direction_world = {0.48f, -0.72f, -0.50120f},
-                            .directional = {1.76f, 1.58f, 1.32f},
-                            .sky = {0.42f, 0.52f, 0.64f}};
-}
 
 /* What is the same for all draw calls of a pass, and what the last one left bound. */
 typedef struct triangle_pass {
     const scene_renderer *renderer;
     const scene_view *view;
-    const draw_program *programs;
-    bool is_main;
+    draw_kind kind;
     mat3 normal_view_from_world;
-    vec3 ambient, directional, to_light_view; /* main pass */
+    double clip_from_world[16];
+    float depth_offset;                                              /* layers */
+    vec3 ambient, ambient_tilt, up_view, directional, to_light_view; /* main pass */
+    float lights[MOST_LIGHTS][4][4];
+    int light_count;
 
     const draw_program *program;
+    unsigned variant;
     int material;
-    int uv_set;
+    bool mirrored;
     uint32_t first_instance;
 } triangle_pass;
 
-static void set_defaults(void)
+void draw_set_defaults(void)
 {
     gl.Disable(GL_DEPTH_TEST);
     gl.Disable(GL_CULL_FACE);
     gl.Disable(GL_BLEND);
     gl.Disable(GL_FRAMEBUFFER_SRGB);
+    gl.Disable(GL_POLYGON_OFFSET_FILL);
+    gl.PolygonOffset(0, 0);
     gl.DepthFunc(GL_LESS);
     gl.DepthMask(GL_TRUE);
     gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -54,26 +51,30 @@ static void set_defaults(void)
     gl.UseProgram(0);
     gl.BindVertexArray(0);
     gl.BindBuffer(GL_ARRAY_BUFFER, 0);
-    for (unsigned unit = 2; unit-- > 0;) {
+    for (unsigned unit = UNIT_COUNT; unit-- > 0;) {
         gl.ActiveTexture(GL_TEXTURE0 + unit);
         gl.BindTexture(GL_TEXTURE_2D, 0);
         gl.BindSampler(unit, 0);
     }
 }
 
-static void bind_texture(unsigned unit, unsigned texture, unsigned sampler)
+void draw_bind_texture(unsigned unit, unsigned texture, unsigned sampler)
 {
     gl.ActiveTexture(GL_TEXTURE0 + unit);
     gl.BindTexture(GL_TEXTURE_2D, texture);
     gl.BindSampler(unit, sampler);
 }
 
-static triangle_pass begin_triangles(const scene_renderer *r, const scene_view *view, const draw_program *programs)
+static triangle_pass begin_triangles(const scene_renderer *r, const scene_view *view, draw_kind kind)
 {
-    triangle_pass pass = {.renderer = r, .view = view, .programs = programs, .material = -1, .uv_set = -1};
-    pass.first_instance = UINT32_MAX;
+    triangle_pass pass = {.renderer = r, .view = view, .kind = kind, .material = -1, .first_instance = UINT32_MAX};
     draw_normal_matrix(view->view_from_world, pass.normal_view_from_world);
-    set_defaults();
+    for (int c = 0; c < 4; c++)
+        for (int row = 0; row < 4; row++)
+            for (int k = 0; k < 4; k++)
+                pass.clip_from_world[4 * c + row] +=
+                    (double)view->clip_from_view[4 * k + row] * (double)view->view_from_world[4 * c + k];
+    draw_set_defaults();
     gl.Viewport(0, 0, view->width, view->height);
     gl.Enable(GL_DEPTH_TEST);
     gl.BindVertexArray(r->vertex_array);
@@ -86,15 +87,62 @@ static void use_program(triangle_pass *pass, const draw_program *p)
     gl.UseProgram(p->name);
     gl.UniformMatrix4fv(p->view_from_world, 1, GL_FALSE, view->view_from_world);
     gl.UniformMatrix4fv(p->clip_from_view, 1, GL_FALSE, view->clip_from_view);
+    gl.Uniform1f(p->depth_offset, pass->depth_offset);
     gl.UniformMatrix3fv(p->normal_view_from_world, 1, GL_FALSE, pass->normal_view_from_world[0]);
-    if (pass->is_main) {
+    if (pass->kind == DRAW_MAIN) {
         gl.Uniform3fv(p->ambient, 1, pass->ambient);
+        gl.Uniform3fv(p->ambient_tilt, 1, pass->ambient_tilt);
+        gl.Uniform3fv(p->up_view, 1, pass->up_view);
         gl.Uniform3fv(p->directional, 1, pass->directional);
         gl.Uniform3fv(p->to_light_view, 1, pass->to_light_view);
-        gl.Uniform2f(p->pixel_uv, 1.0f / (float)view->width, 1.0f / (float)view->height);
+        gl.Uniform2f(p->pixel_uv, 1.0f / (float)(view->width - 2 * view->margin),
+                     1.0f / (float)(view->height - 2 * view->margin));
+        gl.Uniform2f(p->origin, (float)view->margin, (float)view->margin);
+        gl.Uniform1i(p->is_orthographic, view->clip_from_view[11] == 0);
+        gl.UniformMatrix4fv(p->shadow_from_world, 1, GL_FALSE, pass->renderer->shadow.shadow_from_world);
+        gl.Uniform1i(p->light_count, pass->light_count);
+        if (pass->light_count)
+            gl.Uniform4fv(p->lights, 4 * pass->light_count, pass->lights[0][0]);
     }
     pass->program = p;
     pass->material = -1;
+}
+
+static void use_map(const scene_renderer *r, unsigned unit, int texture, bool is_srgb, int uv_location, int uv,
+                    const float uv_from_uv[6])
+{
+    float rows[3][4] = {{0}};
+    for (int row = 0; row < 2; row++) {
+        rows[row][2 * uv] = uv_from_uv[3 * row];
+        rows[row][2 * uv + 1] = uv_from_uv[3 * row + 1];
+        rows[2][row] = uv_from_uv[3 * row + 2];
+    }
+    draw_bind_texture(unit, r->images[is_srgb][r->scene->textures[texture].image], r->samplers[texture]);
+    gl.Uniform4fv(uv_location, 3, rows[0]);
+}
+
+static void use_further_maps(const scene_renderer *r, const scene_material *m, const draw_program *p, unsigned variant)
+{
+    const struct {
+        unsigned bit, unit;
+        const scene_map *map;
+        bool is_srgb;
+        int uv_location;
+    } maps[] = {
+        {VARIANT_NORMAL_MAPPED, UNIT_NORMAL, &m->normal_map, false, p->normal_uv},
+        {VARIANT_ROUGHNESS_MAPPED, UNIT_METALLIC_ROUGHNESS, &m->metallic_roughness_map, false,
+         p->metallic_roughness_uv},
+        {VARIANT_BAKED, UNIT_OCCLUSION, &m->occlusion_map, false, p->occlusion_uv},
+        {VARIANT_EMISSION_MAPPED, UNIT_EMISSION, &m->emissive_map, true, p->emission_uv},
+    };
+    for (size_t i = 0; i < sizeof maps / sizeof maps[0]; i++)
+        if (variant & maps[i].bit)
+            use_map(r, maps[i].unit, maps[i].map->texture, maps[i].is_srgb, maps[i].uv_location, maps[i].map->uv,
+                    maps[i].map->uv_from_uv);
+    gl.Uniform1f(p->normal_scale, m->normal_scale);
+    gl.Uniform2f(p->metallic_roughness, m->metallic, m->roughness);
+    gl.Uniform1f(p->occlusion_strength, m->occlusion_strength);
+    gl.Uniform3fv(p->emission, 1, m->emissive);
 }
 
 static void use_material(triangle_pass *pass, int index)
@@ -104,19 +152,10 @@ static void use_material(triangle_pass *pass, int index)
     const draw_program *p = pass->program;
     gl.Uniform4fv(p->base_color, 1, m->base_color);
     gl.Uniform1f(p->alpha_cutoff, m->alpha_cutoff);
-    if (m->base_color_texture >= 0) {
-        bind_texture(UNIT_BASE_COLOR, r->images[r->scene->textures[m->base_color_texture].image],
-                     r->samplers[m->base_color_texture]);
-        gl.Uniform3fv(p->uv_row_u, 1, m->base_color_uv_from_uv);
-        gl.Uniform3fv(p->uv_row_v, 1, m->base_color_uv_from_uv + 3);
-        if (pass->uv_set != m->base_color_uv) {
-            gl.BindBuffer(GL_ARRAY_BUFFER, r->vertex_buffer);
-            gl.VertexAttribPointer(
-                ATTRIBUTE_UV, 2, GL_FLOAT, GL_FALSE, sizeof(scene_vertex),
-                (const void *)(offsetof(scene_vertex, uv) + (size_t)m->base_color_uv * sizeof(float[2])));
-            pass->uv_set = m->base_color_uv;
-        }
-    }
+    if (pass->variant & VARIANT_BASE_MAPPED)
+        use_map(r, UNIT_BASE_COLOR, m->base_color_texture, true, p->base_color_uv, m->base_color_uv,
+                m->base_color_uv_from_uv);
+    use_further_maps(r, m, p, pass->variant);
     if (m->double_sided)
         gl.Disable(GL_CULL_FACE);
     else
@@ -138,37 +177,84 @@ static void use_instances(triangle_pass *pass, uint32_t first)
     pass->first_instance = first;
 }
 
-static void use_item(triangle_pass *pass, const draw_item *item)
+static void draw_item_now(triangle_pass *pass, const draw_item *item)
 {
-    const draw_program *program = &pass->programs[pass->is_main ? item->main_variant : item->normals_variant];
-    if (pass->program != program)
-        use_program(pass, program);
+    const draw_variant *variant = &pass->renderer->variants[item->program[pass->kind]];
+    pass->variant = variant->variant;
+    if (pass->program != &variant->program)
+        use_program(pass, &variant->program);
     if (pass->material != item->material)
         use_material(pass, item->material);
     if (pass->first_instance != item->first_instance)
         use_instances(pass, item->first_instance);
+    gl.Uniform1f(pass->program->handedness, item->mirrored ? -1.0f : 1.0f);
     gl.FrontFace(item->mirrored ? GL_CW : GL_CCW);
-}
-
-static void draw_triangles(const draw_item *item)
-{
     gl.DrawElementsInstanced(GL_TRIANGLES, (GLsizei)item->index_count, GL_UNSIGNED_INT,
                              (const void *)(item->first_index * sizeof(uint32_t)), (GLsizei)item->instance_count);
 }
 
-static void draw_opaque(triangle_pass *pass)
+static unsigned draw_opaque(triangle_pass *pass, unsigned *out_culled)
 {
-    for (uint32_t i = 0; i < pass->renderer->opaque_count; i++) {
-        use_item(pass, &pass->renderer->items[i]);
-        draw_triangles(&pass->renderer->items[i]);
+    const scene_renderer *r = pass->renderer;
+    unsigned drawn = 0;
+    for (uint32_t i = 0; i < r->opaque_count; i++) {
+        if (draw_item_is_seen(&r->items[i], pass->clip_from_world)) {
+            draw_item_now(pass, &r->items[i]);
+            drawn++;
+        } else {
+            (*out_culled)++;
+        }
     }
+    return drawn;
+}
+
+unsigned draw_opaque_items(scene_renderer *r, const scene_view *view, draw_kind kind, unsigned *out_culled)
+{
+    triangle_pass pass = begin_triangles(r, view, kind);
+    if (kind == DRAW_SHADOW)
+        draw_shadow_offset();
+    const unsigned drawn = draw_opaque(&pass, out_culled);
+    draw_set_defaults();
+    return drawn;
+}
+
+/* A renderer that nobody configured draws plainly. */
+static bool is_ready(scene_renderer *r)
+{
+    if (!r->configured) {
+        char error[2048];
+        const scene_lighting none = {0};
+        if (!scene_renderer_configure(r, &none, &(scene_draw_options){0}, error, sizeof error)) {
+            fprintf(stderr, "scene: %s\n", error);
+            return false;
+        }
+    }
+    return true;
 }
 
 void scene_draw_normals(scene_renderer *r, const scene_view *view)
 {
-    triangle_pass pass = begin_triangles(r, view, r->normals);
-    draw_opaque(&pass);
-    set_defaults();
+    if (!is_ready(r))
+        return;
+    r->counts.culled = 0;
+    r->counts.normals = draw_opaque_items(r, view, DRAW_NORMALS, &r->counts.culled);
+}
+
+void scene_draw_layer(scene_renderer *r, const scene_view *view, unsigned depth_texture, scene_layer layer)
+{
+    /* Two steps of a 24-bit depth buffer: the same triangle, drawn again, has the same depth but for rounding. */
+    const float rounding = 1.2e-7f, far_depth = 1;
+    if (!is_ready(r) || !r->options.layers)
+        return;
+    gl.DepthMask(GL_TRUE);
+    gl.ClearBufferfv(GL_DEPTH, 0, &far_depth);
+    triangle_pass pass = begin_triangles(r, view, DRAW_LAYER);
+    pass.depth_offset = layer == SCENE_LAYER_BACK ? -rounding : rounding;
+    draw_bind_texture(UNIT_FIRST_DEPTH, depth_texture, r->nearest_sampler);
+    gl.CullFace(layer == SCENE_LAYER_BACK ? GL_FRONT : GL_BACK); /* of single-sided materials */
+    unsigned culled = 0;
+    (void)draw_opaque(&pass, &culled);
+    draw_set_defaults();
 }
 
 static int compare_back_to_front(const void *a, const void *b)
@@ -183,10 +269,10 @@ static void sort_blended(scene_renderer *r, const scene_view *view)
 {
     const float *m = view->view_from_world;
     for (uint32_t i = r->opaque_count; i < r->item_count; i++) {
-        const double *centre = r->items[i].centre_world;
-        r->blended_order[i - r->opaque_count] = (draw_order){
-            .view_distance = -((double)m[2] * centre[0] + (double)m[6] * centre[1] + (double)m[10] * centre[2] + m[14]),
-            .item = i};
+        double distance = -(double)m[14];
+        for (int axis = 0; axis < 3; axis++)
+            distance -= (double)m[4 * axis + 2] * 0.5 * (r->items[i].bounds_min[axis] + r->items[i].bounds_max[axis]);
+        r->blended_order[i - r->opaque_count] = (draw_order){.view_distance = distance, .item = i};
     }
     qsort(r->blended_order, r->item_count - r->opaque_count, sizeof *r->blended_order, compare_back_to_front);
 }
@@ -196,90 +282,115 @@ static void draw_blended(triangle_pass *pass, scene_renderer *r)
     sort_blended(r, pass->view);
     gl.DepthFunc(GL_LEQUAL);
     gl.Enable(GL_BLEND);
+    /* Colour by straight alpha; the target's own alpha as coverage. */
     gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     for (uint32_t i = 0; i < r->item_count - r->opaque_count; i++) {
         const draw_item *item = &r->items[r->blended_order[i].item];
-        use_item(pass, item);
-        if (r->scene->materials[item->material].double_sided) {
-            /* The far sides first, to be seen through the near ones. */
-            gl.Enable(GL_CULL_FACE);
-            gl.CullFace(GL_FRONT);
-            draw_triangles(item);
-            gl.CullFace(GL_BACK);
-            pass->material = -1; /* the next item sets culling again */
+        if (draw_item_is_seen(item, pass->clip_from_world)) {
+            draw_item_now(pass, item);
+            r->counts.blended++;
+        } else {
+            r->counts.culled++;
         }
-        draw_triangles(item);
     }
+}
+
+static void rotate_to_view(const scene_view *view, const float world[3], vec3 out)
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = view->view_from_world[i] * world[0] + view->view_from_world[4 + i] * world[1] +
+                 view->view_from_world[8 + i] * world[2];
+}
+
+/* As main.frag takes them. */
+static void pack_light(const scene_light *light, const scene_view *view, float out[4][4])
+{
+    memset(out, 0, sizeof(float[4][4]));
+    const bool directional = light->kind == SCENE_LIGHT_DIRECTIONAL, spot = light->kind == SCENE_LIGHT_SPOT;
+    vec3 axis;
+    rotate_to_view(view, light->direction_world, axis);
+    rotate_to_view(view, light->position_world, out[0]);
+    for (int i = 0; i < 3; i++) {
+        out[0][i] = directional ? -axis[i] : out[0][i] + view->view_from_world[12 + i];
+        out[1][i] = light->color[i] / GLM_PIf;
+        out[2][i] = spot ? axis[i] : 0;
+    }
+    out[0][3] = directional ? 0 : 1;
+    out[1][3] = light->range > 0 ? 1 / (light->range * light->range * light->range * light->range) : 0;
+    out[2][3] = spot ? light->outer_cos : -1;
+    out[3][0] = spot ? 1 / fmaxf(light->inner_cos - light->outer_cos, 1e-3f) : 1;
+}
+
+static void set_lighting(triangle_pass *pass, const scene_lighting *lighting)
+{
+    static const float up_world[3] = {0, 1, 0};
+    for (int i = 0; i < 3; i++) {
+        pass->ambient[i] = lighting->ambient[i];
+        pass->ambient_tilt[i] = lighting->ambient_tilt[i];
+        /* A white matte surface sends pi-th of the irradiance towards the eye. */
+        pass->directional[i] = lighting->directional[i] / GLM_PIf;
+    }
+    rotate_to_view(pass->view, up_world, pass->up_view);
+    rotate_to_view(pass->view, lighting->direction_world, pass->to_light_view);
+    glm_vec3_negate(pass->to_light_view);
+    glm_vec3_normalize(pass->to_light_view);
+    glm_vec3_normalize(pass->up_view);
+    pass->light_count = (int)(lighting->light_count < MOST_LIGHTS ? lighting->light_count : MOST_LIGHTS);
+    for (int i = 0; i < pass->light_count; i++)
+        pack_light(&lighting->lights[i], pass->view, pass->lights[i]);
+}
+
+static bool is_gradient(const scene_lighting *lighting)
+{
+    return lighting->sky_tilt[0] != 0 || lighting->sky_tilt[1] != 0 || lighting->sky_tilt[2] != 0;
+}
+
+/* At the far plane, where opaque surfaces left it to be seen. */
+static void draw_sky(scene_renderer *r, const scene_view *view, const scene_lighting *lighting)
+{
+    mat4 clip_from_world, world_from_clip, view_from_world;
+    memcpy(view_from_world, view->view_from_world, sizeof view_from_world);
+    /* Only directions matter: without the eye's place, nothing is lost to large coordinates. */
+    view_from_world[3][0] = view_from_world[3][1] = view_from_world[3][2] = 0;
+    glm_mat4_mul((vec4 *)view->clip_from_view, view_from_world, clip_from_world);
+    glm_mat4_inv(clip_from_world, world_from_clip);
+    const draw_program *p = &r->sky;
+    gl.UseProgram(p->name);
+    gl.BindVertexArray(r->empty_vertex_array);
+    gl.UniformMatrix4fv(p->world_from_clip, 1, GL_FALSE, world_from_clip[0]);
+    gl.Uniform3fv(p->sky, 1, lighting->sky);
+    gl.Uniform3fv(p->sky_tilt, 1, lighting->sky_tilt);
+    gl.Disable(GL_CULL_FACE);
+    gl.FrontFace(GL_CCW);
+    gl.DepthFunc(GL_LEQUAL);
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    r->counts.sky = 1;
 }
 
 void scene_draw_main(scene_renderer *r, const scene_view *view, const scene_lighting *lighting, unsigned ambient_map)
 {
-    triangle_pass pass = begin_triangles(r, view, r->main);
-    pass.is_main = true;
-    for (int i = 0; i < 3; i++) {
-        pass.ambient[i] = lighting->ambient[i];
-        /* A white Lambert surface turned to the light sends irradiance / pi to every side. */
-        pass.directional[i] = lighting->directional[i] / GLM_PIf;
-        pass.to_light_view[i] = 0.0f;
-        for (int c = 0; c < 3; c++)
-            pass.to_light_view[i] -= view->view_from_world[4 * c + i] * lighting->direction_world[c];
-    }
-    glm_vec3_normalize(pass.to_light_view);
+    if (!is_ready(r))
+        return;
+    triangle_pass pass = begin_triangles(r, view, DRAW_MAIN);
+    set_lighting(&pass, lighting);
+    r->counts.culled = r->counts.blended = r->counts.sky = 0;
 
     gl.Enable(GL_FRAMEBUFFER_SRGB);
     const float sky[4] = {lighting->sky[0], lighting->sky[1], lighting->sky[2], 1.0f};
     gl.ClearBufferfv(GL_COLOR, 0, sky);
 
-    bind_texture(UNIT_AMBIENT, ambient_map ? ambient_map : r->white_texture, r->linear_sampler);
+    draw_bind_texture(UNIT_AMBIENT, ambient_map ? ambient_map : r->white_texture, r->linear_sampler);
+    if (r->shadow.used)
+        draw_bind_texture(UNIT_SHADOW, r->shadow.texture, r->shadow.sampler);
     gl.DepthMask(GL_FALSE);
     gl.DepthFunc(GL_EQUAL);
-    draw_opaque(&pass);
+    r->counts.main = draw_opaque(&pass, &r->counts.culled);
+    if (is_gradient(lighting)) {
+        draw_sky(r, view, lighting);
+        gl.BindVertexArray(r->vertex_array);
+        pass.program = NULL;
+    }
     if (r->opaque_count < r->item_count)
         draw_blended(&pass, r);
-    set_defaults();
-}
-
-static void begin_fullscreen(const scene_renderer *r, const draw_program *p, unsigned map, unsigned sampler, int width,
-                             int height)
-{
-    set_defaults();
-    gl.Viewport(0, 0, width, height);
-    gl.UseProgram(p->name);
-    gl.BindVertexArray(r->empty_vertex_array);
-    bind_texture(UNIT_MAP, map, sampler);
-}
-
-static void end_fullscreen(void)
-{
-    gl.DrawArrays(GL_TRIANGLES, 0, 3);
-    set_defaults();
-}
-
-void scene_draw_map(scene_renderer *r, unsigned map, int width, int height, bool red_only, float scale, float bias)
-{
-    const draw_program *p = &r->map;
-    begin_fullscreen(r, p, map, r->linear_sampler, width, height);
-    gl.Uniform2f(p->pixel_uv, 1.0f / (float)width, 1.0f / (float)height);
-    gl.Uniform1f(p->scale, scale);
-    gl.Uniform1f(p->bias, bias);
-    gl.Uniform1i(p->red_only, red_only);
-    end_fullscreen();
-}
-
-void scene_draw_view_distance(scene_renderer *r, const scene_view *view, unsigned depth_texture)
-{
-    /* ndc_z = (a z + b) / (c z + e) in view space, solved for -z: (b - e ndc_z) / (a - c ndc_z), with ndc_z = -1 at
-     * depth 0 and 1 at depth 1. */
-    const float *m = view->clip_from_view;
-    double a = m[10], b = m[14], c = m[11], e = m[15];
-    double numerator[2] = {b + e, b - e}, denominator[2] = {a + c, a - c};
-    /* The sign of the quotient's slope says which end is the far one, also where that is infinitely far. */
-    bool reversed = numerator[1] * denominator[0] < numerator[0] * denominator[1];
-
-    const draw_program *p = &r->view_distance;
-    begin_fullscreen(r, p, depth_texture, r->nearest_sampler, view->width, view->height);
-    gl.Uniform2f(p->numerator, (float)numerator[0], (float)numerator[1]);
-    gl.Uniform2f(p->denominator, (float)denominator[0], (float)denominator[1]);
-    gl.Uniform1f(p->far_depth, reversed ? 0.0f : 1.0f);
-    end_fullscreen();
+    draw_set_defaults();
 }

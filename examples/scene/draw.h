@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * Draws a scene the way the D3D12 demo does: a pre-pass that writes view-space normals and depth, then a main pass
- * with depth EQUAL and no depth write that scales ambient light by accessibility and adds one directional light.
- * Both passes compute positions by one shared expression marked invariant. Blended materials come last, over the
- * opaque picture, and get no occlusion of their own. Unlit materials show their base colour: no light, no occlusion.
+ * Draws a scene the way the D3D12 demo does: a shadow map, a pre-pass that writes view-space normals and depth, then
+ * a main pass with depth EQUAL and no depth write that scales ambient light by accessibility and adds direct light,
+ * then the sky. All passes compute positions by one shared expression marked invariant. Blended materials come last,
+ * over the opaque picture, and get no occlusion of their own. Unlit materials show their base colour: no light, no
+ * occlusion. Each of these exists only where the scene, the lighting and the options call for it, and what lies
+ * outside the view is not drawn.
  *
- * GL state: each draw function sets what it needs (viewport, program, vertex array, texture units 0 and 1, depth,
- * culling, blending, masks, sRGB) and leaves GL's defaults behind, the viewport aside. Scissor, stencil and polygon
- * state it leaves alone; they are expected off.
+ * GL state: each draw function sets what it needs (viewport, program, vertex array, texture units 0 to 6, depth,
+ * culling, blending, masks, sRGB, polygon offset) and leaves GL's defaults behind, the viewport aside. Scissor,
+ * stencil and polygon mode it leaves alone; they are expected off.
  */
 #ifndef GLSSAO_EXAMPLES_DRAW_H
 #define GLSSAO_EXAMPLES_DRAW_H
@@ -20,17 +22,38 @@ typedef struct scene_view {
     float view_from_world[16];  /* column-major */
     float clip_from_view[16];
     int width, height;          /* pixels */
+    int margin;                 /* pixels on each side that the ambient map does not cover */
 } scene_view;
 
 typedef struct scene_lighting {
-    float ambient[3];                /* linear radiance, scaled by accessibility */
+    float ambient[3];                /* linear radiance of the environment at the horizon, scaled by accessibility */
+    float ambient_tilt[3];           /* how much more comes from straight above, and less from straight below */
     float direction_world[3];        /* unit, the way the light travels */
-    float directional[3];            /* linear irradiance */
-    float sky[3];                    /* linear; drawn where nothing is */
+    float directional[3];            /* linear irradiance; all 0: no such light */
+    float sky[3];                    /* linear, at the horizon; drawn where nothing is */
+    float sky_tilt[3];               /* how much more straight above, as with ambient; all 0: one colour */
+    const scene_light *lights;       /* further lights; they cast no shadow. Past 16, the rest is left out */
+    uint32_t light_count;
 } scene_lighting;
 
-/* What the example programs light with. */
+/* A small environment and a sun. */
 scene_lighting scene_default_lighting(void);
+
+/* The same environment with the scene's own lights where it has any. The first directional one takes the sun's place.
+ * A file says nothing of exposure: where its strongest light would give the middle of the scene more irradiance than
+ * pi, which makes a white surface that faces it white, all are dimmed alike. `out_rest` holds the further lights: room
+ * for s->light_count. */
+scene_lighting scene_lighting_of(const scene *s, scene_light *out_rest);
+
+typedef struct scene_draw_options { /* zero is the plainest */
+    bool shadows;            /* of the directional light; ambient light is not shadowed */
+    int shadow_size;         /* side of the shadow map in texels; 0: 2048 */
+    bool mapped_normals;     /* the pre-pass applies normal maps, so that occlusion sees them; else it does not */
+    bool specular_occlusion; /* accessibility darkens ambient reflections by their lobe; else like the rest */
+    bool layers;             /* scene_draw_layer will be called */
+    bool no_picture;         /* the main pass is not drawn: neither its programs nor a shadow map are made */
+    bool multi_bounce;       /* occluded ambient light takes on the surface's colour */
+} scene_draw_options;
 
 /* Uploads the scene through the table in gl.h, which must be loaded. Shaders and textures only for what the scene
  * holds (alpha test, instancing, texture, vertex colour ...). The scene must outlive the renderer. NULL on
@@ -38,12 +61,46 @@ scene_lighting scene_default_lighting(void);
 scene_renderer *scene_renderer_create(const scene *s, char *error, size_t error_size);
 void scene_renderer_destroy(scene_renderer *r);
 
+/* Chooses what the passes do from now on, and makes the programs and the shadow map that this calls for. Lighting may
+ * change from frame to frame, but whether it has a directional light, and further ones, is decided here. Without this
+ * call the first drawing chooses the plainest, and draws nothing where that fails. False, with one line in `error`, on failure; the renderer then still draws. */
+bool scene_renderer_configure(scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options,
+                              char *error, size_t error_size);
+
+/* What the scene, the lighting and the options call for, in words; out[SCENE_EFFECT_COUNT]. */
+enum { SCENE_EFFECT_COUNT = 8 };
+typedef struct scene_effect {
+    const char *name, *reason; /* static */
+    bool used;
+} scene_effect;
+void scene_renderer_effects(const scene_renderer *r, const scene_lighting *lighting, scene_effect *out);
+
+/* Draw calls of the last pass of each kind; `culled` is how many the normals and main passes left out because they
+ * are outside the view. The shadow map's are those of its last drawing. */
+typedef struct scene_draw_counts {
+    unsigned shadow, normals, main, blended, sky, culled;
+} scene_draw_counts;
+scene_draw_counts scene_renderer_counts(const scene_renderer *r);
+
+/* Draws the shadow map where one is called for and the light has another direction than last time. Leaves framebuffer
+ * 0 bound where it did. */
+void scene_draw_shadow(scene_renderer *r, const scene_lighting *lighting);
+/* The shadow map, a depth texture; 0 where there is none. */
+unsigned scene_shadow_map(const scene_renderer *r, int *out_size);
+
 /* Draws opaque and alpha-tested triangles into the bound framebuffer: view-space unit normals, facing the viewer
  * on double-sided materials, to output 0 (alpha 0), and depth (LESS, written). Does not clear. */
 void scene_draw_normals(scene_renderer *r, const scene_view *view);
 
+/* Draws a layer behind the pre-pass's `depth_texture` into the bound framebuffer's depth buffer, which is cleared: the
+ * nearest back face at or behind the surface seen, where double-sided materials count as back faces whichever way they
+ * face; or the nearest front face behind it. Needs options.layers. */
+typedef enum scene_layer { SCENE_LAYER_BACK, SCENE_LAYER_SECOND } scene_layer;
+void scene_draw_layer(scene_renderer *r, const scene_view *view, unsigned depth_texture, scene_layer layer);
+
 /* Draws the picture into the bound framebuffer, whose depth buffer holds the pre-pass's depth: clears colour to
- * the sky, opaque with depth EQUAL, then blended materials back to front with depth LEQUAL and no depth write.
+ * the sky at the horizon, opaque with depth EQUAL, the sky where it is no single colour with depth LEQUAL, then blended
+ * materials back to front with depth LEQUAL and no depth write.
  * Output is linear; the caller's framebuffer is GL_SRGB8_ALPHA8 with GL_FRAMEBUFFER_SRGB enabled by this call.
  * `ambient_map` is an accessibility texture (red; any size, sampled linearly by uv), 0: fully accessible. */
 void scene_draw_main(scene_renderer *r, const scene_view *view, const scene_lighting *lighting, unsigned ambient_map);
@@ -53,9 +110,17 @@ void scene_draw_main(scene_renderer *r, const scene_view *view, const scene_ligh
  * sRGB encoding. For debug views and read-back at full size. */
 void scene_draw_map(scene_renderer *r, unsigned map, int width, int height, bool red_only, float scale, float bias);
 
+/* The same within a rectangle of the bound framebuffer, in pixels from its lower left. */
+typedef struct scene_rectangle {
+    int x, y, width, height;
+} scene_rectangle;
+void scene_draw_map_in(scene_renderer *r, unsigned map, scene_rectangle place, bool red_only, float scale, float bias);
+
 /* View distance of each pixel (0 where nothing was drawn: depth at its far value) from a window-depth texture, to
  * output 0 of the bound framebuffer. Exact for perspective (off-centre, infinite, reversed too) and orthographic
  * projections; depth runs over -1..1 in clip space. */
 void scene_draw_view_distance(scene_renderer *r, const scene_view *view, unsigned depth_texture);
+/* The same times `scale`, in rgb: a grey picture. */
+void scene_draw_distance_picture(scene_renderer *r, const scene_view *view, unsigned depth_texture, float scale);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * What a scene_renderer is made of. draw_upload.c fills it once; draw.c reads it every frame.
+ * What a scene_renderer is made of. draw_upload.c, draw_items.c and draw_programs.c fill it; draw.c and draw_shadow.c
+ * read it every frame.
  */
 #ifndef GLSSAO_EXAMPLES_DRAW_INTERNAL_H
 #define GLSSAO_EXAMPLES_DRAW_INTERNAL_H
@@ -12,10 +13,11 @@
 enum {
     ATTRIBUTE_POSITION = 0,
     ATTRIBUTE_NORMAL = 1,
-    ATTRIBUTE_UV = 2,
+    ATTRIBUTE_UVS = 2,
     ATTRIBUTE_COLOR = 3,
     ATTRIBUTE_WORLD_FROM_MESH = 4,
-    ATTRIBUTE_NORMAL_WORLD_FROM_MESH = 8
+    ATTRIBUTE_NORMAL_WORLD_FROM_MESH = 8,
+    ATTRIBUTE_TANGENT = 11
 };
 
 /* As the vertex shader reads it: columns of three. */
@@ -24,15 +26,19 @@ typedef struct draw_instance {
     float normal_world_from_mesh[3][3];
 } draw_instance;
 
+typedef enum draw_kind { DRAW_NORMALS = 0, DRAW_MAIN, DRAW_SHADOW, DRAW_LAYER, DRAW_KIND_COUNT } draw_kind;
+
 /* One draw call: a primitive for the instances of its mesh that are mirrored, or for those that are not. Blended
  * primitives get an item for each instance, since each has its place in the order of depth. */
 typedef struct draw_item {
     uint32_t first_index, index_count;
     uint32_t first_instance, instance_count; /* in the instance buffer */
     int material;
-    unsigned normals_variant, main_variant;
-    bool mirrored;          /* triangles change their winding */
-    double centre_world[3]; /* of the primitive's bounds; blended items only */
+    bool colored, blended;
+    bool mirrored;               /* triangles change their winding */
+    unsigned variant;            /* of the main pass, less what the options decide */
+    int program[DRAW_KIND_COUNT]; /* index into the renderer's, -1: not drawn so */
+    double bounds_min[3], bounds_max[3]; /* world space, of all instances */
 } draw_item;
 
 typedef struct draw_order {
@@ -40,24 +46,69 @@ typedef struct draw_order {
     uint32_t item;
 } draw_order;
 
+typedef struct draw_variant {
+    draw_kind kind;
+    unsigned variant;
+    draw_program program;
+} draw_variant;
+
+typedef struct draw_shadow {
+    bool used;
+    bool drawn; /* for this direction: */
+    float direction_world[3];
+    int size;
+    unsigned texture, framebuffer, sampler;
+    float view_from_world[16], clip_from_view[16], shadow_from_world[16]; /* the last: uv and depth, 0..1 */
+} draw_shadow;
+
 struct scene_renderer {
     const scene *scene;
     unsigned vertex_array, empty_vertex_array;
-    unsigned vertex_buffer, index_buffer, instance_buffer;
-    unsigned *images;   /* GL texture of each of the scene's images, 0 where no material uses it */
-    unsigned *samplers; /* of each of the scene's textures, 0 likewise */
+    unsigned vertex_buffer, tangent_buffer, index_buffer, instance_buffer;
+    unsigned *images[2]; /* GL texture of each of the scene's images, 0 where no material uses it: linear, sRGB */
+    unsigned *samplers;  /* of each of the scene's textures, 0 likewise */
     unsigned linear_sampler, nearest_sampler; /* clamped, for screen-sized maps */
     unsigned white_texture;                   /* stands in for the ambient map */
     draw_item *items; /* opaque ones first, sorted by program and material; then blended ones as in the file */
     uint32_t opaque_count, item_count;
-    draw_order *blended_order;                                /* scratch, one for each blended item */
-    draw_program normals[VARIANT_COUNT], main[VARIANT_COUNT]; /* built only where an item needs it */
-    draw_program map, view_distance;
+    draw_order *blended_order; /* scratch, one for each blended item */
+    draw_variant *variants;    /* built as items need them */
+    int variant_count;
+    scene_draw_options options;
+    bool configured;
+    draw_program map, view_distance, sky;
+    draw_shadow shadow;
+    scene_draw_counts counts;
 };
 
 /* The inverse transpose of the upper 3x3 of a column-major affine matrix, up to a positive factor: scaled so that its
  * largest element is 1. Where the matrix is singular it is the limit from the unmirrored side. Returns true for a
  * matrix that mirrors. */
 bool draw_normal_matrix(const float affine[16], float out[3][3]);
+
+/* draw_items.c: decides which draw calls the scene takes; fills instances[s->instance_count]. */
+bool draw_plan_items(scene_renderer *r, draw_instance *instances);
+/* False where the item lies wholly outside what the matrix shows. */
+bool draw_item_is_seen(const draw_item *item, const double clip_from_world[16]);
+
+/* draw_programs.c: gives every item the programs that the options call for, building those that are missing. */
+bool draw_choose_programs(scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options,
+                          bool shadowed, char *error, size_t error_size);
+
+/* draw_shadow.c */
+bool draw_shadow_wanted(const scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options);
+bool draw_shadow_make(scene_renderer *r, int size, char *error, size_t error_size);
+void draw_shadow_free(draw_shadow *s);
+/* The polygon offset of its drawing. */
+void draw_shadow_offset(void);
+
+/* draw_maps.c */
+bool draw_build_map_programs(scene_renderer *r, char *error, size_t error_size);
+
+/* draw.c: GL's defaults; one texture; all items of a kind, with the view's matrices. */
+void draw_set_defaults(void);
+void draw_bind_texture(unsigned unit, unsigned texture, unsigned sampler);
+/* Draws opaque items as `kind`, those that are seen; returns how many, and adds those that are not to *out_culled. */
+unsigned draw_opaque_items(scene_renderer *r, const scene_view *view, draw_kind kind, unsigned *out_culled);
 
 #endif

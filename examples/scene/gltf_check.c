@@ -5,6 +5,7 @@
  */
 #include "gltf_document.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -195,6 +196,7 @@ static bool check_node(const gltf_document *d, size_t number, scene_fault *fault
     return check_index(n->mesh, d->mesh_count, "node", number, "mesh", fault) &&
            check_index(n->skin, d->skin_count, "node", number, "skin", fault) &&
            check_index(n->camera, d->camera_count, "node", number, "camera", fault) &&
+           check_index(n->light, d->light_count, "node", number, "light", fault) &&
            check_index(n->instance_translation, d->accessor_count, "node", number, "accessor", fault) &&
            check_index(n->instance_rotation, d->accessor_count, "node", number, "accessor", fault) &&
            check_index(n->instance_scale, d->accessor_count, "node", number, "accessor", fault);
@@ -221,17 +223,46 @@ static bool check_skin(const gltf_document *d, size_t number, scene_fault *fault
 static bool check_material(const gltf_document *d, size_t number, scene_fault *fault)
 {
     const gltf_material *m = &d->materials[number];
-    if (!check_index(m->texture, d->texture_count, "material", number, "texture", fault))
-        return false;
+    const gltf_texture_use *const maps[] = {&m->base_color_map, &m->metallic_roughness_map, &m->normal_map,
+                                            &m->occlusion_map, &m->emissive_map};
+    for (size_t i = 0; i < sizeof maps / sizeof *maps; ++i) {
+        if (!check_index(maps[i]->texture, d->texture_count, "material", number, "texture", fault))
+            return false;
+        if (maps[i]->uv_set < 0)
+            return scene_fail(fault, "material %zu: texCoord is not a number from 0", number);
+    }
     if (strcmp(m->alpha_mode, "OPAQUE") != 0 && strcmp(m->alpha_mode, "MASK") != 0 &&
         strcmp(m->alpha_mode, "BLEND") != 0)
         return scene_fail(fault, "material %zu: alphaMode '%.32s'", number, m->alpha_mode);
-    if (m->uv_set < 0)
-        return scene_fail(fault, "material %zu: texCoord is not a number from 0", number);
     for (int i = 0; i < 4; ++i)
         if (!(m->base_color[i] >= 0 && m->base_color[i] <= 1))
             return scene_fail(fault, "material %zu: base colour %g is not within 0 and 1", number, m->base_color[i]);
+    if (!(m->metallic >= 0 && m->metallic <= 1 && m->roughness >= 0 && m->roughness <= 1))
+        return scene_fail(fault, "material %zu: metallic %g and roughness %g are not within 0 and 1", number,
+                          m->metallic, m->roughness);
+    if (!(m->occlusion_strength >= 0 && m->occlusion_strength <= 1) || !isfinite(m->normal_scale))
+        return scene_fail(fault, "material %zu: occlusion strength %g or normal scale %g is out of range", number,
+                          m->occlusion_strength, m->normal_scale);
+    for (int i = 0; i < 3; ++i)
+        if (!(m->emissive[i] >= 0 && isfinite(m->emissive[i])))
+            return scene_fail(fault, "material %zu: emission %g is negative or not finite", number, m->emissive[i]);
     return m->alpha_cutoff >= 0 || scene_fail(fault, "material %zu: alphaCutoff is negative", number);
+}
+
+static bool check_light(const gltf_document *d, size_t number, scene_fault *fault)
+{
+    const gltf_light *light = &d->lights[number];
+    if (strcmp(light->type, "directional") != 0 && strcmp(light->type, "point") != 0 &&
+        strcmp(light->type, "spot") != 0)
+        return scene_fail(fault, "light %zu: type '%.32s'", number, light->type);
+    for (int i = 0; i < 3; ++i)
+        if (!(light->color[i] >= 0 && isfinite(light->color[i] * light->intensity)))
+            return scene_fail(fault, "light %zu: its colour or intensity is negative or not finite", number);
+    const bool cones = light->inner_cone_rad >= 0 && light->inner_cone_rad < light->outer_cone_rad &&
+                       light->outer_cone_rad <= 1.5707964; /* half of pi, as written with few digits */
+    return (light->intensity >= 0 && light->range >= 0 && isfinite(light->range) &&
+            (strcmp(light->type, "spot") != 0 || cones)) ||
+           scene_fail(fault, "light %zu: its intensity, range or cone is out of range", number);
 }
 
 static bool check_texture(const gltf_document *d, size_t number, scene_fault *fault)
@@ -326,6 +357,7 @@ bool gltf_check(const gltf_document *d, scene_fault *fault)
                  {check_node, d->node_count},
                  {check_skin, d->skin_count},
                  {check_material, d->material_count},
+                 {check_light, d->light_count},
                  {check_texture, d->texture_count},
                  {check_image, d->image_count}};
     if (!check_version(d, fault))

@@ -31,6 +31,7 @@ struct document_owner {
     std::vector<gltf_sampler> samplers;
     std::vector<gltf_image> images;
     std::vector<gltf_camera> cameras;
+    std::vector<gltf_light> lights;
     std::vector<gltf_scene> scenes;
     // A deque does not move its elements when it grows.
     std::deque<std::vector<gltf_attribute>> attributes;
@@ -147,6 +148,9 @@ bool translate(const tinygltf::Node &from, size_t number, gltf_node *out, scene_
     out->mesh = from.mesh;
     out->skin = from.skin;
     out->camera = from.camera;
+    out->light = -1;
+    if (const tinygltf::Value *light = find_extension(from.extensions, "KHR_lights_punctual"))
+        out->light = index_member(*light, "light", -1);
     point_to(from.children, &out->children, &out->child_count);
     point_to(from.weights, &out->weights.values, &out->weights.count);
     out->has_matrix = !from.matrix.empty();
@@ -166,22 +170,43 @@ bool translate(const tinygltf::Node &from, size_t number, gltf_node *out, scene_
     return true;
 }
 
+// Of a TextureInfo, and of those for normals and occlusion, which share its members.
+template <typename Info> gltf_texture_use translate_use(const Info &from)
+{
+    gltf_texture_use out{};
+    out.texture = from.index;
+    out.uv_set = from.texCoord;
+    out.scale[0] = out.scale[1] = 1;
+    if (const tinygltf::Value *transform = find_extension(from.extensions, "KHR_texture_transform")) {
+        copy_member(*transform, "offset", out.offset);
+        copy_member(*transform, "scale", out.scale);
+        if (transform->Has("rotation"))
+            out.rotation = transform->Get("rotation").GetNumberAsDouble();
+        out.uv_set = index_member(*transform, "texCoord", out.uv_set);
+    }
+    return out;
+}
+
 bool translate(const tinygltf::Material &from, size_t number, gltf_material *out, scene_fault *fault)
 {
     const tinygltf::PbrMetallicRoughness &pbr = from.pbrMetallicRoughness;
     std::fill(out->base_color, out->base_color + 4, 1.0);
     if (!copy_numbers(pbr.baseColorFactor, out->base_color))
         return scene_fail(fault, "material %zu: its baseColorFactor does not have four numbers", number);
-    out->texture = pbr.baseColorTexture.index;
-    out->uv_set = pbr.baseColorTexture.texCoord;
-    out->uv_scale[0] = out->uv_scale[1] = 1;
-    if (const tinygltf::Value *transform = find_extension(pbr.baseColorTexture.extensions, "KHR_texture_transform")) {
-        copy_member(*transform, "offset", out->uv_offset);
-        copy_member(*transform, "scale", out->uv_scale);
-        if (transform->Has("rotation"))
-            out->uv_rotation = transform->Get("rotation").GetNumberAsDouble();
-        out->uv_set = index_member(*transform, "texCoord", out->uv_set);
-    }
+    if (!copy_numbers(from.emissiveFactor, out->emissive))
+        return scene_fail(fault, "material %zu: its emissiveFactor does not have three numbers", number);
+    if (const tinygltf::Value *emission = find_extension(from.extensions, "KHR_materials_emissive_strength"))
+        for (double &channel : out->emissive)
+            channel *= emission->Has("emissiveStrength") ? emission->Get("emissiveStrength").GetNumberAsDouble() : 1;
+    out->base_color_map = translate_use(pbr.baseColorTexture);
+    out->metallic_roughness_map = translate_use(pbr.metallicRoughnessTexture);
+    out->normal_map = translate_use(from.normalTexture);
+    out->occlusion_map = translate_use(from.occlusionTexture);
+    out->emissive_map = translate_use(from.emissiveTexture);
+    out->metallic = pbr.metallicFactor;
+    out->roughness = pbr.roughnessFactor;
+    out->normal_scale = from.normalTexture.scale;
+    out->occlusion_strength = from.occlusionTexture.strength;
     out->alpha_mode = from.alphaMode.c_str();
     out->alpha_cutoff = from.alphaCutoff;
     out->double_sided = from.doubleSided;
@@ -212,6 +237,18 @@ gltf_camera translate(const tinygltf::Camera &from)
     out.near_plane = out.orthographic ? from.orthographic.znear : from.perspective.znear;
     out.far_plane = out.orthographic ? from.orthographic.zfar : from.perspective.zfar;
     return out;
+}
+
+bool translate(const tinygltf::Light &from, size_t number, gltf_light *out, scene_fault *fault)
+{
+    std::fill(out->color, out->color + 3, 1.0);
+    out->type = from.type.c_str();
+    out->intensity = from.intensity;
+    out->range = from.range;
+    out->inner_cone_rad = from.spot.innerConeAngle;
+    out->outer_cone_rad = from.spot.outerConeAngle;
+    return copy_numbers(from.color, out->color) ||
+           scene_fail(fault, "light %zu: its color does not have three numbers", number);
 }
 
 bool translate_all(document_owner *owner, gltf_document *out, scene_fault *fault)
@@ -245,6 +282,10 @@ bool translate_all(document_owner *owner, gltf_document *out, scene_fault *fault
         owner->images.push_back(translate(image));
     for (const tinygltf::Camera &camera : model.cameras)
         owner->cameras.push_back(translate(camera));
+    owner->lights.resize(model.lights.size());
+    for (size_t i = 0; i < model.lights.size(); ++i)
+        if (!translate(model.lights[i], i, &owner->lights[i], fault))
+            return false;
     for (const tinygltf::Scene &scene : model.scenes)
         owner->scenes.push_back({scene.nodes.data(), scene.nodes.size()});
 
@@ -262,6 +303,7 @@ bool translate_all(document_owner *owner, gltf_document *out, scene_fault *fault
     point_to(owner->samplers, &out->samplers, &out->sampler_count);
     point_to(owner->images, &out->images, &out->image_count);
     point_to(owner->cameras, &out->cameras, &out->camera_count);
+    point_to(owner->lights, &out->lights, &out->light_count);
     point_to(owner->scenes, &out->scenes, &out->scene_count);
     return true;
 }

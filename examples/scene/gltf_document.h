@@ -89,7 +89,7 @@ typedef struct gltf_mesh {
 } gltf_mesh;
 
 typedef struct gltf_node {
-    int mesh, skin, camera;
+    int mesh, skin, camera, light;
     const int *children;
     size_t child_count;
     bool has_matrix;
@@ -106,10 +106,15 @@ typedef struct gltf_skin {
     int inverse_bind_matrices;
 } gltf_skin;
 
-typedef struct gltf_material {
-    double base_color[4];
+typedef struct gltf_texture_use {
     int texture, uv_set;
-    double uv_offset[2], uv_scale[2], uv_rotation; /* KHR_texture_transform; radians */
+    double offset[2], scale[2], rotation; /* KHR_texture_transform; radians */
+} gltf_texture_use;
+
+typedef struct gltf_material {
+    double base_color[4], metallic, roughness, normal_scale, occlusion_strength;
+    double emissive[3]; /* KHR_materials_emissive_strength multiplied in */
+    gltf_texture_use base_color_map, metallic_roughness_map, normal_map, occlusion_map, emissive_map;
     const char *alpha_mode;
     double alpha_cutoff;
     bool double_sided, unlit;
@@ -136,6 +141,11 @@ typedef struct gltf_camera {
     double fov_y_rad, x_mag, y_mag, near_plane, far_plane;
 } gltf_camera;
 
+typedef struct gltf_light { /* KHR_lights_punctual */
+    const char *type;
+    double color[3], intensity, range, inner_cone_rad, outer_cone_rad; /* range 0: infinite */
+} gltf_light;
+
 typedef struct gltf_scene {
     const int *nodes;
     size_t node_count;
@@ -158,9 +168,10 @@ typedef struct gltf_document {
     const gltf_sampler *samplers;
     const gltf_image *images;
     const gltf_camera *cameras;
+    const gltf_light *lights;
     const gltf_scene *scenes;
     size_t buffer_count, buffer_view_count, accessor_count, mesh_count, node_count, skin_count, material_count,
-        texture_count, sampler_count, image_count, camera_count, scene_count;
+        texture_count, sampler_count, image_count, camera_count, light_count, scene_count;
 } gltf_document;
 
 /* Reads and parses the file. On failure false, with the fault set, and nothing to close. */

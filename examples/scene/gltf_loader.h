@@ -20,6 +20,7 @@ typedef struct gltf_vertices {
     float (*normals)[3];
     float (*uvs[2])[2];
     float (*colors)[4];
+    float (*tangents)[4]; /* NULL too where they are posed or have no use: then they are computed */
     bool mirrored;   /* posed by a skin that turns it inside out: windings are to be swapped */
     bool normals_ok; /* all finite and of some length */
     bool emitted;    /* they are in the scene from `first` on */
@@ -79,6 +80,10 @@ bool gltf_make_triangles(gltf_loader *l, const gltf_primitive *p, gltf_triangles
 
 /* gltf_mesh.c: the scene's mesh for the one that a node draws; -1 on failure. */
 int gltf_add_mesh(gltf_loader *l, size_t node);
+
+/* gltf_tangents.c: gives the vertices of triangles whose indices are the scene's a tangent: the file's, or one
+ * computed from uv set `uv`, for which vertices are split (and indices changed) where triangles disagree. */
+bool gltf_add_tangents(gltf_loader *l, gltf_triangles *triangles, int uv);
 
 /* gltf_node.c: world matrices of all nodes; then instances and cameras of the scene that is to be drawn. */
 bool gltf_place_nodes(gltf_loader *l);

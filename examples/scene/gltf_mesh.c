@@ -162,11 +162,25 @@ static bool add_triangles(gltf_loader *l, gltf_triangles *triangles, int materia
     uint32_t first = 0;
     if (!(l->recent.normals ? add_shared(l, triangles) : add_flat(l, triangles)))
         return false;
+    const scene_map *normal_map = &l->builder->made->materials[material].normal_map;
+    if (normal_map->used && !gltf_add_tangents(l, triangles, normal_map->uv))
+        return false;
     uint32_t *to = scene_builder_add_indices(l->builder, triangles->count, &first);
     if (!to)
         return false;
     memcpy(to, triangles->indices, triangles->count * sizeof *to);
     return scene_builder_add_primitive(l->builder, first, material);
+}
+
+/* A vertex keeps two sets. One past the second takes its place; of several, the first that a map names. */
+static int second_uv_set(const gltf_material *m)
+{
+    const gltf_texture_use *const maps[] = {&m->base_color_map, &m->normal_map, &m->metallic_roughness_map,
+                                            &m->occlusion_map, &m->emissive_map};
+    for (size_t i = 0; i < sizeof maps / sizeof *maps; ++i)
+        if (maps[i]->texture >= 0 && maps[i]->uv_set > 0)
+            return maps[i]->uv_set;
+    return 1;
 }
 
 static bool add_primitive(gltf_loader *l, const gltf_primitive *p, size_t node)
@@ -176,9 +190,7 @@ static bool add_primitive(gltf_loader *l, const gltf_primitive *p, size_t node)
     const int material = gltf_add_material(l, p->material);
     if (material < 0)
         return false;
-    /* Only the base colour has a texture, so a set past the second takes the second's place. */
-    const int set = p->material < 0 ? 0 : l->document->materials[p->material].uv_set;
-    const int uv_sets[2] = {0, set > 1 ? set : 1};
+    const int uv_sets[2] = {0, p->material < 0 ? 1 : second_uv_set(&l->document->materials[p->material])};
     gltf_triangles triangles = {0};
     const bool ok = gltf_read_vertices(l, p, node, uv_sets) && gltf_make_triangles(l, p, &triangles) &&
                     (!triangles.count || add_triangles(l, &triangles, material));

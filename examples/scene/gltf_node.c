@@ -237,10 +237,35 @@ static bool add_camera(gltf_loader *l, size_t node)
     return scene_builder_add_camera(l->builder, &camera) >= 0;
 }
 
+/* It shines along -z of its node, whatever the node's scale. */
+static bool add_light(gltf_loader *l, size_t node)
+{
+    const gltf_light *from = &l->document->lights[l->document->nodes[node].light];
+    scene_light light = {.kind = !strcmp(from->type, "point")  ? SCENE_LIGHT_POINT
+                                 : !strcmp(from->type, "spot") ? SCENE_LIGHT_SPOT
+                                                               : SCENE_LIGHT_DIRECTIONAL,
+                         .range = (float)from->range,
+                         .inner_cos = (float)cos(from->inner_cone_rad),
+                         .outer_cos = (float)cos(from->outer_cone_rad)};
+    const float *m = l->world_from_node[node];
+    const float length = sqrtf(m[8] * m[8] + m[9] * m[9] + m[10] * m[10]);
+    bool shines = light.kind == SCENE_LIGHT_POINT || (length > 0 && isfinite(length));
+    bool bright = false;
+    for (int i = 0; i < 3; ++i) {
+        light.color[i] = (float)(from->color[i] * from->intensity);
+        light.position_world[i] = m[12 + i];
+        light.direction_world[i] = length > 0 ? -m[8 + i] / length : 0;
+        bright = bright || light.color[i] > 0;
+        shines = shines && isfinite(light.color[i]);
+    }
+    return !shines || !bright || scene_builder_add_light(l->builder, &light) >= 0;
+}
+
 static bool add_branch(gltf_loader *l, size_t node)
 {
     const gltf_node *n = &l->document->nodes[node];
-    if ((n->camera >= 0 && !add_camera(l, node)) || (n->mesh >= 0 && !draw_node(l, node)))
+    if ((n->camera >= 0 && !add_camera(l, node)) || (n->light >= 0 && !add_light(l, node)) ||
+        (n->mesh >= 0 && !draw_node(l, node)))
         return false;
     for (size_t i = 0; i < n->child_count; ++i)
         if (!add_branch(l, (size_t)n->children[i]))

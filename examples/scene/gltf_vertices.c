@@ -17,6 +17,7 @@ void gltf_free_vertices(gltf_vertices *v)
     free(v->uvs[0]);
     free(v->uvs[1]);
     free(v->colors);
+    free(v->tangents);
     memset(v, 0, sizeof *v);
 }
 
@@ -146,6 +147,8 @@ bool gltf_read_vertices(gltf_loader *l, const gltf_primitive *primitive, size_t 
     v->uvs[0] = (float(*)[2])read_uvs(l, v, uv_sets[0]);
     v->uvs[1] = (float(*)[2])read_uvs(l, v, uv_sets[1]);
     v->colors = (float(*)[4])read_colors(l, v);
+    if (pose == SIZE_MAX && v->normals)
+        v->tangents = (float(*)[4])read_attribute(l, attributes, "TANGENT", 4, GLTF_AS_SAID);
     if (l->fault->set || !pose_targets(l, v, node) || !check_positions(l, v) ||
         (node->skin >= 0 && (!gltf_pose_skin(l, v, node->skin, node_number) || !check_positions(l, v))))
         return false;

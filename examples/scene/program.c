@@ -13,8 +13,23 @@ static const struct {
     unsigned bit;
     const char *macro;
 } variant_macros[] = {
-    {VARIANT_TEXTURED, "TEXTURED"}, {VARIANT_COLORED, "COLORED"},           {VARIANT_MASKED, "MASKED"},
-    {VARIANT_LIT, "LIT"},           {VARIANT_DOUBLE_SIDED, "DOUBLE_SIDED"}, {VARIANT_BLENDED, "BLENDED"},
+    {VARIANT_TEXTURED, "TEXTURED"},
+    {VARIANT_COLORED, "COLORED"},
+    {VARIANT_MASKED, "MASKED"},
+    {VARIANT_LIT, "LIT"},
+    {VARIANT_DOUBLE_SIDED, "DOUBLE_SIDED"},
+    {VARIANT_BLENDED, "BLENDED"},
+    {VARIANT_NORMAL_MAPPED, "NORMAL_MAPPED"},
+    {VARIANT_REFLECTIVE, "REFLECTIVE"},
+    {VARIANT_ROUGHNESS_MAPPED, "ROUGHNESS_MAPPED"},
+    {VARIANT_BAKED, "BAKED"},
+    {VARIANT_EMISSIVE, "EMISSIVE"},
+    {VARIANT_EMISSION_MAPPED, "EMISSION_MAPPED"},
+    {VARIANT_SHADOWED, "SHADOWED"},
+    {VARIANT_LIGHTS, "LIGHTS"},
+    {VARIANT_SPECULAR_OCCLUSION, "SPECULAR_OCCLUSION"},
+    {VARIANT_MULTI_BOUNCE, "MULTI_BOUNCE"},
+    {VARIANT_BASE_MAPPED, "BASE_MAPPED"},
 };
 
 static const struct {
@@ -24,14 +39,33 @@ static const struct {
     {"u_view_from_world", offsetof(draw_program, view_from_world)},
     {"u_clip_from_view", offsetof(draw_program, clip_from_view)},
     {"u_normal_view_from_world", offsetof(draw_program, normal_view_from_world)},
-    {"u_uv_row_u", offsetof(draw_program, uv_row_u)},
-    {"u_uv_row_v", offsetof(draw_program, uv_row_v)},
+    {"u_base_color_uv", offsetof(draw_program, base_color_uv)},
+    {"u_normal_uv", offsetof(draw_program, normal_uv)},
+    {"u_metallic_roughness_uv", offsetof(draw_program, metallic_roughness_uv)},
+    {"u_occlusion_uv", offsetof(draw_program, occlusion_uv)},
+    {"u_emission_uv", offsetof(draw_program, emission_uv)},
+    {"u_handedness", offsetof(draw_program, handedness)},
+    {"u_normal_scale", offsetof(draw_program, normal_scale)},
+    {"u_metallic_roughness", offsetof(draw_program, metallic_roughness)},
+    {"u_occlusion_strength", offsetof(draw_program, occlusion_strength)},
+    {"u_emission", offsetof(draw_program, emission)},
     {"u_base_color", offsetof(draw_program, base_color)},
     {"u_alpha_cutoff", offsetof(draw_program, alpha_cutoff)},
     {"u_ambient", offsetof(draw_program, ambient)},
+    {"u_ambient_tilt", offsetof(draw_program, ambient_tilt)},
+    {"u_up_view", offsetof(draw_program, up_view)},
+    {"u_is_orthographic", offsetof(draw_program, is_orthographic)},
+    {"u_shadow_from_world", offsetof(draw_program, shadow_from_world)},
+    {"u_lights", offsetof(draw_program, lights)},
+    {"u_light_count", offsetof(draw_program, light_count)},
+    {"u_world_from_clip", offsetof(draw_program, world_from_clip)},
+    {"u_sky", offsetof(draw_program, sky)},
+    {"u_sky_tilt", offsetof(draw_program, sky_tilt)},
+    {"u_origin", offsetof(draw_program, origin)},
     {"u_directional", offsetof(draw_program, directional)},
     {"u_to_light_view", offsetof(draw_program, to_light_view)},
     {"u_pixel_uv", offsetof(draw_program, pixel_uv)},
+    {"u_depth_offset", offsetof(draw_program, depth_offset)},
     {"u_scale", offsetof(draw_program, scale)},
     {"u_bias", offsetof(draw_program, bias)},
     {"u_red_only", offsetof(draw_program, red_only)},
@@ -46,6 +80,12 @@ static const struct {
 } samplers[] = {
     {"u_base_color_map", UNIT_BASE_COLOR},
     {"u_ambient_map", UNIT_AMBIENT},
+    {"u_first_depth_map", UNIT_FIRST_DEPTH},
+    {"u_shadow_map", UNIT_SHADOW},
+    {"u_normal_map", UNIT_NORMAL},
+    {"u_metallic_roughness_map", UNIT_METALLIC_ROUGHNESS},
+    {"u_occlusion_map", UNIT_OCCLUSION},
+    {"u_emission_map", UNIT_EMISSION},
     {"u_map", UNIT_MAP},
     {"u_depth_map", UNIT_MAP},
 };
@@ -65,16 +105,17 @@ static void say_failure(const char *what, const char *step, char *log, char *err
     snprintf(error, error_size, "%s, %s: %s", what, step, *log ? log : "the driver gives no reason");
 }
 
-static unsigned compile(GLenum type, const char *source, const char *macros, const char *what, char *error,
-                        size_t error_size)
+static unsigned compile(GLenum type, const char *macros, const char *shared, const char *source, const char *what,
+                        char *error, size_t error_size)
 {
     /* #version has to come first; it is the first line of each shader file. */
     size_t version_length = strcspn(source, "\n") + 1;
-    const char *parts[] = {source, macros, source + version_length};
-    const GLint lengths[] = {(GLint)version_length, -1, -1};
+    /* Line numbers in the driver's log are then those of the file. */
+    const char *parts[] = {source, macros, shared, "#line 2\n", source + version_length};
+    const GLint lengths[] = {(GLint)version_length, -1, -1, -1, -1};
 
     unsigned shader = gl.CreateShader(type);
-    gl.ShaderSource(shader, 3, parts, lengths);
+    gl.ShaderSource(shader, 5, parts, lengths);
     gl.CompileShader(shader);
     GLint compiled = GL_FALSE;
     gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
@@ -113,21 +154,19 @@ static void look_up(draw_program *p)
     gl.UseProgram(0);
 }
 
-bool draw_program_build(draw_program *p, const char *what, const char *vertex_source, const char *fragment_source,
-                        unsigned variant, char *error, size_t error_size)
+bool draw_program_build(draw_program *p, const char *what, const char *vertex_source, const char *shared_source,
+                        const char *fragment_source, unsigned variant, char *error, size_t error_size)
 {
-    char macros[256] = "";
+    char macros[640] = "";
     size_t length = 0;
     for (size_t i = 0; i < sizeof variant_macros / sizeof variant_macros[0]; i++)
         length += (size_t)snprintf(macros + length, sizeof macros - length, "#define %s %d\n", variant_macros[i].macro,
                                    (variant & variant_macros[i].bit) != 0);
-    /* Line numbers in the driver's log are then those of the file. */
-    snprintf(macros + length, sizeof macros - length, "#line 2\n");
 
-    unsigned vertex = compile(GL_VERTEX_SHADER, vertex_source, macros, what, error, error_size);
+    unsigned vertex = compile(GL_VERTEX_SHADER, macros, "", vertex_source, what, error, error_size);
     if (!vertex)
         return false;
-    unsigned fragment = compile(GL_FRAGMENT_SHADER, fragment_source, macros, what, error, error_size);
+    unsigned fragment = compile(GL_FRAGMENT_SHADER, macros, shared_source, fragment_source, what, error, error_size);
     if (!fragment) {
         gl.DeleteShader(vertex);
         return false;

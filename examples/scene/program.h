@@ -10,32 +10,58 @@
 
 /* Bits of a variant; each is a macro of that name, 0 or 1, in the shaders. */
 enum {
-    VARIANT_TEXTURED = 1,      /* base colour texture */
+    VARIANT_TEXTURED = 1,      /* any map is read */
     VARIANT_COLORED = 2,       /* vertex colours other than white */
     VARIANT_MASKED = 4,        /* alpha test */
     VARIANT_LIT = 8,           /* normals wanted: all of the pre-pass, all but unlit materials in the main pass */
     VARIANT_DOUBLE_SIDED = 16, /* normals turn with gl_FrontFacing */
     VARIANT_BLENDED = 32,
-    VARIANT_COUNT = 64
+    VARIANT_NORMAL_MAPPED = 64,
+    VARIANT_REFLECTIVE = 128,      /* metallic-roughness reflection; without: matte */
+    VARIANT_ROUGHNESS_MAPPED = 256, /* where REFLECTIVE */
+    VARIANT_BAKED = 512,           /* an occlusion texture */
+    VARIANT_EMISSIVE = 1024,
+    VARIANT_EMISSION_MAPPED = 2048, /* where EMISSIVE */
+    VARIANT_SHADOWED = 4096,
+    VARIANT_LIGHTS = 8192,         /* more lights than the first directional one */
+    VARIANT_SPECULAR_OCCLUSION = 16384, /* where REFLECTIVE and not BLENDED */
+    VARIANT_MULTI_BOUNCE = 32768,  /* where not BLENDED */
+    VARIANT_BASE_MAPPED = 65536    /* base colour texture */
 };
 
 /* Texture units, fixed when a program is made. */
-enum { UNIT_BASE_COLOR = 0, UNIT_MAP = 0, UNIT_AMBIENT = 1 };
+enum {
+    UNIT_BASE_COLOR = 0,
+    UNIT_MAP = 0,
+    UNIT_AMBIENT,
+    UNIT_FIRST_DEPTH = UNIT_AMBIENT,
+    UNIT_SHADOW,
+    UNIT_NORMAL,
+    UNIT_METALLIC_ROUGHNESS,
+    UNIT_OCCLUSION,
+    UNIT_EMISSION,
+    UNIT_COUNT
+};
+
+enum { MOST_LIGHTS = 16 }; /* in main.frag too */
 
 /* Locations are -1 for uniforms that the program does not have; GL ignores what is set there. */
 typedef struct draw_program {
     unsigned name; /* 0: not built */
     int view_from_world, clip_from_view, normal_view_from_world;
-    int uv_row_u, uv_row_v;
+    int base_color_uv, normal_uv, metallic_roughness_uv, occlusion_uv, emission_uv;
     int base_color, alpha_cutoff;
-    int ambient, directional, to_light_view;
-    int pixel_uv;
+    int handedness, normal_scale, metallic_roughness, occlusion_strength, emission;
+    int ambient, ambient_tilt, up_view, directional, to_light_view, is_orthographic;
+    int shadow_from_world, lights, light_count;
+    int pixel_uv, origin, depth_offset;
+    int world_from_clip, sky, sky_tilt;
     int scale, bias, red_only;
     int numerator, denominator, far_depth;
 } draw_program;
 
-/* Compiles and links. False on failure, with `what` and the driver's log in one line of `error`. */
-bool draw_program_build(draw_program *p, const char *what, const char *vertex_source, const char *fragment_source,
-                        unsigned variant, char *error, size_t error_size);
+/* Compiles and links; `shared_source` (may be "") comes before the fragment shader's own. False on failure, with `what` and the driver's log in one line of `error`. */
+bool draw_program_build(draw_program *p, const char *what, const char *vertex_source, const char *shared_source,
+                        const char *fragment_source, unsigned variant, char *error, size_t error_size);
 
 #endif

@@ -13,6 +13,7 @@ void scene_destroy(scene *s)
     for (uint32_t i = 0; i < s->image_count; ++i)
         free(s->images[i].rgba);
     free(s->vertices);
+    free(s->tangents);
     free(s->indices);
     free(s->primitives);
     free(s->meshes);
@@ -21,5 +22,6 @@ void scene_destroy(scene *s)
     free(s->textures);
     free(s->images);
     free(s->cameras);
+    free(s->lights);
     free(s);
 }

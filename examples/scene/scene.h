@@ -36,6 +36,14 @@ typedef struct scene_texture {
     bool min_nearest, mag_nearest, mipmaps;
 } scene_texture;
 
+/* How a material reads a texture other than its base colour. */
+typedef struct scene_map {
+    bool used;
+    int texture;         /* index into textures; linear, but for emission, which is sRGB */
+    int uv;              /* which uv set, 0 or 1 */
+    float uv_from_uv[6]; /* as base_color_uv_from_uv */
+} scene_map;
+
 typedef enum scene_alpha { SCENE_ALPHA_OPAQUE = 0, SCENE_ALPHA_MASK, SCENE_ALPHA_BLEND } scene_alpha;
 
 typedef struct scene_material {
@@ -47,6 +55,15 @@ typedef struct scene_material {
     float alpha_cutoff;           /* MASK: drawn where alpha >= cutoff */
     bool double_sided;
     bool unlit;                   /* KHR_materials_unlit */
+    bool metallic_roughness;      /* reflects as glTF's model says; false: matte, by Lambert's law alone */
+    float metallic, roughness;    /* factors, 0..1 */
+    scene_map metallic_roughness_map; /* roughness in green, metallic in blue */
+    scene_map normal_map;         /* tangent space, stored as 0..1 */
+    float normal_scale;           /* of its x and y */
+    scene_map occlusion_map;      /* baked accessibility of ambient light, in red */
+    float occlusion_strength;     /* 0..1 */
+    scene_map emissive_map;
+    float emissive[3];            /* linear radiance, factor of the map */
 } scene_material;
 
 /* Triangles that share a material: indices[first_index .. first_index + index_count), absolute into vertices. */
@@ -74,9 +91,22 @@ typedef struct scene_camera {
     float near_plane, far_plane;  /* far 0: infinite */
 } scene_camera;
 
+typedef enum scene_light_kind { SCENE_LIGHT_DIRECTIONAL = 0, SCENE_LIGHT_POINT, SCENE_LIGHT_SPOT } scene_light_kind;
+
+typedef struct scene_light { /* KHR_lights_punctual */
+    scene_light_kind kind;
+    float color[3];           /* linear, times intensity: irradiance (directional), or candela */
+    float position_world[3];
+    float direction_world[3]; /* unit, the way the light travels */
+    float range;              /* scene units; 0: infinite */
+    float inner_cos, outer_cos; /* spot: of the angles from its axis, inner_cos > outer_cos */
+} scene_light;
+
 typedef struct scene {
     char name[256];              /* file name, or the built-in scene's */
     scene_vertex *vertices;      uint32_t vertex_count;
+    float (*tangents)[4];        /* of each vertex: unit, mesh space, and the bitangent's sign; zeros where no normal
+                                    map is. NULL where no material drawn has one */
     uint32_t *indices;           uint32_t index_count;
     scene_primitive *primitives; uint32_t primitive_count;
     scene_mesh *meshes;          uint32_t mesh_count;
@@ -85,6 +115,7 @@ typedef struct scene {
     scene_texture *textures;     uint32_t texture_count;
     scene_image *images;         uint32_t image_count;
     scene_camera *cameras;       uint32_t camera_count;
+    scene_light *lights;         uint32_t light_count;
     float bounds_min[3], bounds_max[3]; /* world space, of what is drawn; all 0 where nothing is */
 } scene;
 

@@ -10,7 +10,7 @@
 #include <string.h>
 
 /* Which element of `room` belongs to which array. */
-enum { VERTICES, INDICES, PRIMITIVES, MESHES, INSTANCES, MATERIALS, TEXTURES, IMAGES, CAMERAS };
+enum { VERTICES, INDICES, PRIMITIVES, MESHES, INSTANCES, MATERIALS, TEXTURES, IMAGES, CAMERAS, LIGHTS };
 
 bool scene_builder_begin(scene_builder *b, const char *name, scene_fault *fault)
 {
@@ -125,6 +125,33 @@ int scene_builder_add_camera(scene_builder *b, const scene_camera *camera)
     return (int)s->camera_count++;
 }
 
+int scene_builder_add_light(scene_builder *b, const scene_light *light)
+{
+    scene *s = b->made;
+    scene_light *all = extend(b, LIGHTS, s->lights, &s->light_count, 1, sizeof *all);
+    if (!all)
+        return -1;
+    s->lights = all;
+    all[s->light_count] = *light;
+    return (int)s->light_count++;
+}
+
+float (*scene_builder_tangents(scene_builder *b))[4]
+{
+    scene *s = b->made;
+    if (s->tangents && b->tangent_count == s->vertex_count)
+        return s->tangents;
+    float(*grown)[4] = realloc(s->tangents, ((size_t)b->room[VERTICES] + 1) * sizeof *grown);
+    if (!grown) {
+        scene_fail_memory(b->fault);
+        return NULL;
+    }
+    s->tangents = grown;
+    memset(grown + b->tangent_count, 0, (s->vertex_count - b->tangent_count) * sizeof *grown);
+    b->tangent_count = s->vertex_count;
+    return grown;
+}
+
 int scene_builder_add_mesh(scene_builder *b)
 {
     scene *s = b->made;
@@ -195,7 +222,11 @@ scene_material scene_default_material(void)
                             .base_color_texture = -1,
                             .base_color_uv_from_uv = {1, 0, 0, 0, 1, 0},
                             .alpha = SCENE_ALPHA_OPAQUE,
-                            .alpha_cutoff = 0.5f};
+                            .alpha_cutoff = 0.5f,
+                            .metallic = 1,
+                            .roughness = 1,
+                            .normal_scale = 1,
+                            .occlusion_strength = 1};
 }
 
 /* A counting sort: instances keep their order within a mesh. */
@@ -315,7 +346,8 @@ scene *scene_builder_finish(scene_builder *b)
 {
     const scene_material plain = scene_default_material();
     const bool has_material = b->made->material_count || scene_builder_add_material(b, &plain) >= 0;
-    if (b->fault->set || !has_material || !sort_instances(b) || !measure_bounds(b)) {
+    const bool has_tangents = !b->made->tangents || scene_builder_tangents(b);
+    if (b->fault->set || !has_material || !has_tangents || !sort_instances(b) || !measure_bounds(b)) {
         scene_builder_abandon(b);
         return NULL;
     }

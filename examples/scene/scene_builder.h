@@ -12,8 +12,9 @@
 typedef struct scene_builder {
     scene *made;
     scene_fault *fault;
+    uint32_t tangent_count; /* how many vertices have tangents, zeroed or set */
     int *instance_mesh; /* which mesh each instance belongs to, until they are sorted */
-    uint32_t room[9];   /* allocated elements of each array, by enum in scene_builder.c */
+    uint32_t room[10];  /* allocated elements of each array, by enum in scene_builder.c */
 } scene_builder;
 
 /* False, with the fault set, when there is no memory: as with every call below that can fail. */
@@ -28,7 +29,12 @@ uint32_t *scene_builder_add_indices(scene_builder *b, uint32_t count, uint32_t *
 int scene_builder_add_material(scene_builder *b, const scene_material *material);
 int scene_builder_add_texture(scene_builder *b, const scene_texture *texture);
 int scene_builder_add_image(scene_builder *b, const scene_image *image);
+int scene_builder_add_light(scene_builder *b, const scene_light *light);
 int scene_builder_add_camera(scene_builder *b, const scene_camera *camera);
+
+/* The tangents of all vertices so far, zeros where none were set. NULL on failure. The pointer lives until the next
+ * call of this or of scene_builder_add_vertices. */
+float (*scene_builder_tangents(scene_builder *b))[4];
 
 /* A new mesh without primitives; -1 on failure. */
 int scene_builder_add_mesh(scene_builder *b);

@@ -24,6 +24,8 @@ typedef struct work {
     const float (*positions)[3], (*normals)[3]; /* points */
     size_t count;
     float offset;
+    bool (*stopped)(void *user);
+    void *stopped_user;
 } work;
 
 static void trace_one(work *w, uint64_t number, const trace_point *point)
@@ -60,6 +62,9 @@ static bool find_point(const work *w, int x, int y, trace_point *out)
 static void trace_tile(size_t tile, void *user)
 {
     work *w = user;
+    if (w->stopped && w->stopped(w->stopped_user)) {
+        return;
+    }
     const int left = (int)(tile % w->tiles_across) * TILE, bottom = (int)(tile / w->tiles_across) * TILE;
     for (int y = bottom; y < bottom + TILE && y < w->height; y++) {
         for (int x = left; x < left + TILE && x < w->width; x++) {
@@ -103,12 +108,18 @@ static bool run(work *w, trace_distribution distribution, const trace_options *o
         return false;
     }
     w->radius = o->radius;
+    w->stopped = o->stopped;
+    w->stopped_user = o->stopped_user;
     const double start = trace_clock();
     trace_run_jobs(o->threads, jobs, job, w, o->progress, o->progress_user);
     if (out_stats) {
         *out_stats = (trace_stats){.rays = atomic_load(&w->rays), .seconds = trace_clock() - start};
     }
     trace_samples_close(&w->samples);
+    if (w->stopped && w->stopped(w->stopped_user)) {
+        snprintf(error, error_size, "stopped");
+        return false;
+    }
     return true;
 }
 

@@ -32,6 +32,8 @@ typedef struct trace_options {
     int threads;                /* 0: as many as there are cores */
     trace_progress_fn progress; /* may be NULL */
     void *progress_user;
+    bool (*stopped)(void *user); /* may be NULL; asked on any thread: true ends the tracing, which then fails */
+    void *stopped_user;
 } trace_options;
 
 typedef struct trace_stats {

@@ -71,6 +71,7 @@ glssao_result glssao_create(const glssao_config *config, glssao_effect **out_eff
     effect->log = log;
     effect->seed = config->seed;
     effect->has_timers = !config->no_timers;
+    effect->accumulation.sampling_error = -1.0;
     effect->width = config->width;
     effect->height = config->height;
 
@@ -113,7 +114,8 @@ void glssao_destroy(glssao_effect *effect)
     glssao__maps_delete_ambient(gl, &effect->ambient);
     glssao__maps_delete_ambient(gl, &effect->paired);
     glssao__maps_delete_target(gl, &effect->distance_map);
-    glssao__maps_delete_target(gl, &effect->full_map);
+    glssao__maps_delete_target(gl, &effect->result_map);
+    glssao__accumulate_destroy(effect);
     gl->DeleteTextures(1, &effect->random_vector_map);
     gl->DeleteSamplers(SAMPLER_COUNT, effect->samplers);
     gl->DeleteVertexArrays(1, &effect->vertex_array);
@@ -147,8 +149,9 @@ glssao_result glssao_resize(glssao_effect *effect, int width, int height)
     glssao__maps_delete_ambient(&effect->gl, &effect->ambient);
     glssao__maps_delete_ambient(&effect->gl, &effect->paired); /* made again when next needed, as are these: */
     glssao__maps_delete_target(&effect->gl, &effect->distance_map);
-    glssao__maps_delete_target(&effect->gl, &effect->full_map);
-    effect->result_is_full = false;
+    glssao__maps_delete_target(&effect->gl, &effect->result_map);
+    glssao__accumulate_destroy(effect);
+    effect->has_result_map = false;
     effect->is_paired = false;
     effect->normal_map = normal;
     effect->ambient = ambient;

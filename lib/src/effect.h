@@ -17,7 +17,16 @@
 #endif
 
 /* Texture units that the passes read through; the shaders' samplers are tied to them once. */
-enum glssao__unit { UNIT_NORMAL = 0, UNIT_DEPTH, UNIT_RANDOM_VECTOR, UNIT_AMBIENT, UNIT_DISTANCE, UNIT_COUNT };
+enum glssao__unit {
+    UNIT_NORMAL = 0,
+    UNIT_DEPTH,
+    UNIT_RANDOM_VECTOR,
+    UNIT_AMBIENT,
+    UNIT_DISTANCE,
+    UNIT_BACK,
+    UNIT_SECOND,
+    UNIT_COUNT
+};
 
 /* The D3D12 demo's static samplers. */
 enum glssao__sampler {
@@ -42,6 +51,8 @@ enum glssao__shader {
     SHADER_CLASSIC,
     SHADER_HEMISPHERE,
     SHADER_HORIZON,
+    SHADER_RESOLVE,
+    SHADER_PROBE,
     SHADER_BLUR,
     SHADER_PLANAR_BLUR,
     SHADER_UPSAMPLE,
@@ -62,7 +73,9 @@ enum glssao__variant {
     VARIANT_STEPS_12 = 256,
     VARIANT_STEPS_16 = 512,
     VARIANT_SLICES_2 = 1024,
-    VARIANT_FLAGS = 11, /* how many there are */
+    VARIANT_ACCUMULATE = 2048,
+    VARIANT_LAYERS = 4096,
+    VARIANT_FLAGS = 13, /* how many there are */
     VARIANT_COUNT = 1 << VARIANT_FLAGS
 };
 
@@ -70,6 +83,9 @@ enum {
     RANDOM_VECTOR_MAP_SIZE = 256,
     HEMISPHERE_CAPACITY = 64,
     ROTATION_TILE = 4,
+    PROBE_SIZE = 128,
+    TRANSFER_PARAMETERS = 12,
+    TILE_ESTIMATES = 16,
     TIMER_FRAMES = 4,
     MAX_DRAW_BUFFERS = 8,
     TOGGLE_CAPACITY = 32
@@ -95,7 +111,9 @@ typedef struct glssao__frame_constants {
     float gBlurDepthThreshold;
     int gSampleCount;
     int gFactor;
-    float padding[2]; /* std140 rounds the block up to 80 bytes */
+    float gNoise[2];
+    float gAccumulation[4];
+    float gProbe[4];
 } glssao__frame_constants;
 
 /* glsl/cb_hemisphere.glsl in C. */
@@ -121,17 +139,35 @@ typedef struct glssao__ambient_maps {
 typedef struct glssao__target {
     gl_uint texture, framebuffer;
     int width, height;
+    gl_enum format;
 } glssao__target;
+
+/* A rectangle of a map, in its pixels. */
+typedef struct glssao__region {
+    int x, y, width, height;
+} glssao__region;
 
 typedef struct glssao__program_object {
     gl_uint name;
-    gl_int horizontal_location; /* of gHorizontalBlur, -1 where there is none */
+    gl_int horizontal_location, origin_location; /* of gHorizontalBlur and gOrigin, -1 where there is none */
 } glssao__program_object;
 
 typedef struct glssao__timer_frame {
     gl_uint queries[GLSSAO_PASS_COUNT][2]; /* timestamps before and after */
     bool used[GLSSAO_PASS_COUNT];
 } glssao__timer_frame;
+
+/* Estimates of a still view, added up in two replicates, whose difference tells the error of the mean. */
+typedef struct glssao__accumulation {
+    glssao_frame frame; /* what they were estimated from */
+    glssao_settings settings;
+    int count[2];          /* estimates in each replicate */
+    glssao__target sum;    /* RG32F, full size; made when first needed, as are these: */
+    glssao__target probe;  /* RG32F, PROBE_SIZE squared */
+    gl_uint probe_buffer;  /* the probe's pixels, on their way to the CPU */
+    gl_sync probe_fence;   /* NULL: nothing on its way */
+    double sampling_error; /* of the whole mean; negative: not known yet */
+} glssao__accumulation;
 
 /* The host's GL state, as state.c found it. */
 typedef struct glssao__host_state {
@@ -143,14 +179,15 @@ typedef struct glssao__host_state {
         gl_int buffer;
         int64_t offset, size;
     } uniform_binding[BLOCK_COUNT];
-    gl_int unpack_buffer;
-    gl_int unpack[6];
+    gl_int unpack_buffer, pack_buffer;
+    gl_int transfer[TRANSFER_PARAMETERS];
     gl_int polygon_mode[2];
     gl_int clip_origin, clip_depth;
     gl_boolean depth_mask;
     gl_boolean color_mask[MAX_DRAW_BUFFERS][4];
     gl_int blend_function[4], blend_equation[2];
     gl_boolean blend, scissor;
+    gl_int scissor_box[4];
     gl_boolean toggles[TOGGLE_CAPACITY];
 } glssao__host_state;
 
@@ -163,12 +200,13 @@ struct glssao_effect {
 
     glssao__target normal_map;
     glssao__target distance_map; /* at the estimate's size; made when first needed */
-    glssao__target full_map;     /* the upsampled result; made when first needed */
-    bool result_is_full;         /* the last result lies in full_map */
+    glssao__target result_map;   /* the result, where it has another size than the estimate; made when first needed */
+    bool has_result_map;         /* the last result lies there */
+    int margin;                  /* of the last frame */
     glssao__ambient_maps ambient;
     glssao__ambient_maps paired; /* accessibility and the linear quantity of distance; made when first needed */
     bool is_paired;              /* the last frame's passes drew into them */
-    bool ambient_is_one; /* both ambient maps hold 1 everywhere: nothing to clear */
+    bool ambient_is_one;         /* both ambient maps hold 1 everywhere: nothing to clear */
     gl_uint random_vector_map;
     gl_uint depth_texture; /* the host's, as last handed over */
     gl_uint samplers[SAMPLER_COUNT];
@@ -184,6 +222,8 @@ struct glssao_effect {
     glssao_constants constants;
     glssao__frame_constants frame_constants;
     glssao__hemisphere_constants hemisphere_constants;
+
+    glssao__accumulation accumulation;
 
     bool between_normals; /* glssao_begin_normals was called, glssao_end_normals not yet */
     gl_int host_framebuffer;
@@ -227,28 +267,73 @@ bool glssao__settings_check_frame(const glssao_effect *effect, const glssao_fram
                                   const glssao_settings *settings, const glssao__log_sink *log,
                                   glssao__projection *out_projection);
 
-/* plan.c: the size of the ambient maps that the settings ask for. */
+/* plan.c */
+/* What glssao_accumulate runs; `settings` as glssao__accumulate_settings gives them. */
+glssao_plan glssao__plan_accumulate(const glssao_effect *effect, const glssao_frame *frame,
+                                    const glssao_settings *settings, int estimates);
+/* The size of the ambient maps that the settings ask for. */
 void glssao__plan_ambient_size(const glssao_effect *effect, const glssao_settings *settings, int *out_width,
                                int *out_height);
+/* What of its map a pass must draw so that the result comes out: all but the margin, and what later passes reach there.
+ */
+glssao__region glssao__plan_region(const glssao_effect *effect, const glssao_frame *frame,
+                                   const glssao_settings *settings, const glssao_plan *plan, glssao_pass pass);
+/* What of the last pass's map is the result. */
+glssao__region glssao__plan_result(const glssao_effect *effect, const glssao_frame *frame,
+                                   const glssao_settings *settings, const glssao_plan *plan);
 
 /* state.c: saves what the passes touch, then sets what they need; and puts all of it back. */
 void glssao__state_save(const glssao__gl *gl, glssao__host_state *out_state);
 void glssao__state_restore(const glssao__gl *gl, const glssao__host_state *state);
+/* Blends colour with these factors; alpha stays. */
+void glssao__state_set_blend(const glssao__gl *gl, gl_enum source, gl_enum destination);
+/* Keeps drawing within x, y, width, height; NULL: no longer. */
+void glssao__state_set_scissor(const glssao__gl *gl, const gl_int box[4]);
 void glssao__state_set_viewport(const glssao__gl *gl, const gl_float viewport[4]);
+
+/* draw.c */
+void glssao__draw_bind(const glssao_effect *effect, enum glssao__unit unit, gl_uint texture,
+                       enum glssao__sampler sampler);
+void glssao__draw_use(const glssao_effect *effect, const glssao__program_object *program);
+/* Covers width x height of the framebuffer with the bound program. */
+void glssao__draw(const glssao_effect *effect, gl_uint framebuffer, int width, int height);
+/* The same, but draws no pixel outside of the region. */
+void glssao__draw_region(const glssao_effect *effect, const glssao__target *target, const glssao__region *region);
+/* Draws the region of maps of width x height into a target of the region's size. */
+void glssao__draw_crop(const glssao_effect *effect, const glssao__program_object *program, const glssao__target *target,
+                       int width, int height, const glssao__region *region);
+bool glssao__draw_is_between_normals(const glssao_effect *effect, const char *function); /* logs it, too */
+/* With GLSSAO_CHECK_GL only: names the pass after which the driver holds an error. Eats errors of the host. */
+void glssao__draw_check(const glssao_effect *effect, const char *where);
+
+/* accumulate.c */
+/* The settings that one more estimate is computed with: at full size. */
+glssao_settings glssao__accumulate_settings(const glssao_settings *settings);
+/* How many estimates there are with the next; 1 where this is another view than before. */
+int glssao__accumulate_next(const glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings);
+/* Counts the next estimate; clears the sums before the first. */
+void glssao__accumulate_begin(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings);
+void glssao__accumulate_fill_constants(const glssao_effect *effect, const glssao__region *probed,
+                                       glssao__frame_constants *c);
+void glssao__accumulate_probe(glssao_effect *effect, const glssao__program_object *program);
+double glssao__accumulate_error(glssao_effect *effect);
+void glssao__accumulate_stop(glssao_effect *effect); /* the next estimate is the first */
+void glssao__accumulate_destroy(glssao_effect *effect);
 
 /* maps.c */
 glssao_result glssao__maps_make_ambient(glssao_effect *effect, int width, int height, glssao__ambient_maps *out_maps);
 void glssao__maps_delete_ambient(const glssao__gl *gl, glssao__ambient_maps *maps);
 glssao_result glssao__maps_make_normal(glssao_effect *effect, int width, int height, glssao__target *out_map);
 /* Makes or remakes the map where it has another size; on failure it is as it was. */
-glssao_result glssao__maps_fit_distance(glssao_effect *effect, int width, int height);
-glssao_result glssao__maps_fit_full(glssao_effect *effect);
+glssao_result glssao__maps_fit_distance(glssao_effect *effect, int width, int height, bool has_layers);
+glssao_result glssao__maps_fit_result(glssao_effect *effect, int width, int height);
+glssao_result glssao__maps_fit_accumulation(glssao_effect *effect);
 glssao_result glssao__maps_fit_paired(glssao_effect *effect, int width, int height);
 void glssao__maps_delete_target(const glssao__gl *gl, glssao__target *target);
 /* The texture that holds the result. */
 gl_uint glssao__maps_result(const glssao_effect *effect, int *out_width, int *out_height);
 glssao_result glssao__maps_make_random_vector(glssao_effect *effect);
-void glssao__maps_clear_ambient(glssao_effect *effect);
+void glssao__maps_clear_result(glssao_effect *effect);
 void glssao__maps_make_samplers(glssao_effect *effect);
 glssao_result glssao__maps_check_texture(glssao_effect *effect, gl_uint texture, bool needs_depth, const char *field);
 

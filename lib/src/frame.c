@@ -1,129 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * One frame: the host's normals, the planned passes, and the result multiplied into colour.
+ * One frame: the planned passes, and the result multiplied into colour.
  */
 #include "effect.h"
 
-/* With GLSSAO_CHECK_GL only: names the pass after which the driver holds an error. Eats errors of the host. */
-static void check_gl(const glssao_effect *effect, const char *where)
-{
-#if GLSSAO_CHECK_GL
-    for (gl_enum error = effect->gl.GetError(); error != 0; error = effect->gl.GetError())
-        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "OpenGL error 0x%04X after %s", error, where);
-#else
-    (void)effect;
-    (void)where;
-#endif
-}
-
-static void bind_input(const glssao_effect *effect, enum glssao__unit unit, gl_uint texture,
-                       enum glssao__sampler sampler)
-{
-    effect->gl.ActiveTexture(GL_TEXTURE0 + (gl_uint)unit);
-    effect->gl.BindTexture(GL_TEXTURE_2D, texture);
-    effect->gl.BindSampler((gl_uint)unit, effect->samplers[sampler]);
-}
-
-/* Covers width x height of the framebuffer with the bound program. */
-static void draw(const glssao_effect *effect, gl_uint framebuffer, int width, int height)
-{
-    const glssao__gl *gl = &effect->gl;
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-    glssao__state_set_viewport(gl, (const gl_float[4]){0.0f, 0.0f, (gl_float)width, (gl_float)height});
-    gl->BindVertexArray(effect->vertex_array);
-    gl->DrawArrays(GL_TRIANGLES, 0, 6);
-}
-
-static bool is_between_normals(const glssao_effect *effect, const char *function)
-{
-    if (effect->between_normals)
-        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "%s called before glssao_end_normals", function);
-    return effect->between_normals;
-}
-
-/* ---- the host's normals ---- */
-
-static void attach_depth(const glssao_effect *effect, gl_uint depth_texture)
-{
-    const glssao__gl *gl = &effect->gl;
-    gl_int stencil_bits = 0;
-    if (depth_texture) {
-        gl->ActiveTexture(GL_TEXTURE0 + UNIT_DEPTH);
-        gl->BindTexture(GL_TEXTURE_2D, depth_texture);
-        gl->GetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_STENCIL_SIZE, &stencil_bits);
-    }
-    gl_enum attachment = stencil_bits > 0 ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT;
-    gl->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, 0, 0);
-    gl->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, attachment, GL_TEXTURE_2D, depth_texture, 0);
-}
-
-static glssao_result begin_normals(glssao_effect *effect, gl_uint depth_texture)
-{
-    const glssao__gl *gl = &effect->gl;
-    glssao_result result = glssao__maps_check_texture(effect, depth_texture, true, "depth_texture");
-    if (result != GLSSAO_OK)
-        return result;
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, effect->normal_map.framebuffer);
-    attach_depth(effect, depth_texture);
-    gl_enum status = gl->CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
-    if (status != GL_FRAMEBUFFER_COMPLETE) {
-        attach_depth(effect, 0);
-        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "depth_texture = %u: refused beside the normal map: 0x%04X",
-                          depth_texture, status);
-        return GLSSAO_FRAMEBUFFER_ERROR;
-    }
-    gl_float clear_depth = 1.0f;
-    gl->GetFloatv(GL_DEPTH_CLEAR_VALUE, &clear_depth);
-    gl->ClearBufferfv(GL_COLOR, 0, (const gl_float[4]){0.0f, 0.0f, 1.0f, 0.0f});
-    gl->ClearBufferfv(GL_DEPTH, 0, &clear_depth);
-    return GLSSAO_OK;
-}
-
-glssao_result glssao_begin_normals(glssao_effect *effect, uint32_t depth_texture)
-{
-    if (!effect || is_between_normals(effect, "glssao_begin_normals"))
-        return GLSSAO_INVALID_ARGUMENT;
-    const glssao__gl *gl = &effect->gl;
-    glssao__host_state host;
-    glssao__state_save(gl, &host);
-    glssao_result result = begin_normals(effect, depth_texture);
-    glssao__state_restore(gl, &host);
-    check_gl(effect, "glssao_begin_normals");
-    if (result != GLSSAO_OK)
-        return result;
-    effect->depth_texture = depth_texture;
-    effect->between_normals = true;
-    effect->host_framebuffer = host.draw_framebuffer;
-    for (int i = 0; i < 4; ++i)
-        effect->host_viewport[i] = host.viewport[i];
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, effect->normal_map.framebuffer);
-    glssao__state_set_viewport(gl, (const gl_float[4]){0.0f, 0.0f, (gl_float)effect->width, (gl_float)effect->height});
-    return GLSSAO_OK;
-}
-
-glssao_result glssao_end_normals(glssao_effect *effect)
-{
-    if (!effect)
-        return GLSSAO_INVALID_ARGUMENT;
-    if (!effect->between_normals) {
-        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "glssao_end_normals called without glssao_begin_normals");
-        return GLSSAO_INVALID_ARGUMENT;
-    }
-    const glssao__gl *gl = &effect->gl;
-    /* Detached, the depth texture can be read by the passes, and deleted by the host. */
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, effect->normal_map.framebuffer);
-    gl->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, 0, 0);
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, (gl_uint)effect->host_framebuffer);
-    glssao__state_set_viewport(gl, effect->host_viewport);
-    effect->between_normals = false;
-    check_gl(effect, "glssao_end_normals");
-    return GLSSAO_OK;
-}
-
-/* ---- the passes ---- */
-
 typedef struct frame_programs {
-    glssao__program_object normals, distance, estimate, blur, upsample;
+    glssao__program_object normals, distance, estimate, resolve, probe, blur, upsample;
 } frame_programs;
 
 /* How the host stores what the passes read. */
@@ -138,6 +20,8 @@ static unsigned input_variant(const glssao_frame *frame)
         variant |= VARIANT_DEPTH_IS_DISTANCE;
     if (frame->depth_kind == GLSSAO_DEPTH_NORMAL_ALPHA)
         variant |= VARIANT_DEPTH_IN_ALPHA;
+    if (frame->back_texture)
+        variant |= VARIANT_LAYERS;
     return variant;
 }
 
@@ -153,12 +37,18 @@ static unsigned estimate_variant(const glssao_settings *settings)
     if (settings->technique != GLSSAO_HORIZON)
         return settings->no_angle_weight ? VARIANT_NO_ANGLE_WEIGHT : 0u;
     switch (settings->sample_count) {
-    case 16: return VARIANT_STEPS_8;
-    case 24: return VARIANT_STEPS_12;
-    case 32: return VARIANT_STEPS_8 | VARIANT_SLICES_2;
-    case 48: return VARIANT_STEPS_12 | VARIANT_SLICES_2;
-    case 64: return VARIANT_STEPS_16 | VARIANT_SLICES_2;
-    default: return 0; /* 12 */
+    case 16:
+        return VARIANT_STEPS_8;
+    case 24:
+        return VARIANT_STEPS_12;
+    case 32:
+        return VARIANT_STEPS_8 | VARIANT_SLICES_2;
+    case 48:
+        return VARIANT_STEPS_12 | VARIANT_SLICES_2;
+    case 64:
+        return VARIANT_STEPS_16 | VARIANT_SLICES_2;
+    default:
+        return 0; /* 12 */
     }
 }
 
@@ -183,7 +73,11 @@ static glssao_result get_programs(glssao_effect *effect, const glssao_frame *fra
     } needed[] = {
         {GLSSAO_PASS_NORMALS, SHADER_NORMALS, inputs, &out->normals},
         {GLSSAO_PASS_DISTANCE, SHADER_DISTANCE, inputs, &out->distance},
-        {GLSSAO_PASS_ESTIMATE, estimate_shader(settings), inputs | estimate_variant(settings), &out->estimate},
+        {GLSSAO_PASS_ESTIMATE, estimate_shader(settings),
+         inputs | estimate_variant(settings) | (plan->passes[GLSSAO_PASS_RESOLVE].run ? VARIANT_ACCUMULATE : 0u),
+         &out->estimate},
+        {GLSSAO_PASS_RESOLVE, SHADER_RESOLVE, 0, &out->resolve},
+        {GLSSAO_PASS_RESOLVE, SHADER_PROBE, 0, &out->probe},
         {GLSSAO_PASS_BLUR, settings->blur == GLSSAO_BLUR_PLANAR ? SHADER_PLANAR_BLUR : SHADER_BLUR, blur, &out->blur},
         {GLSSAO_PASS_UPSAMPLE, SHADER_UPSAMPLE, inputs, &out->upsample},
     };
@@ -201,16 +95,26 @@ static bool is_paired(const glssao_settings *settings, const glssao_plan *plan)
            (plan->passes[GLSSAO_PASS_BLUR].run && settings->blur == GLSSAO_BLUR_PLANAR);
 }
 
+/* Whether the result goes to a map of its own: the passes draw into maps of the estimate's size. */
+static bool is_apart(const glssao_plan *plan, const glssao_frame *frame)
+{
+    return plan->passes[GLSSAO_PASS_UPSAMPLE].run || frame->margin > 0;
+}
+
 /* Makes the maps that the plan draws into, at its sizes. */
-static glssao_result fit_maps(glssao_effect *effect, const glssao_settings *settings, const glssao_plan *plan)
+static glssao_result fit_maps(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
+                              const glssao_plan *plan)
 {
     int width, height;
     glssao__plan_ambient_size(effect, settings, &width, &height);
+    const glssao__region delivered = glssao__plan_result(effect, frame, settings, plan);
     glssao_result result = GLSSAO_OK;
     if (plan->passes[GLSSAO_PASS_DISTANCE].run)
-        result = glssao__maps_fit_distance(effect, width, height);
-    if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_UPSAMPLE].run)
-        result = glssao__maps_fit_full(effect);
+        result = glssao__maps_fit_distance(effect, width, height, frame->back_texture != 0);
+    if (result == GLSSAO_OK && is_apart(plan, frame))
+        result = glssao__maps_fit_result(effect, delivered.width, delivered.height);
+    if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_RESOLVE].run)
+        result = glssao__maps_fit_accumulation(effect);
     if (result == GLSSAO_OK && is_paired(settings, plan))
         result = glssao__maps_fit_paired(effect, width, height);
     if (result != GLSSAO_OK || (width == effect->ambient.width && height == effect->ambient.height))
@@ -222,7 +126,7 @@ static glssao_result fit_maps(glssao_effect *effect, const glssao_settings *sett
     glssao__maps_delete_ambient(&effect->gl, &effect->ambient);
     effect->ambient = maps;
     effect->ambient_is_one = true;
-    effect->result_is_full = false; /* until the upsampling has run */
+    effect->has_result_map = false; /* until the last pass has run */
     effect->is_paired = false;
     return GLSSAO_OK;
 }
@@ -240,17 +144,43 @@ static void upload_constants(glssao_effect *effect, gl_uint block_count)
     }
 }
 
-static void rebuild_normals(glssao_effect *effect, const glssao__program_object *program)
+/* What the passes of one frame have in common. */
+typedef struct frame_run {
+    glssao_effect *effect;
+    const glssao_frame *frame;
+    const glssao_settings *settings;
+    const glssao_plan *plan;
+    frame_programs programs;
+    glssao__region delivered; /* what of the last pass's map is the result */
+} frame_run;
+
+static bool runs(const frame_run *r, glssao_pass pass)
 {
-    effect->gl.UseProgram(program->name);
-    draw(effect, effect->normal_map.framebuffer, effect->width, effect->height);
+    return r->plan->passes[pass].run;
 }
 
-static void map_distance(glssao_effect *effect, const glssao__program_object *program)
+static glssao__region region_of(const frame_run *r, glssao_pass pass)
 {
-    effect->gl.UseProgram(program->name);
-    draw(effect, effect->distance_map.framebuffer, effect->distance_map.width, effect->distance_map.height);
-    bind_input(effect, UNIT_DISTANCE, effect->distance_map.texture, SAMPLER_POINT_CLAMP);
+    return glssao__plan_region(r->effect, r->frame, r->settings, r->plan, pass);
+}
+
+static void rebuild_normals(const frame_run *r)
+{
+    const glssao__region region = region_of(r, GLSSAO_PASS_NORMALS);
+    glssao__draw_use(r->effect, &r->programs.normals);
+    glssao__draw_region(r->effect, &r->effect->normal_map, &region);
+}
+
+static void map_distance(const frame_run *r)
+{
+    glssao_effect *effect = r->effect;
+    glssao__draw_use(effect, &r->programs.distance);
+    if (r->frame->back_texture) {
+        glssao__draw_bind(effect, UNIT_BACK, r->frame->back_texture, SAMPLER_POINT_CLAMP);
+        glssao__draw_bind(effect, UNIT_SECOND, r->frame->second_texture, SAMPLER_POINT_CLAMP);
+    }
+    glssao__draw(effect, effect->distance_map.framebuffer, effect->distance_map.width, effect->distance_map.height);
+    glssao__draw_bind(effect, UNIT_DISTANCE, effect->distance_map.texture, SAMPLER_POINT_CLAMP);
 }
 
 /* The two maps that the passes of a frame draw into by turns, and read from. */
@@ -259,132 +189,206 @@ static const glssao__ambient_maps *turns(const glssao_effect *effect)
     return effect->is_paired ? &effect->paired : &effect->ambient;
 }
 
+static glssao__target target_of(const glssao__ambient_maps *maps, int i)
+{
+    return (glssao__target){
+        .texture = maps->texture[i], .framebuffer = maps->framebuffer[i], .width = maps->width, .height = maps->height};
+}
+
 /* Draws the `number`-th of the estimate (0) and the blur's passes; the last leaves the result, if it is not brought to
  * full size, where the host looks for it. */
-static void draw_turn(glssao_effect *effect, int number, bool is_result)
+static void draw_turn(const frame_run *r, const glssao__program_object *program, glssao_pass pass, int number,
+                      bool is_result)
 {
-    const glssao__ambient_maps *maps = is_result ? &effect->ambient : turns(effect);
+    glssao_effect *effect = r->effect;
     if (number > 0)
-        bind_input(effect, UNIT_AMBIENT, turns(effect)->texture[(number - 1) % 2], SAMPLER_POINT_CLAMP);
-    draw(effect, maps->framebuffer[is_result ? 0 : number % 2], maps->width, maps->height);
+        glssao__draw_bind(effect, UNIT_AMBIENT, turns(effect)->texture[(number - 1) % 2], SAMPLER_POINT_CLAMP);
+    if (is_result && effect->has_result_map) {
+        glssao__draw_crop(effect, program, &effect->result_map, effect->ambient.width, effect->ambient.height,
+                          &r->delivered);
+        return;
+    }
+    const glssao__region region = region_of(r, pass);
+    const glssao__target target = is_result ? target_of(&effect->ambient, 0) : target_of(turns(effect), number % 2);
+    glssao__draw_region(effect, &target, &region);
 }
 
-static void estimate(glssao_effect *effect, const glssao__program_object *program, bool is_result)
+static void estimate(const frame_run *r)
 {
-    bind_input(effect, UNIT_RANDOM_VECTOR, effect->random_vector_map, SAMPLER_LINEAR_WRAP);
-    effect->gl.UseProgram(program->name);
-    draw_turn(effect, 0, is_result);
+    glssao_effect *effect = r->effect;
+    glssao__draw_bind(effect, UNIT_RANDOM_VECTOR, effect->random_vector_map, SAMPLER_LINEAR_WRAP);
+    glssao__draw_use(effect, &r->programs.estimate);
+    if (!runs(r, GLSSAO_PASS_RESOLVE)) {
+        draw_turn(r, &r->programs.estimate, GLSSAO_PASS_ESTIMATE, 0,
+                  !runs(r, GLSSAO_PASS_BLUR) && !runs(r, GLSSAO_PASS_UPSAMPLE));
+        return;
+    }
+    /* Added to the sum of its replicate. */
+    const glssao__region region = region_of(r, GLSSAO_PASS_ESTIMATE);
+    glssao__state_set_blend(&effect->gl, GL_ONE, GL_ONE);
+    glssao__draw_region(effect, &effect->accumulation.sum, &region);
+    effect->gl.Disablei(GL_BLEND, 0);
 }
 
-static void blur(glssao_effect *effect, const glssao__program_object *program, int rounds, bool is_result)
+static void resolve(const frame_run *r)
 {
-    effect->gl.UseProgram(program->name);
-    for (int i = 1; i <= 2 * rounds; ++i) {
-        effect->gl.Uniform1i(program->horizontal_location, i % 2); /* horizontal 0 to 1, vertical 1 to 0 */
-        draw_turn(effect, i, is_result && i == 2 * rounds);
+    glssao__draw_bind(r->effect, UNIT_AMBIENT, r->effect->accumulation.sum.texture, SAMPLER_POINT_CLAMP);
+    if (r->plan->passes[GLSSAO_PASS_RESOLVE].draw_calls > 1)
+        glssao__accumulate_probe(r->effect, &r->programs.probe);
+    glssao__draw_use(r->effect, &r->programs.resolve);
+    draw_turn(r, &r->programs.resolve, GLSSAO_PASS_RESOLVE, 0, !runs(r, GLSSAO_PASS_BLUR));
+}
+
+static void blur(const frame_run *r)
+{
+    const int count = 2 * r->settings->blur_rounds;
+    glssao__draw_use(r->effect, &r->programs.blur);
+    for (int i = 1; i <= count; ++i) {
+        /* Horizontal 0 to 1, vertical 1 to 0. */
+        r->effect->gl.Uniform1i(r->programs.blur.horizontal_location, i % 2);
+        draw_turn(r, &r->programs.blur, GLSSAO_PASS_BLUR, i, i == count && !runs(r, GLSSAO_PASS_UPSAMPLE));
     }
 }
 
-static void upsample(glssao_effect *effect, const glssao_frame *frame, const glssao__program_object *program)
+static void upsample(const frame_run *r)
 {
-    effect->gl.UseProgram(program->name);
-    bind_input(effect, UNIT_DEPTH, depth_source(frame), SAMPLER_POINT_CLAMP);
-    bind_input(effect, UNIT_AMBIENT, turns(effect)->texture[0], SAMPLER_POINT_CLAMP);
-    draw(effect, effect->full_map.framebuffer, effect->full_map.width, effect->full_map.height);
+    glssao_effect *effect = r->effect;
+    glssao__draw_use(effect, &r->programs.upsample);
+    glssao__draw_bind(effect, UNIT_DEPTH, depth_source(r->frame), SAMPLER_POINT_CLAMP);
+    glssao__draw_bind(effect, UNIT_AMBIENT, turns(effect)->texture[0], SAMPLER_POINT_CLAMP);
+    glssao__draw_crop(effect, &r->programs.upsample, &effect->result_map, effect->width, effect->height, &r->delivered);
 }
 
 /* The plan's passes, in order. */
-static void run_passes(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
-                       const glssao_plan *plan, const frame_programs *programs)
+static void run_passes(const frame_run *r)
 {
+    static void (*const passes[GLSSAO_PASS_COUNT])(const frame_run *) = {
+        [GLSSAO_PASS_NORMALS] = rebuild_normals,
+        [GLSSAO_PASS_DISTANCE] = map_distance,
+        [GLSSAO_PASS_ESTIMATE] = estimate,
+        [GLSSAO_PASS_RESOLVE] = resolve,
+        [GLSSAO_PASS_BLUR] = blur,
+        [GLSSAO_PASS_UPSAMPLE] = upsample,
+    };
     for (int i = 0; i < GLSSAO_PASS_COUNT; ++i) {
-        glssao_pass pass = (glssao_pass)i;
-        if (!plan->passes[pass].run)
+        const struct glssao_planned_pass *planned = &r->plan->passes[i];
+        if (!planned->run)
             continue;
-        glssao__stats_begin_pass(effect, pass);
-        switch (pass) {
-        case GLSSAO_PASS_NORMALS:
-            rebuild_normals(effect, &programs->normals);
-            break;
-        case GLSSAO_PASS_DISTANCE:
-            map_distance(effect, &programs->distance);
-            break;
-        case GLSSAO_PASS_ESTIMATE:
-            bind_input(effect, UNIT_NORMAL, frame->normal_texture ? frame->normal_texture : effect->normal_map.texture,
-                       SAMPLER_POINT_CLAMP);
-            estimate(effect, &programs->estimate,
-                     !plan->passes[GLSSAO_PASS_BLUR].run && !plan->passes[GLSSAO_PASS_UPSAMPLE].run);
-            break;
-        case GLSSAO_PASS_BLUR:
-            blur(effect, &programs->blur, settings->blur_rounds, !plan->passes[GLSSAO_PASS_UPSAMPLE].run);
-            break;
-        case GLSSAO_PASS_UPSAMPLE:
-            upsample(effect, frame, &programs->upsample);
-            break;
-        case GLSSAO_PASS_APPLY: /* glssao_apply's own */
-        case GLSSAO_PASS_COUNT:
-            break;
-        }
-        glssao__stats_end_pass(effect, pass, plan->passes[pass].draw_calls);
-        check_gl(effect, plan->passes[pass].name);
+        glssao__stats_begin_pass(r->effect, (glssao_pass)i);
+        if (i == GLSSAO_PASS_ESTIMATE)
+            glssao__draw_bind(r->effect, UNIT_NORMAL,
+                              r->frame->normal_texture ? r->frame->normal_texture : r->effect->normal_map.texture,
+                              SAMPLER_POINT_CLAMP);
+        passes[i](r);
+        glssao__stats_end_pass(r->effect, (glssao_pass)i, planned->draw_calls);
+        glssao__draw_check(r->effect, planned->name);
     }
 }
 
-static glssao_result compute(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
-                             const glssao__projection *projection)
+/* Textures of the host, whose content only GL knows. */
+static glssao_result check_textures(glssao_effect *effect, const glssao_frame *frame)
 {
+    const struct {
+        gl_uint texture;
+        const char *field;
+    } textures[] = {
+        {frame->depth_kind != GLSSAO_DEPTH_NORMAL_ALPHA ? frame->depth_texture : 0, "frame.depth_texture"},
+        {frame->normal_texture, "frame.normal_texture"},
+        {frame->back_texture, "frame.back_texture"},
+        {frame->second_texture, "frame.second_texture"},
+    };
     glssao_result result = GLSSAO_OK;
-    if (frame->depth_kind != GLSSAO_DEPTH_NORMAL_ALPHA)
-        result = glssao__maps_check_texture(effect, frame->depth_texture, false, "frame.depth_texture");
-    if (result == GLSSAO_OK && frame->normal_texture)
-        result = glssao__maps_check_texture(effect, frame->normal_texture, false, "frame.normal_texture");
-    const glssao_plan plan = glssao_plan_frame(effect, frame, settings);
-    frame_programs programs = {0};
+    for (size_t i = 0; i < sizeof textures / sizeof *textures && result == GLSSAO_OK; ++i)
+        if (textures[i].texture)
+            result = glssao__maps_check_texture(effect, textures[i].texture, false, textures[i].field);
+    return result;
+}
+
+/* What glssao_compute and glssao_accumulate have in common; `plan` tells which it is. */
+static glssao_result run(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
+                         const glssao__projection *projection, const glssao_plan *plan)
+{
+    frame_run r = {.effect = effect,
+                   .frame = frame,
+                   .settings = settings,
+                   .plan = plan,
+                   .delivered = glssao__plan_result(effect, frame, settings, plan)};
+    glssao_result result = check_textures(effect, frame);
     if (result == GLSSAO_OK)
-        result = get_programs(effect, frame, settings, &plan, &programs);
+        result = get_programs(effect, frame, settings, plan, &r.programs);
     if (result == GLSSAO_OK)
-        result = fit_maps(effect, settings, &plan);
+        result = fit_maps(effect, frame, settings, plan);
     if (result != GLSSAO_OK)
         return result;
 
     effect->depth_texture = depth_source(frame);
+    effect->margin = frame->margin;
     glssao__constants_fill(&effect->constants, frame, settings, projection, effect->ambient.width,
                            effect->ambient.height);
     glssao__constants_fill_frame(&effect->frame_constants, frame, settings, projection);
     if (settings->technique == GLSSAO_HEMISPHERE)
         glssao__constants_fill_kernel(&effect->hemisphere_constants, effect->seed, settings->sample_count);
+    if (plan->passes[GLSSAO_PASS_RESOLVE].run) {
+        glssao__accumulate_begin(effect, frame, settings);
+        glssao__accumulate_fill_constants(effect, &r.delivered, &effect->frame_constants);
+    } else {
+        glssao__accumulate_stop(effect);
+    }
     upload_constants(effect, settings->technique == GLSSAO_HEMISPHERE ? BLOCK_COUNT : BLOCK_HEMISPHERE);
     glssao__stats_begin_frame(effect);
-    if (!plan.passes[GLSSAO_PASS_ESTIMATE].run) {
-        glssao__maps_clear_ambient(effect);
-        effect->result_is_full = false;
-        effect->is_paired = false;
+    effect->is_paired = is_paired(settings, plan);
+    effect->has_result_map = is_apart(plan, frame);
+    if (!plan->passes[GLSSAO_PASS_ESTIMATE].run) {
+        glssao__maps_clear_result(effect);
         return GLSSAO_OK;
     }
     effect->ambient_is_one = false;
     gl_float sky = frame->depth_kind == GLSSAO_DEPTH_WINDOW ? projection->sky_depth : SKY_DISTANCE;
     effect->gl.SamplerParameterfv(effect->samplers[SAMPLER_DEPTH], GL_TEXTURE_BORDER_COLOR,
                                   (const gl_float[4]){sky, sky, sky, sky});
-    effect->is_paired = is_paired(settings, &plan);
     /* Horizon fetches depth; the others read occluders filtered. */
-    bind_input(effect, UNIT_DEPTH, depth_source(frame),
-               settings->technique == GLSSAO_HORIZON ? SAMPLER_POINT_CLAMP : SAMPLER_DEPTH);
-    run_passes(effect, frame, settings, &plan, &programs);
-    effect->result_is_full = plan.passes[GLSSAO_PASS_UPSAMPLE].run;
+    glssao__draw_bind(effect, UNIT_DEPTH, depth_source(frame),
+                      settings->technique == GLSSAO_HORIZON ? SAMPLER_POINT_CLAMP : SAMPLER_DEPTH);
+    run_passes(&r);
     return GLSSAO_OK;
 }
 
 glssao_result glssao_compute(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
 {
     glssao__projection projection;
-    if (!effect || is_between_normals(effect, "glssao_compute") ||
+    if (!effect || glssao__draw_is_between_normals(effect, "glssao_compute") ||
         !glssao__settings_check_frame(effect, frame, settings, &effect->log, &projection))
         return GLSSAO_INVALID_ARGUMENT;
     glssao__host_state host;
     glssao__state_save(&effect->gl, &host);
-    glssao_result result = compute(effect, frame, settings, &projection);
+    const glssao_plan plan = glssao_plan_frame(effect, frame, settings);
+    glssao_result result = run(effect, frame, settings, &projection, &plan);
     glssao__state_restore(&effect->gl, &host);
-    check_gl(effect, "glssao_compute");
+    glssao__draw_check(effect, "glssao_compute");
+    return result;
+}
+
+glssao_result glssao_accumulate(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
+{
+    glssao__projection projection;
+    if (!effect || glssao__draw_is_between_normals(effect, "glssao_accumulate") ||
+        !glssao__settings_check_frame(effect, frame, settings, &effect->log, &projection))
+        return GLSSAO_INVALID_ARGUMENT;
+    if (settings->technique != GLSSAO_HORIZON) {
+        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR,
+                          "settings.technique = %d: only the horizon technique accumulates", settings->technique);
+        return GLSSAO_INVALID_ARGUMENT;
+    }
+    const glssao_settings estimate = glssao__accumulate_settings(settings);
+    const glssao_plan plan =
+        glssao__plan_accumulate(effect, frame, &estimate, glssao__accumulate_next(effect, frame, &estimate));
+    glssao__host_state host;
+    glssao__state_save(&effect->gl, &host);
+    glssao_result result = run(effect, frame, &estimate, &projection, &plan);
+    if (result == GLSSAO_OK && !plan.passes[GLSSAO_PASS_ESTIMATE].run)
+        effect->accumulation.sampling_error = 0.0; /* nothing was sampled */
+    glssao__state_restore(&effect->gl, &host);
+    glssao__draw_check(effect, "glssao_accumulate");
     return result;
 }
 
@@ -403,18 +407,18 @@ static glssao_result apply(glssao_effect *effect, gl_uint framebuffer)
         return GLSSAO_FRAMEBUFFER_ERROR;
     }
     glssao__stats_begin_pass(effect, GLSSAO_PASS_APPLY);
-    gl->Enablei(GL_BLEND, 0);
+    glssao__state_set_blend(gl, GL_ZERO, GL_SRC_COLOR);
     gl->UseProgram(program.name);
     int width, height;
-    bind_input(effect, UNIT_AMBIENT, glssao__maps_result(effect, &width, &height), SAMPLER_LINEAR_CLAMP);
-    draw(effect, framebuffer, effect->width, effect->height);
+    glssao__draw_bind(effect, UNIT_AMBIENT, glssao__maps_result(effect, &width, &height), SAMPLER_LINEAR_CLAMP);
+    glssao__draw(effect, framebuffer, effect->width - 2 * effect->margin, effect->height - 2 * effect->margin);
     glssao__stats_end_pass(effect, GLSSAO_PASS_APPLY, 1);
     return GLSSAO_OK;
 }
 
 glssao_result glssao_apply(glssao_effect *effect, uint32_t framebuffer)
 {
-    if (!effect || is_between_normals(effect, "glssao_apply"))
+    if (!effect || glssao__draw_is_between_normals(effect, "glssao_apply"))
         return GLSSAO_INVALID_ARGUMENT;
     if (effect->frame == 0) {
         glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "glssao_apply called before glssao_compute");
@@ -424,6 +428,6 @@ glssao_result glssao_apply(glssao_effect *effect, uint32_t framebuffer)
     glssao__state_save(&effect->gl, &host);
     glssao_result result = apply(effect, framebuffer);
     glssao__state_restore(&effect->gl, &host);
-    check_gl(effect, "glssao_apply");
+    glssao__draw_check(effect, "glssao_apply");
     return result;
 }

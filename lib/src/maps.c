@@ -41,8 +41,8 @@ static glssao_result make_target(glssao_effect *effect, gl_enum format, int widt
                                  glssao__target *out_target)
 {
     const glssao__gl *gl = &effect->gl;
-    *out_target =
-        (glssao__target){.texture = make_texture(gl, format, width, height, NULL), .width = width, .height = height};
+    *out_target = (glssao__target){
+        .texture = make_texture(gl, format, width, height, NULL), .width = width, .height = height, .format = format};
     if (!out_target->texture) {
         glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "no memory for the %s map of %d x %d", what, width, height);
         return GLSSAO_OUT_OF_MEMORY;
@@ -77,7 +77,7 @@ glssao_result glssao__maps_make_normal(glssao_effect *effect, int width, int hei
 static glssao_result fit_target(glssao_effect *effect, gl_enum format, int width, int height, const char *what,
                                 glssao__target *target)
 {
-    if (target->width == width && target->height == height)
+    if (target->width == width && target->height == height && target->format == format)
         return GLSSAO_OK;
     glssao__target made;
     glssao_result result = make_target(effect, format, width, height, what, &made);
@@ -88,22 +88,29 @@ static glssao_result fit_target(glssao_effect *effect, gl_enum format, int width
     return GLSSAO_OK;
 }
 
-glssao_result glssao__maps_fit_distance(glssao_effect *effect, int width, int height)
+glssao_result glssao__maps_fit_distance(glssao_effect *effect, int width, int height, bool has_layers)
 {
-    return fit_target(effect, GL_R32F, width, height, "distance", &effect->distance_map);
+    return fit_target(effect, has_layers ? GL_RGBA32F : GL_R32F, width, height, "distance", &effect->distance_map);
 }
 
-glssao_result glssao__maps_fit_full(glssao_effect *effect)
+glssao_result glssao__maps_fit_result(glssao_effect *effect, int width, int height)
 {
-    return fit_target(effect, GL_R16, effect->width, effect->height, "full-size ambient", &effect->full_map);
+    return fit_target(effect, GL_R16, width, height, "result", &effect->result_map);
+}
+
+glssao_result glssao__maps_fit_accumulation(glssao_effect *effect)
+{
+    glssao__accumulation *a = &effect->accumulation;
+    glssao_result result = fit_target(effect, GL_RG32F, effect->width, effect->height, "accumulation", &a->sum);
+    return result == GLSSAO_OK ? fit_target(effect, GL_RG32F, PROBE_SIZE, PROBE_SIZE, "probe", &a->probe) : result;
 }
 
 gl_uint glssao__maps_result(const glssao_effect *effect, int *out_width, int *out_height)
 {
-    bool full = effect->result_is_full;
-    *out_width = full ? effect->full_map.width : effect->ambient.width;
-    *out_height = full ? effect->full_map.height : effect->ambient.height;
-    return full ? effect->full_map.texture : effect->ambient.texture[0];
+    bool apart = effect->has_result_map;
+    *out_width = apart ? effect->result_map.width : effect->ambient.width;
+    *out_height = apart ? effect->result_map.height : effect->ambient.height;
+    return apart ? effect->result_map.texture : effect->ambient.texture[0];
 }
 
 static void clear_to_one(const glssao__gl *gl, const glssao__ambient_maps *maps)
@@ -159,11 +166,15 @@ void glssao__maps_delete_ambient(const glssao__gl *gl, glssao__ambient_maps *map
     *maps = (glssao__ambient_maps){0};
 }
 
-void glssao__maps_clear_ambient(glssao_effect *effect)
+void glssao__maps_clear_result(glssao_effect *effect)
 {
     if (!effect->ambient_is_one)
         clear_to_one(&effect->gl, &effect->ambient);
     effect->ambient_is_one = true;
+    if (effect->has_result_map) {
+        effect->gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, effect->result_map.framebuffer);
+        effect->gl.ClearBufferfv(GL_COLOR, 0, (const gl_float[4]){1.0f, 1.0f, 1.0f, 1.0f});
+    }
 }
 
 glssao_result glssao__maps_make_random_vector(glssao_effect *effect)

@@ -26,6 +26,7 @@ typedef float gl_float;
 typedef char gl_char;
 typedef ptrdiff_t gl_intptr;
 typedef ptrdiff_t gl_sizeiptr;
+typedef void *gl_sync;
 
 /* Values from the Khronos registry (gl.xml). */
 enum {
@@ -48,6 +49,7 @@ enum {
     GL_ALPHA_TEST = 0x0BC0,
     GL_BLEND = 0x0BE2,
     GL_COLOR_LOGIC_OP = 0x0BF2,
+    GL_SCISSOR_BOX = 0x0C10,
     GL_SCISSOR_TEST = 0x0C11,
     GL_COLOR_WRITEMASK = 0x0C23,
     GL_UNPACK_SWAP_BYTES = 0x0CF0,
@@ -56,6 +58,12 @@ enum {
     GL_UNPACK_SKIP_ROWS = 0x0CF3,
     GL_UNPACK_SKIP_PIXELS = 0x0CF4,
     GL_UNPACK_ALIGNMENT = 0x0CF5,
+    GL_PACK_SWAP_BYTES = 0x0D00,
+    GL_PACK_LSB_FIRST = 0x0D01,
+    GL_PACK_ROW_LENGTH = 0x0D02,
+    GL_PACK_SKIP_ROWS = 0x0D03,
+    GL_PACK_SKIP_PIXELS = 0x0D04,
+    GL_PACK_ALIGNMENT = 0x0D05,
     GL_MAX_TEXTURE_SIZE = 0x0D33,
     GL_MAX_VIEWPORT_DIMS = 0x0D3A,
     GL_TEXTURE_2D = 0x0DE1,
@@ -110,11 +118,15 @@ enum {
     GL_BLEND_EQUATION_ALPHA = 0x883D,
     GL_DEPTH_BOUNDS_TEST_EXT = 0x8890,
     GL_STREAM_DRAW = 0x88E0,
+    GL_STREAM_READ = 0x88E1,
+    GL_PIXEL_PACK_BUFFER = 0x88EB,
     GL_PIXEL_UNPACK_BUFFER = 0x88EC,
+    GL_PIXEL_PACK_BUFFER_BINDING = 0x88ED,
     GL_PIXEL_UNPACK_BUFFER_BINDING = 0x88EF,
     GL_TEXTURE_STENCIL_SIZE = 0x88F1,
     GL_SAMPLER_BINDING = 0x8919,
     GL_RGBA16F = 0x881A,
+    GL_RGBA32F = 0x8814,
     GL_UNIFORM_BUFFER = 0x8A11,
     GL_UNIFORM_BUFFER_BINDING = 0x8A28,
     GL_UNIFORM_BUFFER_START = 0x8A29,
@@ -143,6 +155,9 @@ enum {
     GL_PRIMITIVE_RESTART = 0x8F9D,
     GL_CLIP_ORIGIN = 0x935C,
     GL_CLIP_DEPTH_MODE = 0x935D,
+    GL_SYNC_GPU_COMMANDS_COMPLETE = 0x9117,
+    GL_ALREADY_SIGNALED = 0x911A,
+    GL_CONDITION_SATISFIED = 0x911C,
     GL_CONTEXT_PROFILE_MASK = 0x9126,
     GL_CONTEXT_COMPATIBILITY_PROFILE_BIT = 2
 };
@@ -165,6 +180,7 @@ enum {
     X(void, BufferSubData, (gl_enum target, gl_intptr offset, gl_sizeiptr size, const void *data))                     \
     X(gl_enum, CheckFramebufferStatus, (gl_enum target))                                                               \
     X(void, ClearBufferfv, (gl_enum buffer, gl_int index, const gl_float *value))                                      \
+    X(gl_enum, ClientWaitSync, (gl_sync sync, gl_bitfield flags, uint64_t timeout_ns))                                 \
     X(void, ColorMaski, (gl_uint index, gl_boolean r, gl_boolean g, gl_boolean b, gl_boolean a))                       \
     X(void, CompileShader, (gl_uint shader))                                                                           \
     X(gl_uint, CreateProgram, (void))                                                                                  \
@@ -175,6 +191,7 @@ enum {
     X(void, DeleteQueries, (gl_sizei n, const gl_uint *queries))                                                       \
     X(void, DeleteSamplers, (gl_sizei n, const gl_uint *samplers))                                                     \
     X(void, DeleteShader, (gl_uint shader))                                                                            \
+    X(void, DeleteSync, (gl_sync sync))                                                                                \
     X(void, DeleteTextures, (gl_sizei n, const gl_uint *textures))                                                     \
     X(void, DeleteVertexArrays, (gl_sizei n, const gl_uint *arrays))                                                   \
     X(void, DepthMask, (gl_boolean flag))                                                                              \
@@ -183,6 +200,7 @@ enum {
     X(void, DrawArrays, (gl_enum mode, gl_int first, gl_sizei count))                                                  \
     X(void, Enable, (gl_enum cap))                                                                                     \
     X(void, Enablei, (gl_enum cap, gl_uint index))                                                                     \
+    X(gl_sync, FenceSync, (gl_enum condition, gl_bitfield flags))                                                      \
     X(void, FramebufferTexture2D,                                                                                      \
       (gl_enum target, gl_enum attachment, gl_enum textarget, gl_uint texture, gl_int level))                          \
     X(void, GenBuffers, (gl_sizei n, gl_uint * buffers))                                                               \
@@ -195,6 +213,7 @@ enum {
     X(void, GetActiveUniformsiv, (gl_uint program, gl_sizei n, const gl_uint *indices, gl_enum name, gl_int *out))     \
     X(void, GetBooleani_v, (gl_enum name, gl_uint index, gl_boolean * out))                                            \
     X(void, GetBooleanv, (gl_enum name, gl_boolean * out))                                                             \
+    X(void, GetBufferSubData, (gl_enum target, gl_intptr offset, gl_sizeiptr size, void *data))                        \
     X(gl_enum, GetError, (void))                                                                                       \
     X(void, GetFloatv, (gl_enum name, gl_float * out))                                                                 \
     X(void, GetInteger64i_v, (gl_enum name, gl_uint index, int64_t * out))                                             \
@@ -219,13 +238,17 @@ enum {
     X(void, PixelStorei, (gl_enum name, gl_int value))                                                                 \
     X(void, PolygonMode, (gl_enum face, gl_enum mode))                                                                 \
     X(void, QueryCounter, (gl_uint query, gl_enum target))                                                             \
+    X(void, ReadPixels,                                                                                                \
+      (gl_int x, gl_int y, gl_sizei width, gl_sizei height, gl_enum format, gl_enum type, void *pixels))               \
     X(void, SamplerParameterfv, (gl_uint sampler, gl_enum name, const gl_float *value))                                \
     X(void, SamplerParameteri, (gl_uint sampler, gl_enum name, gl_int value))                                          \
+    X(void, Scissor, (gl_int x, gl_int y, gl_sizei width, gl_sizei height))                                            \
     X(void, ShaderSource, (gl_uint shader, gl_sizei n, const gl_char *const *text, const gl_int *lengths))             \
     X(void, TexImage2D,                                                                                                \
       (gl_enum target, gl_int level, gl_int internal_format, gl_sizei width, gl_sizei height, gl_int border,           \
        gl_enum format, gl_enum type, const void *pixels))                                                              \
     X(void, TexParameteri, (gl_enum target, gl_enum name, gl_int value))                                               \
+    X(void, Uniform2f, (gl_int location, gl_float x, gl_float y))                                                      \
     X(void, Uniform1i, (gl_int location, gl_int value))                                                                \
     X(void, UniformBlockBinding, (gl_uint program, gl_uint block, gl_uint binding))                                    \
     X(void, UseProgram, (gl_uint program))                                                                             \
@@ -237,6 +260,7 @@ enum {
     X(void, BlendFuncSeparatei,                                                                                        \
       (gl_uint index, gl_enum src_rgb, gl_enum dst_rgb, gl_enum src_alpha, gl_enum dst_alpha))                         \
     X(void, ClipControl, (gl_enum origin, gl_enum depth))                                                              \
+    X(void, ScissorIndexed, (gl_uint index, gl_int x, gl_int y, gl_sizei width, gl_sizei height))                      \
     X(void, ViewportIndexedf, (gl_uint index, gl_float x, gl_float y, gl_float width, gl_float height))
 
 typedef struct glssao__gl {

@@ -11,6 +11,54 @@ void glssao__plan_ambient_size(const glssao_effect *effect, const glssao_setting
     *out_height = settings->half_resolution ? (effect->height + 1) / 2 : effect->height;
 }
 
+static glssao__region inner(int width, int height, int margin)
+{
+    return (glssao__region){margin, margin, width - 2 * margin, height - 2 * margin};
+}
+
+/* Grown on all sides, within width x height. */
+static glssao__region grown(glssao__region r, int by, int width, int height)
+{
+    int right = r.x + r.width + by, top = r.y + r.height + by;
+    r.x = r.x > by ? r.x - by : 0;
+    r.y = r.y > by ? r.y - by : 0;
+    r.width = (right < width ? right : width) - r.x;
+    r.height = (top < height ? top : height) - r.y;
+    return r;
+}
+
+/* How many texels of the estimate beyond a pixel the passes after it read. */
+static int reach(const glssao_settings *settings, const glssao_plan *plan)
+{
+    int taps = settings->blur == GLSSAO_BLUR_BOX || settings->blur == GLSSAO_BLUR_PLANAR ? 2 : 5;
+    return (plan->passes[GLSSAO_PASS_BLUR].run ? taps * settings->blur_rounds : 0) +
+           (plan->passes[GLSSAO_PASS_UPSAMPLE].run ? 1 : 0);
+}
+
+glssao__region glssao__plan_result(const glssao_effect *effect, const glssao_frame *frame,
+                                   const glssao_settings *settings, const glssao_plan *plan)
+{
+    int width, height;
+    glssao__plan_ambient_size(effect, settings, &width, &height);
+    if (settings->half_resolution && !plan->passes[GLSSAO_PASS_UPSAMPLE].run)
+        return inner(width, height, frame->margin / 2);
+    return inner(effect->width, effect->height, frame->margin);
+}
+
+glssao__region glssao__plan_region(const glssao_effect *effect, const glssao_frame *frame,
+                                   const glssao_settings *settings, const glssao_plan *plan, glssao_pass pass)
+{
+    int width, height, factor = settings->half_resolution ? 2 : 1, by = reach(settings, plan);
+    glssao__plan_ambient_size(effect, settings, &width, &height);
+    if (pass == GLSSAO_PASS_UPSAMPLE)
+        return inner(effect->width, effect->height, frame->margin);
+    if (pass == GLSSAO_PASS_NORMALS)
+        return grown(inner(effect->width, effect->height, frame->margin), factor * by, effect->width, effect->height);
+    if (pass == GLSSAO_PASS_DISTANCE) /* occluders are looked for in the margin */
+        return inner(width, height, 0);
+    return grown(inner(width, height, frame->margin / factor), by, width, height);
+}
+
 /* Why every pixel would come out as 1; NULL where one may not. */
 static const char *nothing_to_occlude(const glssao_settings *s)
 {
@@ -48,15 +96,10 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
         return plan_of_skips(nothing);
 
     glssao_plan plan = plan_of_skips("");
+    plan.passes[GLSSAO_PASS_RESOLVE].reason = "runs when glssao_accumulate is called";
     struct glssao_planned_pass *normals = &plan.passes[GLSSAO_PASS_NORMALS];
     *normals = frame->normal_texture ? planned(GLSSAO_PASS_NORMALS, false, "the host brings normals")
                                      : planned(GLSSAO_PASS_NORMALS, true, "no normal map: rebuilt from depth");
-    normals->draw_calls = normals->run ? 1 : 0;
-    normals->width = effect->width;
-    normals->height = effect->height;
-
-    int width, height;
-    glssao__plan_ambient_size(effect, settings, &width, &height);
     struct glssao_planned_pass *estimate = &plan.passes[GLSSAO_PASS_ESTIMATE];
     *estimate = planned(GLSSAO_PASS_ESTIMATE, true, settings->half_resolution ? "at half size" : "at full size");
 
@@ -80,13 +123,32 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
     else
         *distance = planned(GLSSAO_PASS_DISTANCE, false, "no pass reads it");
 
-    static const glssao_pass sized[] = {GLSSAO_PASS_ESTIMATE, GLSSAO_PASS_BLUR, GLSSAO_PASS_UPSAMPLE,
-                                        GLSSAO_PASS_DISTANCE};
-    for (int i = 0; i < 4; ++i) {
-        struct glssao_planned_pass *pass = &plan.passes[sized[i]];
+    for (int i = 0; i < GLSSAO_PASS_COUNT; ++i) {
+        struct glssao_planned_pass *pass = &plan.passes[i];
+        if (i == GLSSAO_PASS_APPLY || i == GLSSAO_PASS_RESOLVE)
+            continue;
+        const glssao__region region = glssao__plan_region(effect, frame, settings, &plan, (glssao_pass)i);
         pass->draw_calls = !pass->run ? 0 : pass == blur ? 2 * settings->blur_rounds : 1;
-        pass->width = pass == upsample ? effect->width : width;
-        pass->height = pass == upsample ? effect->height : height;
+        pass->width = region.width;
+        pass->height = region.height;
     }
+    return plan;
+}
+
+glssao_plan glssao__plan_accumulate(const glssao_effect *effect, const glssao_frame *frame,
+                                    const glssao_settings *settings, int estimates)
+{
+    glssao_plan plan = glssao_plan_frame(effect, frame, settings);
+    struct glssao_planned_pass *resolve = &plan.passes[GLSSAO_PASS_RESOLVE];
+    struct glssao_planned_pass *blur = &plan.passes[GLSSAO_PASS_BLUR];
+    if (!plan.passes[GLSSAO_PASS_ESTIMATE].run)
+        return plan;
+    *resolve = planned(GLSSAO_PASS_RESOLVE, true, "the mean of the estimates");
+    resolve->draw_calls = estimates > 1 ? 2 : 1; /* a single one has no error to probe */
+    const glssao__region region = glssao__plan_region(effect, frame, settings, &plan, GLSSAO_PASS_RESOLVE);
+    resolve->width = region.width;
+    resolve->height = region.height;
+    if (blur->run && estimates >= TILE_ESTIMATES)
+        *blur = planned(GLSSAO_PASS_BLUR, false, "as many estimates as the tile of noise has are smooth");
     return plan;
 }

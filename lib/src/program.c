@@ -9,12 +9,19 @@
 #include <stdlib.h>
 
 static const char *const macros[VARIANT_FLAGS] = {
-    "UNSIGNED_NORMALS",  "OCTAHEDRAL_NORMALS",
-    "DEPTH_IS_DISTANCE", "DEPTH_IN_ALPHA",
-    "NO_ANGLE_WEIGHT",   "BOX",
-    "EDGE_AWARE",        "STEPS_8",
-    "STEPS_12",          "STEPS_16",
+    "UNSIGNED_NORMALS",
+    "OCTAHEDRAL_NORMALS",
+    "DEPTH_IS_DISTANCE",
+    "DEPTH_IN_ALPHA",
+    "NO_ANGLE_WEIGHT",
+    "BOX",
+    "EDGE_AWARE",
+    "STEPS_8",
+    "STEPS_12",
+    "STEPS_16",
     "SLICES_2",
+    "ACCUMULATE",
+    "LAYERS",
 };
 
 enum {
@@ -36,10 +43,12 @@ static const struct shader {
     [SHADER_HEMISPHERE] = {"hemisphere",
                            NORMAL_FLAGS | DEPTH_FLAGS,
                            {shader_view_glsl, shader_normal_map_glsl, shader_hemisphere_frag}},
-    [SHADER_DISTANCE] = {"distance", DEPTH_FLAGS, {shader_view_glsl, shader_distance_frag}},
+    [SHADER_DISTANCE] = {"distance", DEPTH_FLAGS | VARIANT_LAYERS, {shader_view_glsl, shader_distance_frag}},
     [SHADER_HORIZON] = {"horizon",
-                        NORMAL_FLAGS | STEP_FLAGS | VARIANT_SLICES_2,
+                        NORMAL_FLAGS | STEP_FLAGS | VARIANT_SLICES_2 | VARIANT_ACCUMULATE | VARIANT_LAYERS,
                         {shader_view_glsl, shader_normal_map_glsl, shader_horizon_frag}},
+    [SHADER_RESOLVE] = {"resolve", 0, {shader_view_glsl, shader_resolve_frag}},
+    [SHADER_PROBE] = {"probe", 0, {shader_view_glsl, shader_probe_frag}},
     [SHADER_PLANAR_BLUR] = {"planar-blur", 0, {shader_view_glsl, shader_planar_blur_frag}},
     [SHADER_UPSAMPLE] = {"upsample", DEPTH_FLAGS, {shader_view_glsl, shader_upsample_frag}},
     [SHADER_BLUR] = {"blur",
@@ -165,6 +174,9 @@ static const struct member {
     FRAME(gBlurDepthThreshold),
     FRAME(gSampleCount),
     FRAME(gFactor),
+    FRAME(gNoise),
+    FRAME(gAccumulation),
+    FRAME(gProbe),
 #undef FRAME
     {BLOCK_HEMISPHERE, "gKernel", offsetof(glssao__hemisphere_constants, gKernel)},
     {BLOCK_HEMISPHERE, "gRotations", offsetof(glssao__hemisphere_constants, gRotations)},
@@ -240,7 +252,8 @@ static void tie_samplers(const glssao__gl *gl, gl_uint program)
         enum glssao__unit unit;
     } samplers[] = {
         {"u_normal_map", UNIT_NORMAL},   {"u_depth_map", UNIT_DEPTH},       {"u_random_vector_map", UNIT_RANDOM_VECTOR},
-        {"u_ambient_map", UNIT_AMBIENT}, {"u_distance_map", UNIT_DISTANCE},
+        {"u_ambient_map", UNIT_AMBIENT}, {"u_distance_map", UNIT_DISTANCE}, {"u_back_map", UNIT_BACK},
+        {"u_second_map", UNIT_SECOND},
     };
     gl->UseProgram(program);
     for (size_t i = 0; i < sizeof samplers / sizeof *samplers; ++i)
@@ -268,6 +281,7 @@ static glssao_result make(glssao_effect *effect, enum glssao__shader shader, uns
         return GLSSAO_SHADER_ERROR;
     tie_samplers(gl, out->name);
     out->horizontal_location = gl->GetUniformLocation(out->name, "gHorizontalBlur");
+    out->origin_location = gl->GetUniformLocation(out->name, "gOrigin");
     return GLSSAO_OK;
 }
 

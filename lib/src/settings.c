@@ -20,14 +20,15 @@ static glssao_settings hemisphere_settings(glssao_settings s, glssao_quality qua
     return s;
 }
 
-/* Half size is brought to full along surfaces; ULTRA estimates at full size. */
+/* Half size is brought to full along surfaces, but for LOW, which it would cost as much again; ULTRA estimates at full
+ * size. */
 static glssao_settings horizon_settings(glssao_settings s, glssao_quality quality)
 {
     s.technique = GLSSAO_HORIZON;
     s.power = 1.0f;
     s.sample_count = quality == GLSSAO_LOW ? 12 : quality == GLSSAO_MEDIUM ? 16 : 48;
     s.half_resolution = quality != GLSSAO_ULTRA;
-    s.upsample = true;
+    s.upsample = quality != GLSSAO_LOW;
     s.blur = GLSSAO_BLUR_PLANAR;
     s.blur_rounds = 1;
     return s;
@@ -145,10 +146,17 @@ static bool check_frame(const glssao_effect *effect, const glssao_frame *frame, 
         return refuse(log, "frame.normal_texture", 0, "no texture, and GLSSAO_DEPTH_NORMAL_ALPHA reads depth from it");
     if (!in_alpha && frame->depth_texture == 0)
         return refuse(log, "frame.depth_texture", 0, "no texture");
-    const gl_uint written[] = {effect->ambient.texture[0], effect->ambient.texture[1], effect->paired.texture[0],
-                               effect->paired.texture[1],  effect->distance_map.texture, effect->full_map.texture};
+    if (frame->margin < 0 || frame->margin % 2 != 0 || frame->margin > (effect->width - 1) / 2 ||
+        frame->margin > (effect->height - 1) / 2)
+        return refuse(log, "frame.margin", frame->margin, "want an even number that leaves a pixel between");
+    if ((frame->back_texture == 0) != (frame->second_texture == 0))
+        return refuse(log, frame->back_texture ? "frame.second_texture" : "frame.back_texture", 0,
+                      "no texture, but the other is there");
+    const gl_uint written[] = {effect->ambient.texture[0], effect->ambient.texture[1],   effect->paired.texture[0],
+                               effect->paired.texture[1],  effect->distance_map.texture, effect->result_map.texture};
     for (size_t i = 0; i < sizeof written / sizeof *written; ++i)
-        if (written[i] && (frame->depth_texture == written[i] || frame->normal_texture == written[i]))
+        if (written[i] && (frame->depth_texture == written[i] || frame->normal_texture == written[i] ||
+                           frame->back_texture == written[i] || frame->second_texture == written[i]))
             return refuse(log, "frame texture", written[i], "the effect's own map can't be its input");
     return glssao__projection_analyse(frame->projection, frame->clip_zero_to_one, log, out_projection);
 }

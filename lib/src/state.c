@@ -75,6 +75,7 @@ static void restore_toggles(const glssao__gl *gl, const glssao__host_state *s)
 /* With viewport arrays, setting without an index would overwrite all sixteen. */
 static void save_scissor(const glssao__gl *gl, glssao__host_state *s)
 {
+    gl->GetIntegerv(GL_SCISSOR_BOX, s->scissor_box);
     s->scissor = gl->ViewportIndexedf ? gl->IsEnabledi(GL_SCISSOR_TEST, 0) : gl->IsEnabled(GL_SCISSOR_TEST);
 }
 
@@ -93,8 +94,24 @@ static void set_scissor(const glssao__gl *gl)
     put_scissor(gl, 0);
 }
 
+static void put_scissor_box(const glssao__gl *gl, const gl_int box[4])
+{
+    if (gl->ScissorIndexed)
+        gl->ScissorIndexed(0, box[0], box[1], box[2], box[3]);
+    else
+        gl->Scissor(box[0], box[1], box[2], box[3]);
+}
+
+void glssao__state_set_scissor(const glssao__gl *gl, const gl_int box[4])
+{
+    put_scissor(gl, box != NULL);
+    if (box)
+        put_scissor_box(gl, box);
+}
+
 static void restore_scissor(const glssao__gl *gl, const glssao__host_state *s)
 {
+    put_scissor_box(gl, s->scissor_box);
     put_scissor(gl, s->scissor);
 }
 
@@ -191,33 +208,37 @@ static void restore_uniform_buffers(const glssao__gl *gl, const glssao__host_sta
     gl->BindBuffer(GL_UNIFORM_BUFFER, (gl_uint)s->uniform_buffer); /* the calls above changed the generic binding */
 }
 
-static const struct unpack_parameter {
+/* How pixels pass to and from memory. */
+static const struct transfer_parameter {
     gl_enum name;
     gl_int wanted;
-} unpack_parameters[6] = {
-    {GL_UNPACK_SWAP_BYTES, 0}, {GL_UNPACK_LSB_FIRST, 0},   {GL_UNPACK_ROW_LENGTH, 0},
-    {GL_UNPACK_SKIP_ROWS, 0},  {GL_UNPACK_SKIP_PIXELS, 0}, {GL_UNPACK_ALIGNMENT, 4},
+} transfer_parameters[TRANSFER_PARAMETERS] = {
+    {GL_UNPACK_SWAP_BYTES, 0},  {GL_UNPACK_LSB_FIRST, 0}, {GL_UNPACK_ROW_LENGTH, 0}, {GL_UNPACK_SKIP_ROWS, 0},
+    {GL_UNPACK_SKIP_PIXELS, 0}, {GL_UNPACK_ALIGNMENT, 4}, {GL_PACK_SWAP_BYTES, 0},   {GL_PACK_LSB_FIRST, 0},
+    {GL_PACK_ROW_LENGTH, 0},    {GL_PACK_SKIP_ROWS, 0},   {GL_PACK_SKIP_PIXELS, 0},  {GL_PACK_ALIGNMENT, 4},
 };
 
-static void save_unpack(const glssao__gl *gl, glssao__host_state *s)
+static void save_transfer(const glssao__gl *gl, glssao__host_state *s)
 {
     gl->GetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &s->unpack_buffer);
-    for (int i = 0; i < 6; ++i)
-        gl->GetIntegerv(unpack_parameters[i].name, &s->unpack[i]);
+    gl->GetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &s->pack_buffer);
+    for (int i = 0; i < TRANSFER_PARAMETERS; ++i)
+        gl->GetIntegerv(transfer_parameters[i].name, &s->transfer[i]);
 }
 
-static void set_unpack(const glssao__gl *gl)
+static void set_transfer(const glssao__gl *gl)
 {
     gl->BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0); /* else a NULL pointer means the buffer's start */
-    for (int i = 0; i < 6; ++i)
-        gl->PixelStorei(unpack_parameters[i].name, unpack_parameters[i].wanted);
+    for (int i = 0; i < TRANSFER_PARAMETERS; ++i)
+        gl->PixelStorei(transfer_parameters[i].name, transfer_parameters[i].wanted);
 }
 
-static void restore_unpack(const glssao__gl *gl, const glssao__host_state *s)
+static void restore_transfer(const glssao__gl *gl, const glssao__host_state *s)
 {
     gl->BindBuffer(GL_PIXEL_UNPACK_BUFFER, (gl_uint)s->unpack_buffer);
-    for (int i = 0; i < 6; ++i)
-        gl->PixelStorei(unpack_parameters[i].name, s->unpack[i]);
+    gl->BindBuffer(GL_PIXEL_PACK_BUFFER, (gl_uint)s->pack_buffer);
+    for (int i = 0; i < TRANSFER_PARAMETERS; ++i)
+        gl->PixelStorei(transfer_parameters[i].name, s->transfer[i]);
 }
 
 static void save_polygon_mode(const glssao__gl *gl, glssao__host_state *s)
@@ -326,12 +347,16 @@ static void put_blend(const glssao__gl *gl, const gl_enum function[4], const gl_
         gl->BlendEquationSeparate(equation[0], equation[1]);
 }
 
-/* The one blend function used: source colour times destination colour; alpha stays. Off until a pass enables it. */
 static void set_blend(const glssao__gl *gl)
 {
     gl->Disablei(GL_BLEND, 0);
-    put_blend(gl, (const gl_enum[4]){GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE},
+}
+
+void glssao__state_set_blend(const glssao__gl *gl, gl_enum source, gl_enum destination)
+{
+    put_blend(gl, (const gl_enum[4]){source, destination, GL_ZERO, GL_ONE},
               (const gl_enum[2]){GL_FUNC_ADD, GL_FUNC_ADD});
+    gl->Enablei(GL_BLEND, 0);
 }
 
 static void restore_blend(const glssao__gl *gl, const glssao__host_state *s)
@@ -358,7 +383,7 @@ static const struct state {
     {save_viewport, NULL, restore_viewport},
     {save_textures, NULL, restore_textures},
     {save_uniform_buffers, NULL, restore_uniform_buffers},
-    {save_unpack, set_unpack, restore_unpack},
+    {save_transfer, set_transfer, restore_transfer},
     {save_polygon_mode, set_polygon_mode, restore_polygon_mode},
     {save_clip_control, set_clip_control, restore_clip_control},
     {save_masks, set_masks, restore_masks},

@@ -9,7 +9,8 @@
 
 const char *const glssao__stats_pass_names[GLSSAO_PASS_COUNT] = {
     [GLSSAO_PASS_NORMALS] = "normals", [GLSSAO_PASS_DISTANCE] = "distance", [GLSSAO_PASS_ESTIMATE] = "estimate",
-    [GLSSAO_PASS_BLUR] = "blur",       [GLSSAO_PASS_UPSAMPLE] = "upsample", [GLSSAO_PASS_APPLY] = "apply",
+    [GLSSAO_PASS_RESOLVE] = "resolve", [GLSSAO_PASS_BLUR] = "blur",         [GLSSAO_PASS_UPSAMPLE] = "upsample",
+    [GLSSAO_PASS_APPLY] = "apply",
 };
 
 static glssao__timer_frame *timers_of(glssao_effect *effect, uint64_t frame)
@@ -70,7 +71,7 @@ static double milliseconds(const glssao__gl *gl, const gl_uint queries[2])
 
 glssao_stats glssao_get_stats(glssao_effect *effect)
 {
-    glssao_stats stats = {.gpu_ms = -1.0};
+    glssao_stats stats = {.gpu_ms = -1.0, .sampling_error = -1.0};
     for (int pass = 0; pass < GLSSAO_PASS_COUNT; ++pass) {
         stats.passes[pass].name = glssao__stats_pass_names[pass];
         stats.passes[pass].gpu_ms = -1.0;
@@ -78,6 +79,8 @@ glssao_stats glssao_get_stats(glssao_effect *effect)
     if (!effect)
         return stats;
     stats.frame = effect->frame;
+    stats.estimates = effect->accumulation.count[0] + effect->accumulation.count[1];
+    stats.sampling_error = glssao__accumulate_error(effect);
     for (int pass = 0; pass < GLSSAO_PASS_COUNT; ++pass) {
         stats.passes[pass].draw_calls = effect->draw_calls[pass];
         stats.draw_calls += effect->draw_calls[pass];

@@ -23,36 +23,37 @@ static const struct change {
     int technique;    /* ANY: each */
     bool every_level; /* or the default one alone */
     int half, upsample, blur, rounds, samples;
-    bool no_angle_weight;
+    bool no_angle_weight, beyond;
 } changes[] = {
-    {"", ANY, true, SAME, SAME, SAME, SAME, SAME, false},
-    {"-full", ANY, true, false, SAME, SAME, SAME, SAME, false},
-    {"-half", ANY, true, true, SAME, SAME, SAME, SAME, false},
-    {"-noblur", ANY, false, SAME, SAME, GLSSAO_BLUR_NONE, 0, SAME, false},
-    {"-gaussian-1", ANY, false, SAME, SAME, GLSSAO_BLUR_GAUSSIAN, 1, SAME, false},
-    {"-gaussian-2", ANY, false, SAME, SAME, GLSSAO_BLUR_GAUSSIAN, 2, SAME, false},
-    {"-gaussian-3", ANY, false, SAME, SAME, GLSSAO_BLUR_GAUSSIAN, 3, SAME, false},
-    {"-gaussian-4", ANY, false, SAME, SAME, GLSSAO_BLUR_GAUSSIAN, 4, SAME, false},
-    {"-bilateral-1", ANY, false, SAME, SAME, GLSSAO_BLUR_BILATERAL, 1, SAME, false},
-    {"-bilateral-2", ANY, false, SAME, SAME, GLSSAO_BLUR_BILATERAL, 2, SAME, false},
-    {"-bilateral-3", ANY, false, SAME, SAME, GLSSAO_BLUR_BILATERAL, 3, SAME, false},
-    {"-bilateral-4", ANY, false, SAME, SAME, GLSSAO_BLUR_BILATERAL, 4, SAME, false},
-    {"-box-1", ANY, false, SAME, SAME, GLSSAO_BLUR_BOX, 1, SAME, false},
-    {"-box-2", ANY, false, SAME, SAME, GLSSAO_BLUR_BOX, 2, SAME, false},
-    {"-box-3", ANY, false, SAME, SAME, GLSSAO_BLUR_BOX, 3, SAME, false},
-    {"-box-4", ANY, false, SAME, SAME, GLSSAO_BLUR_BOX, 4, SAME, false},
-    {"-4samples", GLSSAO_CLASSIC, false, SAME, SAME, SAME, SAME, 4, false},
-    {"-8samples", GLSSAO_CLASSIC, false, SAME, SAME, SAME, SAME, 8, false},
-    {"-noangle", GLSSAO_CLASSIC, false, SAME, SAME, SAME, SAME, SAME, true},
-    {"-planar-1", ANY, false, SAME, SAME, GLSSAO_BLUR_PLANAR, 1, SAME, false},
-    {"-planar-2", ANY, false, SAME, SAME, GLSSAO_BLUR_PLANAR, 2, SAME, false},
-    {"-upsample", ANY, false, true, true, SAME, SAME, SAME, false},
-    {"-noupsample", ANY, false, true, false, SAME, SAME, SAME, false},
-    {"-12samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 12, false},
-    {"-16samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 16, false},
-    {"-24samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 24, false},
-    {"-48samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 48, false},
-    {"-64samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 64, false},
+    {"", ANY, true, SAME, SAME, SAME, SAME, SAME, false, false},
+    {"-full", ANY, true, false, SAME, SAME, SAME, SAME, false, false},
+    {"-half", ANY, true, true, SAME, SAME, SAME, SAME, false, false},
+    {"-noblur", ANY, false, SAME, SAME, GLSSAO_BLUR_NONE, 0, SAME, false, false},
+    {"-gaussian-1", ANY, false, SAME, SAME, GLSSAO_BLUR_GAUSSIAN, 1, SAME, false, false},
+    {"-gaussian-2", ANY, false, SAME, SAME, GLSSAO_BLUR_GAUSSIAN, 2, SAME, false, false},
+    {"-gaussian-3", ANY, false, SAME, SAME, GLSSAO_BLUR_GAUSSIAN, 3, SAME, false, false},
+    {"-gaussian-4", ANY, false, SAME, SAME, GLSSAO_BLUR_GAUSSIAN, 4, SAME, false, false},
+    {"-bilateral-1", ANY, false, SAME, SAME, GLSSAO_BLUR_BILATERAL, 1, SAME, false, false},
+    {"-bilateral-2", ANY, false, SAME, SAME, GLSSAO_BLUR_BILATERAL, 2, SAME, false, false},
+    {"-bilateral-3", ANY, false, SAME, SAME, GLSSAO_BLUR_BILATERAL, 3, SAME, false, false},
+    {"-bilateral-4", ANY, false, SAME, SAME, GLSSAO_BLUR_BILATERAL, 4, SAME, false, false},
+    {"-box-1", ANY, false, SAME, SAME, GLSSAO_BLUR_BOX, 1, SAME, false, false},
+    {"-box-2", ANY, false, SAME, SAME, GLSSAO_BLUR_BOX, 2, SAME, false, false},
+    {"-box-3", ANY, false, SAME, SAME, GLSSAO_BLUR_BOX, 3, SAME, false, false},
+    {"-box-4", ANY, false, SAME, SAME, GLSSAO_BLUR_BOX, 4, SAME, false, false},
+    {"-4samples", GLSSAO_CLASSIC, false, SAME, SAME, SAME, SAME, 4, false, false},
+    {"-8samples", GLSSAO_CLASSIC, false, SAME, SAME, SAME, SAME, 8, false, false},
+    {"-noangle", GLSSAO_CLASSIC, false, SAME, SAME, SAME, SAME, SAME, true, false},
+    {"-planar-1", ANY, false, SAME, SAME, GLSSAO_BLUR_PLANAR, 1, SAME, false, false},
+    {"-planar-2", ANY, false, SAME, SAME, GLSSAO_BLUR_PLANAR, 2, SAME, false, false},
+    {"-upsample", ANY, false, true, true, SAME, SAME, SAME, false, false},
+    {"-noupsample", ANY, false, true, false, SAME, SAME, SAME, false, false},
+    {"-beyond", GLSSAO_HORIZON, true, SAME, SAME, SAME, SAME, SAME, false, true},
+    {"-12samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 12, false, false},
+    {"-16samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 16, false, false},
+    {"-24samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 24, false, false},
+    {"-48samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 48, false, false},
+    {"-64samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 64, false, false},
 };
 
 static glssao_settings apply(const struct change *c, glssao_technique technique, glssao_quality level)
@@ -87,8 +88,8 @@ static bool measured(const bench_config *configs, int count, const bench_config 
     const glssao_settings *s = &config->settings;
     for (int i = 0; i < count; i++) {
         const bench_config *other = &configs[i];
-        if (!config->level && !other->level && other->settings.technique == s->technique &&
-            changes_nothing(&other->settings, s))
+        if (!config->level && !other->level && !config->beyond && !other->beyond &&
+            other->settings.technique == s->technique && changes_nothing(&other->settings, s))
             return true;
     }
     return false;
@@ -113,10 +114,12 @@ int bench_configs_list(const options *o, const glssao_effect *effect, bench_conf
                 if ((c->technique != ANY && c->technique != t) || (!c->every_level && level != GLSSAO_HIGH))
                     continue;
                 bench_config config = {.settings = apply(c, (glssao_technique)t, (glssao_quality)level),
-                                       .level = c->suffix[0] == '\0'};
+                                       .level = c->suffix[0] == '\0',
+                                       .beyond = c->beyond};
                 snprintf(config.id, sizeof config.id, "%s-%s%s", technique_names[t], level_names[level], c->suffix);
-                if ((config.level || !changes_nothing(&config.settings, &base)) && !measured(out, count, &config) &&
-                    options_match(o->only, config.id) && count < BENCH_CONFIGS_MAX && taken(effect, &config.settings))
+                if ((config.level || config.beyond || !changes_nothing(&config.settings, &base)) &&
+                    !measured(out, count, &config) && options_match(o->only, config.id) && count < BENCH_CONFIGS_MAX &&
+                    taken(effect, &config.settings))
                     out[count++] = config;
             }
         }

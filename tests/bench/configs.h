@@ -16,6 +16,7 @@ typedef struct bench_config {
     char id[48];              /* stable: technique-level, or technique-level-change */
     glssao_settings settings; /* lengths as glssao_default_settings gives them */
     bool level;               /* a quality level as it comes */
+    bool beyond;              /* on bench_view.beyond */
 } bench_config;
 
 /* Fills `out` and returns how many there are. `effect` is asked whether it takes the settings; what it refuses is left

@@ -41,22 +41,23 @@ void map_reader_destroy(map_reader *m)
 void effects_destroy(effects *e)
 {
     for (int t = 0; t < BENCH_TECHNIQUES; t++) {
-        for (int half = 0; half < 2; half++) {
-            glssao_destroy(e->of[t][half]);
-            e->of[t][half] = NULL;
+        for (int i = 0; i < 4; i++) {
+            glssao_destroy(e->of[t][i / 2][i % 2]);
+            e->of[t][i / 2][i % 2] = NULL;
         }
     }
 }
 
-glssao_effect *effects_get(effects *e, const glssao_settings *settings, char *error, size_t error_size)
+glssao_effect *effects_get(effects *e, const gbuffer *g, const glssao_settings *settings, char *error,
+                           size_t error_size)
 {
-    glssao_effect **slot = &e->of[settings->technique][settings->half_resolution];
+    glssao_effect **slot = &e->of[settings->technique][settings->half_resolution][g->margin > 0];
     if (!*slot) {
         const glssao_config config = {.load = e->load ? e->load : context_load,
                                       .load_user = e->context,
                                       .log = glssao_log_to_stderr,
-                                      .width = e->width,
-                                      .height = e->height,
+                                      .width = e->width + 2 * g->margin,
+                                      .height = e->height + 2 * g->margin,
                                       .seed = e->seed};
         const glssao_result result = glssao_create(&config, slot);
         if (result != GLSSAO_OK)
@@ -68,7 +69,7 @@ glssao_effect *effects_get(effects *e, const glssao_settings *settings, char *er
 bool effects_run(effects *e, map_reader *m, const gbuffer *g, float radius, const glssao_settings *settings, float *out,
                  char *error, size_t error_size)
 {
-    glssao_effect *effect = effects_get(e, settings, error, error_size);
+    glssao_effect *effect = effects_get(e, g, settings, error, error_size);
     if (!effect)
         return false;
     const glssao_settings scaled = bench_scale_settings(settings, radius);

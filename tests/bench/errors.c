@@ -15,19 +15,21 @@ typedef struct sums {
     fit_sum *view_fit, all_fit; /* view_fit: one a view */
 } sums;
 
-static bool measure_view(const bench_view *v, const glssao_settings *settings, effects *e, map_reader *m, sums *s,
+static bool measure_view(const bench_view *v, const bench_config *config, effects *e, map_reader *m, sums *s,
                          fit_sum *fit, float *picture, char *error, size_t error_size)
 {
     const size_t count = (size_t)m->width * (size_t)m->height;
+    const glssao_settings *settings = &config->settings;
+    const gbuffer *g = config->beyond ? &v->beyond : &v->gbuffer;
     glssao_settings plain = *settings;
     plain.power = 1;
     memset(&s->view_error, 0, sizeof s->view_error);
     memset(fit, 0, sizeof *fit);
-    if (!effects_run(e, m, &v->gbuffer, v->radius, settings, picture, error, error_size))
+    if (!effects_run(e, m, g, v->radius, settings, picture, error, error_size))
         return false;
     error_add(&s->view_error, picture, v->truth.accessibility, v->classes, count);
     if (settings->power < 1 || settings->power > 1)
-        if (!effects_run(e, m, &v->gbuffer, v->radius, &plain, picture, error, error_size))
+        if (!effects_run(e, m, g, v->radius, &plain, picture, error, error_size))
             return false;
     fit_add(fit, picture, v->truth.accessibility, v->classes, count);
     error_merge(&s->all_error, &s->view_error);
@@ -41,7 +43,7 @@ static bool measure_config(results *r, config_result *c, effects *e, map_reader 
     memset(&s->all_error, 0, sizeof s->all_error);
     memset(&s->all_fit, 0, sizeof s->all_fit);
     for (int i = 0; i < r->view_count; i++) {
-        if (!measure_view(&r->views[i], &c->config.settings, e, m, s, &s->view_fit[i], picture, error, error_size))
+        if (!measure_view(&r->views[i], &c->config, e, m, s, &s->view_fit[i], picture, error, error_size))
             return false;
         c->views[i].as_is = error_finish(&s->view_error);
     }

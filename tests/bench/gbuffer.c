@@ -4,6 +4,8 @@
  */
 #include "gbuffer.h"
 
+#include "camera.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,14 +21,36 @@ static GLuint make_texture(GLenum internal_format, GLenum format, GLenum type, c
     return texture;
 }
 
-bool gbuffer_draw(gbuffer *g, const scene *s, const scene_view *view, char *error, size_t error_size)
+int gbuffer_margin(int width)
 {
-    *g = (gbuffer){.view = *view};
+    return width / 12 * 2;
+}
+
+static void draw_layers(gbuffer *g, scene_renderer *renderer)
+{
+    for (int i = 0; i < 2; i++) {
+        g->layers[i] = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, &g->view);
+        gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
+        gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, g->layers[i], 0);
+        gl.DrawBuffer(GL_NONE);
+        scene_draw_layer(renderer, &g->view, g->depth, i == 0 ? SCENE_LAYER_BACK : SCENE_LAYER_SECOND);
+    }
+}
+
+bool gbuffer_draw(gbuffer *g, const scene *s, const scene_view *view, int margin, char *error, size_t error_size)
+{
+    const scene_lighting none = {0};
+    const scene_draw_options draws = {.layers = margin > 0, .no_picture = true};
+    *g = (gbuffer){.view = camera_widened_view(view, margin), .margin = margin};
     scene_renderer *renderer = scene_renderer_create(s, error, error_size);
     if (!renderer)
         return false;
-    g->depth = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, view);
-    g->normals = make_texture(GL_RGBA16F, GL_RGBA, GL_FLOAT, view);
+    if (!scene_renderer_configure(renderer, &none, &draws, error, error_size)) {
+        scene_renderer_destroy(renderer);
+        return false;
+    }
+    g->depth = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, &g->view);
+    g->normals = make_texture(GL_RGBA16F, GL_RGBA, GL_FLOAT, &g->view);
     GLuint framebuffer;
     gl.GenFramebuffers(1, &framebuffer);
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -34,14 +58,16 @@ bool gbuffer_draw(gbuffer *g, const scene *s, const scene_view *view, char *erro
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, g->depth, 0);
     const bool complete = gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
     if (complete) {
-        gl.Viewport(0, 0, view->width, view->height);
+        gl.Viewport(0, 0, g->view.width, g->view.height);
         gl.DepthMask(GL_TRUE);
         gl.ClearColor(0, 0, 1, 0);
         gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        scene_draw_normals(renderer, view);
+        scene_draw_normals(renderer, &g->view);
+        if (margin > 0)
+            draw_layers(g, renderer);
         gl.Finish(); /* the scene may go now */
     } else {
-        snprintf(error, error_size, "no framebuffer of %dx%d", view->width, view->height);
+        snprintf(error, error_size, "no framebuffer of %dx%d", g->view.width, g->view.height);
     }
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     gl.DeleteFramebuffers(1, &framebuffer);
@@ -53,12 +79,17 @@ void gbuffer_destroy(gbuffer *g)
 {
     gl.DeleteTextures(1, &g->depth);
     gl.DeleteTextures(1, &g->normals);
+    gl.DeleteTextures(2, g->layers);
     *g = (gbuffer){0};
 }
 
 glssao_frame gbuffer_frame(const gbuffer *g)
 {
-    glssao_frame frame = {.depth_texture = g->depth, .normal_texture = g->normals};
+    glssao_frame frame = {.depth_texture = g->depth,
+                          .normal_texture = g->normals,
+                          .margin = g->margin,
+                          .back_texture = g->layers[0],
+                          .second_texture = g->layers[1]};
     for (int i = 0; i < 16; i++)
         frame.projection[i] = g->view.clip_from_view[i];
     return frame;

@@ -13,12 +13,17 @@
 
 typedef struct gbuffer {
     scene_view view;
-    GLuint depth;   /* 24 bits, window depth */
-    GLuint normals; /* RGBA16F */
+    GLuint depth;     /* 24 bits, window depth */
+    GLuint normals;   /* RGBA16F */
+    GLuint layers[2]; /* where there is a margin: back faces and second fronts, as depth */
+    int margin;       /* pixels on each side of the view proper; `view` has them on it */
 } gbuffer;
 
-/* False, with one line in `error`; gbuffer_destroy is due in either case. */
-bool gbuffer_draw(gbuffer *g, const scene *s, const scene_view *view, char *error, size_t error_size);
+/* With a margin, a second layer too. False, with one line in `error`; gbuffer_destroy is due in either case. */
+bool gbuffer_draw(gbuffer *g, const scene *s, const scene_view *view, int margin, char *error, size_t error_size);
+
+/* The margin that is measured: a sixth of the width. */
+int gbuffer_margin(int width);
 void gbuffer_destroy(gbuffer *g);
 
 glssao_frame gbuffer_frame(const gbuffer *g);

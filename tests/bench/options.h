@@ -15,7 +15,7 @@ typedef struct options {
     const char *cache, *out, *doc, *time_scene;
     int size[2], time_size[2]; /* pixels */
     int rays, frames;
-    int rounds; /* glssao-tune's */
+    int rounds, fold; /* glssao-tune's */
     int oracle_step, oracle_rays, split_seeds;
     int context; /* context_kind */
     uint32_t seed;

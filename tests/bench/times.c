@@ -17,7 +17,7 @@ enum { WARM_UP_FRAMES = 2, ROWS = 2 + GLSSAO_PASS_COUNT }; /* frame, CPU, passes
 static bool time_frame(bool software, effects *e, const gbuffer *g, float radius, const glssao_settings *settings,
                        double values[ROWS], char *error, size_t error_size)
 {
-    glssao_effect *effect = effects_get(e, settings, error, error_size);
+    glssao_effect *effect = effects_get(e, g, settings, error, error_size);
     if (!effect)
         return false;
     const glssao_settings scaled = bench_scale_settings(settings, radius);
@@ -52,8 +52,8 @@ static timing summarise(double *values, int frames)
     return t;
 }
 
-/* values: for each configuration, ROWS rows of `frames`. */
-static bool take_turns(results *r, effects *e, const gbuffer *g, float radius, double *values, char *error,
+/* g: without and with what lies beyond. values: for each configuration, ROWS rows of `frames`. */
+static bool take_turns(results *r, effects *e, const gbuffer g[2], float radius, double *values, char *error,
                        size_t error_size)
 {
     const int frames = r->options->frames;
@@ -61,7 +61,8 @@ static bool take_turns(results *r, effects *e, const gbuffer *g, float radius, d
         progress_show("times: frame %d/%d", f < 0 ? 0 : f + 1, frames);
         for (int i = 0; i < r->config_count; i++) {
             double row[ROWS];
-            if (!time_frame(r->software, e, g, radius, &r->configs[i].config.settings, row, error, error_size))
+            if (!time_frame(r->software, e, &g[r->configs[i].config.beyond], radius, &r->configs[i].config.settings,
+                            row, error, error_size))
                 return false;
             for (int k = 0; f >= 0 && k < ROWS; k++)
                 values[((ptrdiff_t)i * ROWS + k) * frames + f] = row[k];
@@ -80,16 +81,18 @@ bool times_measure(results *r, effects *e, const bench_scene *on, int of_view, c
     }
     scene_view view;
     float radius;
-    gbuffer g = {.depth = 0};
+    gbuffer g[2] = {{.depth = 0}};
     scene *s = bench_scene_open(on, e->width, e->height, &view, &radius, error, error_size);
-    const bool timed =
-        s && gbuffer_draw(&g, s, &view, error, error_size) && take_turns(r, e, &g, radius, values, error, error_size);
+    const bool timed = s && gbuffer_draw(&g[0], s, &view, 0, error, error_size) &&
+                       gbuffer_draw(&g[1], s, &view, gbuffer_margin(e->width), error, error_size) &&
+                       take_turns(r, e, g, radius, values, error, error_size);
     for (int i = 0; timed && i < r->config_count; i++) {
         const timing t = summarise(values + i * per_config, r->options->frames);
         *(of_view < 0 ? &r->configs[i].time : &r->configs[i].views[of_view].time) = t;
     }
     progress_clear();
-    gbuffer_destroy(&g);
+    gbuffer_destroy(&g[0]);
+    gbuffer_destroy(&g[1]);
     scene_destroy(s);
     free(values);
     return timed;

@@ -154,7 +154,8 @@ bool bench_view_create(bench_view *v, const bench_scene *b, const options *o, ch
     v->triangles = count_triangles(s);
     const truth_request request = {
         .name = v->name, .cache = o->cache, .radius = v->radius, .rays = o->rays, .seed = o->seed};
-    bool made = gbuffer_draw(&v->gbuffer, s, &view, error, error_size) &&
+    bool made = gbuffer_draw(&v->gbuffer, s, &view, 0, error, error_size) &&
+                gbuffer_draw(&v->beyond, s, &view, gbuffer_margin(view.width), error, error_size) &&
                 truth_get(&request, s, &view, &v->truth, error, error_size);
     scene_destroy(s);
     if (!made)
@@ -169,6 +170,7 @@ bool bench_view_create(bench_view *v, const bench_scene *b, const options *o, ch
 void bench_view_destroy(bench_view *v)
 {
     gbuffer_destroy(&v->gbuffer);
+    gbuffer_destroy(&v->beyond);
     truth_destroy(&v->truth);
     free(v->distance);
     free(v->normals);

@@ -13,8 +13,8 @@
 
 typedef struct bench_view {
     char name[64];
-    float radius; /* scene units */
-    gbuffer gbuffer;
+    float radius;            /* scene units */
+    gbuffer gbuffer, beyond; /* the view proper; the same with a margin and a second layer */
     bench_truth truth;
     float *distance;     /* 0: nothing there */
     float *normals;      /* three a pixel, view space */

@@ -366,7 +366,7 @@ static void plan_says_what_stats_prove(void **state)
     settings[2].radius = 0.0f;
     settings[3].fade_start = settings[3].fade_end = 0.0f;
     /* Normals rebuilt, estimate, two a blur round; distance map and upsampling where the defaults have them. */
-    const int extra = technique == GLSSAO_HORIZON ? 1 + (settings[0].half_resolution ? 1 : 0) : 0;
+    const int extra = technique == GLSSAO_HORIZON ? 1 + (settings[0].half_resolution && settings[0].upsample ? 1 : 0) : 0;
     const int draws[4] = {2 + extra + 2 * settings[0].blur_rounds, 2 + extra, 0,
                           technique == GLSSAO_CLASSIC ? 0 : 2 + extra + 2 * settings[0].blur_rounds};
     for (int i = 0; i < 4; ++i) {

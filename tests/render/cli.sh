@@ -144,6 +144,22 @@ size="-s 65x37"
         ! cmp -s a1.pfm p2.pfm || fail "$options changes nothing"
     done
 
+    # The picture's own options, which leave accessibility as it is. The columns are matte and have no normal map.
+    for options in "--no-shadows" "--shadow-size 64" "--multi-bounce" "--debug-map ao" "--debug-map normals" \
+        "--debug-map depth" "--debug-map random" "--debug-map shadow"; do
+        want 0 "" $size --seed=7 -o p3.png --ao p3.pfm $options
+        ! cmp -s a1.png p3.png || fail "$options changes nothing"
+        cmp a1.pfm p3.pfm || fail "$options changes accessibility"
+    done
+    for options in "--mapped-normals" "--specular-occlusion"; do
+        want 0 "" $size --seed=7 -o p3.png $options
+        cmp a1.png p3.png || fail "$options changes a matte scene without normal maps"
+    done
+    want 2 "--no-shadows excludes" --no-shadows --shadow-size 64 -o b.png
+    want 2 "--debug-map" --debug-map ao --no-ao -o b.png
+    want 2 "--debug-map" --debug-map ao --ao b.png
+    want 2 '"stencil"' --debug-map stencil -o b.png
+
     # Turntable, plan, benchmark.
     want 0 "" $size --frames 3 -o turn.png
     grep -q "frame 3 of 3" err || fail "no progress"
@@ -152,10 +168,26 @@ size="-s 65x37"
     cmp -s turn-0001.png turn-0002.png && fail "the turntable stands still"
     want 0 "" $size --plan
     grep -q '^main  *run' out || fail "the plan has no main pass"
+    grep -q '^shadow map  *use' out || fail "the plan has no shadow map"
+    grep -q '^normal maps  *skip' out || fail "the plan uses normal maps that are not there"
     want 0 "" $size --plan --no-ao
     grep -q '^occlusion  *skip' out || fail "the plan of --no-ao runs occlusion"
     want 0 "" $size --bench 3
     grep -q 'median.*p95' out || fail "the benchmark prints no times"
+
+    # Estimates added up to an error, or for a time.
+    want 0 "" $size --ao e1.pfm --error 0.02 --stats e1.json
+    want 0 "" $size --ao e2.pfm --error 0.002 --stats e2.json
+    grep -q "estimates in .* (at most 0.002)" out || fail "--error does not say what was reached"
+    estimates() { sed -n 's/.*"estimates": \([0-9]*\).*/\1/p' "$1"; }
+    [ "$(estimates e2.json)" -gt "$(estimates e1.json)" ] || fail "a smaller --error takes no more estimates"
+    awk -F'[:,]' '/"sampling_error"/ { exit !($2 > 0 && $2 <= 0.002) }' e2.json || fail "--error was not reached"
+    want 0 "" $size --ao e3.pfm --budget 0.001 --stats e3.json
+    [ "$(estimates e3.json)" = 1 ] || fail "a budget that is spent at once takes more than one estimate"
+    grep -q "estimates in .* (budget 0.001 ms)" out || fail "--budget does not say what was reached"
+    want 2 "--error 0.01: only the horizon technique" -t classic --error 0.01 --ao e4.pfm
+    want 2 "--budget and --bench exclude each other" --budget 10 --bench 3
+    want 2 "--error and --no-ao exclude each other" --error 0.01 --no-ao -o e4.png
 
     # Built-in scenes and both kinds of context.
     for scene in columns cornell steps plane; do

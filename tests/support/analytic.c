@@ -141,6 +141,40 @@ void analytic_render(const analytic_view *view, const analytic_shape *shapes, in
     *out_normals = normals;
 }
 
+static bool blocked(const analytic_shape *shapes, int shape_count, const double point[3], const double d[3],
+                    double radius)
+{
+    double normal[3];
+    for (int i = 0; i < shape_count; ++i) {
+        const double t = hit(&shapes[i], point, d, normal);
+        if (t > 1e-9 * radius && t < radius)
+            return true;
+    }
+    return false;
+}
+
+double analytic_accessibility(const analytic_shape *shapes, int shape_count, const double point[3],
+                              const double normal[3], double radius, int rays)
+{
+    const double two_pi = 6.28318530717958647692, golden = 0.61803398874989484820;
+    /* Any vector across the normal. */
+    const int axis = fabs(normal[0]) < 0.6 ? 0 : 1;
+    double u[3], v[3], length = sqrt(1.0 - normal[axis] * normal[axis]);
+    for (int i = 0; i < 3; ++i)
+        u[i] = ((i == axis ? 1.0 : 0.0) - normal[axis] * normal[i]) / length;
+    for (int i = 0; i < 3; ++i)
+        v[i] = normal[(i + 1) % 3] * u[(i + 2) % 3] - normal[(i + 2) % 3] * u[(i + 1) % 3];
+    int open = 0;
+    for (int k = 0; k < rays; ++k) {
+        const double square = (k + 0.5) / rays, angle = two_pi * (golden * k - floor(golden * k)), r = sqrt(square);
+        double d[3];
+        for (int i = 0; i < 3; ++i)
+            d[i] = r * cos(angle) * u[i] + r * sin(angle) * v[i] + sqrt(1.0 - square) * normal[i];
+        open += !blocked(shapes, shape_count, point, d, radius);
+    }
+    return (double)open / rays;
+}
+
 void analytic_room(analytic_shape shapes[ANALYTIC_ROOM_SHAPES], double scale)
 {
     static const analytic_shape room[ANALYTIC_ROOM_SHAPES] = {

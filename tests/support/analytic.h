@@ -41,6 +41,11 @@ analytic_view analytic_make_view(analytic_projection kind, double aspect, double
 void analytic_render(const analytic_view *view, const analytic_shape *shapes, int shape_count, int width, int height,
                      float **out_depth, float **out_normals);
 
+/* Cosine-weighted accessibility of a point with that unit normal: the share of `rays` rays (a Fibonacci lattice on the
+ * disc below the hemisphere) that hit no shape within `radius`. */
+double analytic_accessibility(const analytic_shape *shapes, int shape_count, const double point[3],
+                              const double normal[3], double radius, int rays);
+
 /* A floor, a wall, two spheres and two boxes some 3 to 9 units away, all lengths times `scale`. */
 enum { ANALYTIC_ROOM_SHAPES = 6 };
 void analytic_room(analytic_shape shapes[ANALYTIC_ROOM_SHAPES], double scale);

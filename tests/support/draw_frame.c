@@ -60,10 +60,19 @@ static void free_target(target *t)
 
 frame frame_draw(const small_scene *s, const scene_view *view, const scene_lighting *lighting, unsigned ambient_map)
 {
+    return frame_draw_with(s, view, lighting, NULL, ambient_map);
+}
+
+frame frame_draw_with(const small_scene *s, const scene_view *view, const scene_lighting *lighting,
+                      const scene_draw_options *options, unsigned ambient_map)
+{
     char error[512];
     scene_renderer *r = scene_renderer_create(&s->scene, error, sizeof error);
     if (!r)
         fail_msg("%s", error);
+    if (options && !scene_renderer_configure(r, lighting, options, error, sizeof error))
+        fail_msg("%s", error);
+    scene_draw_shadow(r, lighting);
     target t = make_target(view->width);
     const float cleared[4] = {FRAME_EMPTY, FRAME_EMPTY, FRAME_EMPTY, FRAME_EMPTY}, far_depth = 1;
     gl.BindFramebuffer(GL_FRAMEBUFFER, t.normals_framebuffer);
@@ -73,6 +82,7 @@ frame frame_draw(const small_scene *s, const scene_view *view, const scene_light
     frame f = {.normals = fixture_read_texture(t.normals, t.size, t.size, 4)};
     gl.BindFramebuffer(GL_FRAMEBUFFER, t.color_framebuffer);
     scene_draw_main(r, view, lighting, ambient_map);
+    f.counts = scene_renderer_counts(r);
     f.color = malloc((size_t)(t.size * t.size) * 4);
     gl.ReadPixels(0, 0, t.size, t.size, GL_RGBA, GL_UNSIGNED_BYTE, f.color);
     f.depth = fixture_read_depth(t.depth, t.size, t.size);

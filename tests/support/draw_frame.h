@@ -23,10 +23,14 @@ typedef struct frame {
     float *normals; /* 4 a pixel */
     float *depth;
     uint8_t (*color)[4]; /* as stored: sRGB */
+    scene_draw_counts counts;
 } frame;
 
 /* Pre-pass and main pass; `ambient_map` as for scene_draw_main. */
 frame frame_draw(const small_scene *s, const scene_view *view, const scene_lighting *lighting, unsigned ambient_map);
+/* The same with options, NULL: a renderer that nobody configured. */
+frame frame_draw_with(const small_scene *s, const scene_view *view, const scene_lighting *lighting,
+                      const scene_draw_options *options, unsigned ambient_map);
 void frame_free(frame *f);
 
 /* Whether the pre-pass drew that pixel; of how many it did. */

@@ -50,6 +50,9 @@ static const struct {
     {"unpack swap bytes", GL_UNPACK_SWAP_BYTES},
     {"pack alignment", GL_PACK_ALIGNMENT},
     {"pack row length", GL_PACK_ROW_LENGTH},
+    {"pack skip rows", GL_PACK_SKIP_ROWS},
+    {"pack skip pixels", GL_PACK_SKIP_PIXELS},
+    {"pack swap bytes", GL_PACK_SWAP_BYTES},
     {"polygon mode", GL_POLYGON_MODE},
     {"depth mask", GL_DEPTH_WRITEMASK},
     {"depth func", GL_DEPTH_FUNC},
@@ -272,6 +275,9 @@ static void scramble(const host *h)
     gl.PixelStorei(GL_UNPACK_SWAP_BYTES, 1);
     gl.PixelStorei(GL_PACK_ALIGNMENT, 2);
     gl.PixelStorei(GL_PACK_ROW_LENGTH, 100);
+    gl.PixelStorei(GL_PACK_SKIP_ROWS, 3);
+    gl.PixelStorei(GL_PACK_SKIP_PIXELS, 2);
+    gl.PixelStorei(GL_PACK_SWAP_BYTES, 1);
     gl.PolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     gl.DepthMask(GL_FALSE);
     gl.DepthFunc(GL_NEVER);
@@ -317,8 +323,9 @@ static void calm(void)
     gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
     gl.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     static const GLenum zeros[] = {GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS,
-                                   GL_UNPACK_SWAP_BYTES, GL_PACK_ROW_LENGTH};
-    for (int i = 0; i < 5; ++i)
+                                   GL_UNPACK_SWAP_BYTES, GL_PACK_ROW_LENGTH,  GL_PACK_SKIP_ROWS,
+                                   GL_PACK_SKIP_PIXELS,  GL_PACK_SWAP_BYTES};
+    for (int i = 0; i < 8; ++i)
         gl.PixelStorei(zeros[i], 0);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
     gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
@@ -371,7 +378,7 @@ static void check_refusals(glssao_effect *effect, const host *h, const inputs *i
 }
 
 /* One walk through the API; with a host, its state is scrambled before and compared after every call. */
-static float *walk(fixture *f, const inputs *in, const host *h)
+static float *walk(fixture *f, const inputs *in, const host *h, double *out_error)
 {
     snapshot before, after;
 #define CALL(expression)                                                                                               \
@@ -409,6 +416,10 @@ static float *walk(fixture *f, const inputs *in, const host *h)
     CALL(glssao_compute(effect, &rebuilt, &hemisphere));
     const glssao_settings horizon = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW), classic = settings;
     CALL(glssao_compute(effect, &in->frame, &horizon)); /* makes maps and programs of its own */
+    CALL(glssao_accumulate(effect, &in->frame, &horizon));
+    CALL(glssao_accumulate(effect, &in->frame, &horizon));
+    gl.Finish();
+    *out_error = glssao_get_stats(effect).sampling_error; /* read back through the host's pixel pack state */
     CALL(glssao_compute(effect, &in->frame, &classic));
     if (h) {
         scramble(h);
@@ -491,10 +502,12 @@ static void check_all(fixture *f)
 {
     load_newer(f);
     inputs in = make_inputs();
-    float *calm_picture = walk(f, &in, NULL);
+    double calm_error, error;
+    float *calm_picture = walk(f, &in, NULL, &calm_error);
     host h;
     make_host(&h);
-    float *picture = walk(f, &in, &h);
+    float *picture = walk(f, &in, &h, &error);
+    assert_true(error > 0.0 && error == calm_error);
     assert_memory_equal(calm_picture, picture, W * H * sizeof *picture);
     check_apply(f, &in, &h, calm_picture);
     delete_host(&h);

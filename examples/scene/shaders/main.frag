@@ -1,18 +1,21 @@
 #version 330
 // SPDX-License-Identifier: MIT
 //
-// Main pass: the shaded picture. Accessibility scales ambient light alone; the directional light it leaves alone.
-// Unlit materials (LIT 0) show their base colour as it is: no light reaches them, so no occlusion does either.
-// Blended ones are lit but not occluded: the accessibility map belongs to the opaque surface behind them.
-// Macros, 0 or 1: TEXTURED, COLORED, MASKED, LIT, DOUBLE_SIDED (where LIT), BLENDED.
-// In:  unit normal in view space, interpolated; uv; vertex colour, linear.
+// Main pass: the shaded picture. Accessibility scales ambient light alone, of which the environment is a gradient from
+// below to above; direct light it leaves alone. Unlit materials (LIT 0) show their base colour as it is: no light
+// reaches them, so no occlusion does either. Blended ones are lit but not occluded: the accessibility map belongs to
+// the opaque surface behind them.
+// Macros, 0 or 1: TEXTURED (any map), BASE_MAPPED, COLORED, MASKED, BLENDED, LIT, and where LIT: DOUBLE_SIDED,
+// NORMAL_MAPPED, REFLECTIVE, ROUGHNESS_MAPPED, BAKED, EMISSIVE, EMISSION_MAPPED, SHADOWED, LIGHTS,
+// SPECULAR_OCCLUSION, MULTI_BOUNCE.
+// In:  what scene.vert writes.
 // Out: linear colour, alpha (1 unless BLENDED); the framebuffer encodes sRGB.
 
 uniform vec4 u_base_color;
 
-#if TEXTURED
-in vec2 v_uv;
+#if BASE_MAPPED
 uniform sampler2D u_base_color_map; // sRGB texture: sampled as linear
+uniform vec4 u_base_color_uv[3];
 #endif
 #if COLORED
 in vec4 v_color;
@@ -22,14 +25,155 @@ uniform float u_alpha_cutoff;
 #endif
 
 #if LIT
-in vec3 v_normal_view;
-uniform vec3 u_ambient;
-uniform vec3 u_directional; // irradiance / pi
+const float pi = 3.14159265;
+uniform vec3 u_ambient;      // radiance from the side; irradiance / pi on a surface that faces sideways
+uniform vec3 u_ambient_tilt; // how much more comes from straight above, and less from straight below
+uniform vec3 u_up_view;      // the world's up, unit
+uniform vec3 u_directional;  // irradiance / pi
 uniform vec3 u_to_light_view;
 #if !BLENDED
 uniform sampler2D u_ambient_map; // accessibility in red
-uniform vec2 u_pixel_uv;         // one pixel of the target
+uniform vec2 u_pixel_uv;         // one pixel of what the ambient map covers
+uniform vec2 u_origin;           // its lower left corner, in pixels
 #endif
+
+#if REFLECTIVE || LIGHTS
+in vec3 v_position_view;
+#endif
+#if REFLECTIVE
+uniform vec2 u_metallic_roughness;
+uniform bool u_is_orthographic;
+#endif
+#if ROUGHNESS_MAPPED
+uniform sampler2D u_metallic_roughness_map; // roughness in green, metallic in blue
+uniform vec4 u_metallic_roughness_uv[3];
+#endif
+#if BAKED
+uniform sampler2D u_occlusion_map; // accessibility in red
+uniform vec4 u_occlusion_uv[3];
+uniform float u_occlusion_strength;
+#endif
+#if EMISSIVE
+uniform vec3 u_emission;
+#if EMISSION_MAPPED
+uniform sampler2D u_emission_map;
+uniform vec4 u_emission_uv[3];
+#endif
+#endif
+
+#if SHADOWED
+in vec3 v_position_shadow; // uv and depth
+uniform sampler2DShadow u_shadow_map;
+
+// 3 x 3 taps, each filtered linearly over four texels; the border is lit.
+float light_share()
+{
+    vec2 texel = 1.0 / vec2(textureSize(u_shadow_map, 0));
+    float sum = 0.0;
+    for (int y = -1; y <= 1; y++)
+        for (int x = -1; x <= 1; x++)
+            sum += texture(u_shadow_map, v_position_shadow + vec3(vec2(x, y) * texel, 0.0));
+    return sum / 9.0;
+}
+#endif
+
+// A surface that light falls on.
+struct surface {
+    vec3 normal_view, to_eye_view;
+    vec3 diffuse, reflectance; // albedo of what goes in; reflectance head-on
+    float roughness;
+};
+
+#if REFLECTIVE
+// glTF 2.0, appendix B: GGX distribution, height-correlated Smith masking, Schlick's Fresnel term; the light's cosine
+// and 1/pi are left to the caller, as with the matte part.
+vec3 reflected(surface s, vec3 to_light_view, float cos_light)
+{
+    vec3 half_view = normalize(to_light_view + s.to_eye_view);
+    float cos_eye = max(dot(s.normal_view, s.to_eye_view), 1e-4);
+    float cos_half = max(dot(s.normal_view, half_view), 0.0);
+    float alpha = max(s.roughness * s.roughness, 2e-3); // a mirror would show nothing of a light without size
+    float alpha2 = alpha * alpha;
+    float spread = cos_half * cos_half * (alpha2 - 1.0) + 1.0;
+    float distribution = alpha2 / (spread * spread); // times pi
+    float masking = 0.5 / (cos_light * sqrt(cos_eye * cos_eye * (1.0 - alpha2) + alpha2) +
+                           cos_eye * sqrt(cos_light * cos_light * (1.0 - alpha2) + alpha2));
+    float grazing = pow(1.0 - max(dot(s.to_eye_view, half_view), 0.0), 5.0);
+    return (s.reflectance + (1.0 - s.reflectance) * grazing) * distribution * masking;
+}
+#endif
+
+// Radiance that reaches the eye of light that comes from there, of `light` irradiance / pi head-on.
+vec3 lit(surface s, vec3 to_light_view, vec3 light)
+{
+    float cos_light = max(dot(s.normal_view, to_light_view), 0.0);
+#if REFLECTIVE
+    return cos_light > 0.0 ? light * cos_light * (s.diffuse + reflected(s, to_light_view, cos_light)) : vec3(0.0);
+#else
+    return light * cos_light * s.diffuse;
+#endif
+}
+
+#if LIGHTS
+#define MOST_LIGHTS 16
+uniform int u_light_count;
+// Four vectors each: position and 1, or the direction to a directional light and 0; intensity / pi, and 1 / range^4
+// or 0; a spot's axis, and the cosine outside of which it is dark; in the fourth's x, 1 / (inner - outer cosine).
+uniform vec4 u_lights[4 * MOST_LIGHTS];
+
+// KHR_lights_punctual: inverse square, faded out at the range; a spot's edge as a square between its two cones.
+vec3 lit_by_lights(surface s)
+{
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < u_light_count; i++) {
+        vec4 place = u_lights[4 * i], color = u_lights[4 * i + 1], axis = u_lights[4 * i + 2];
+        vec3 to_light = place.xyz;
+        float share = 1.0;
+        if (place.w > 0.0) {
+            to_light -= v_position_view;
+            float distance2 = max(dot(to_light, to_light), 1e-12);
+            to_light *= inversesqrt(distance2);
+            share = clamp(1.0 - distance2 * distance2 * color.w, 0.0, 1.0) / distance2;
+            float edge = clamp((dot(axis.xyz, -to_light) - axis.w) * u_lights[4 * i + 3].x, 0.0, 1.0);
+            share *= edge * edge;
+        }
+        sum += lit(s, to_light, color.rgb * share);
+    }
+    return sum;
+}
+#endif
+
+// Ambient radiance / pi on the surface, and in the mirror's direction. The gradient is linear in the height of the
+// direction, whose mean over a cosine lobe is 2/3 of the lobe's; a rough mirror's lobe is taken to be in between.
+vec3 ambient_light(surface s, float accessibility)
+{
+    vec3 matte = u_ambient + u_ambient_tilt * (dot(s.normal_view, u_up_view) * (2.0 / 3.0));
+#if MULTI_BOUNCE && !BLENDED
+    // Jimenez et al. 2016, "Practical Realtime Strategies for Accurate Indirect Occlusion", equation 10: light that
+    // bounces between near surfaces takes on their colour.
+    vec3 a = 2.0404 * s.diffuse - 0.3324, b = -4.7951 * s.diffuse + 0.6417, c = 2.7552 * s.diffuse + 0.6903;
+    float x = accessibility;
+    vec3 sum = matte * s.diffuse * max(vec3(x), ((x * a + b) * x + c) * x);
+#else
+    vec3 sum = matte * s.diffuse * accessibility;
+#endif
+#if REFLECTIVE
+    float cos_eye = clamp(dot(s.normal_view, s.to_eye_view), 0.0, 1.0);
+    vec3 mirror_view = reflect(-s.to_eye_view, s.normal_view);
+    vec3 glossy = u_ambient + u_ambient_tilt * (dot(mirror_view, u_up_view) * mix(1.0, 2.0 / 3.0, s.roughness));
+    // Karis 2014, "Physically Based Shading on Mobile": a fit to the integral of Fresnel and masking.
+    vec4 r = s.roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+    float a004 = min(r.x * r.x, exp2(-9.28 * cos_eye)) * r.x + r.y;
+    vec2 scale_bias = vec2(-1.04, 1.04) * a004 + r.zw;
+#if SPECULAR_OCCLUSION && !BLENDED
+    // Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based Rendering", listing 26.
+    float open = pow(cos_eye + accessibility, exp2(-16.0 * s.roughness - 1.0)) - 1.0 + accessibility;
+    accessibility = clamp(open, 0.0, 1.0);
+#endif
+    sum += glossy * (s.reflectance * scale_bias.x + scale_bias.y) * accessibility;
+#endif
+    return sum;
+}
 #endif
 
 layout(location = 0) out vec4 o_color;
@@ -37,8 +181,8 @@ layout(location = 0) out vec4 o_color;
 void main()
 {
     vec4 color = u_base_color;
-#if TEXTURED
-    color *= texture(u_base_color_map, v_uv);
+#if BASE_MAPPED
+    color *= texture(u_base_color_map, map_uv(u_base_color_uv));
 #endif
 #if COLORED
     color *= v_color;
@@ -50,17 +194,43 @@ void main()
 #endif
 
 #if LIT
-    float length_squared = dot(v_normal_view, v_normal_view);
-    vec3 normal_view = length_squared > 0.0 ? v_normal_view * inversesqrt(length_squared) : vec3(0.0, 0.0, 1.0);
-#if DOUBLE_SIDED
-    if (!gl_FrontFacing)
-        normal_view = -normal_view;
+    surface s = surface(shading_normal(), vec3(0.0, 0.0, 1.0), color.rgb, vec3(0.0), 1.0);
+#if REFLECTIVE
+    vec2 metallic_roughness = u_metallic_roughness;
+#if ROUGHNESS_MAPPED
+    metallic_roughness *= texture(u_metallic_roughness_map, map_uv(u_metallic_roughness_uv)).bg;
 #endif
-    vec3 ambient = u_ambient;
+    s.roughness = metallic_roughness.y;
+    s.diffuse = color.rgb * (1.0 - metallic_roughness.x);
+    s.reflectance = mix(vec3(0.04), color.rgb, metallic_roughness.x);
+    if (!u_is_orthographic)
+        s.to_eye_view = normalize(-v_position_view);
+#endif
+
+    float accessibility = 1.0;
 #if !BLENDED
-    ambient *= texture(u_ambient_map, gl_FragCoord.xy * u_pixel_uv).r;
+    accessibility = texture(u_ambient_map, (gl_FragCoord.xy - u_origin) * u_pixel_uv).r;
 #endif
-    color.rgb *= ambient + u_directional * max(dot(normal_view, u_to_light_view), 0.0);
+#if BAKED
+    accessibility *= 1.0 + u_occlusion_strength * (texture(u_occlusion_map, map_uv(u_occlusion_uv)).r - 1.0);
+#endif
+    color.rgb = ambient_light(s, accessibility);
+
+    vec3 direct = lit(s, u_to_light_view, u_directional);
+#if SHADOWED
+    direct *= light_share();
+#endif
+    color.rgb += direct;
+#if LIGHTS
+    color.rgb += lit_by_lights(s);
+#endif
+#if EMISSIVE
+    vec3 emission = u_emission;
+#if EMISSION_MAPPED
+    emission *= texture(u_emission_map, map_uv(u_emission_uv)).rgb;
+#endif
+    color.rgb += emission;
+#endif
 #endif
 
 #if !BLENDED

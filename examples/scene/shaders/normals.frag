@@ -2,32 +2,33 @@
 // SPDX-License-Identifier: MIT
 //
 // Pre-pass: the normal map, and with it the depth map.
-// Macros, 0 or 1: MASKED, and where it is 1 TEXTURED and COLORED; DOUBLE_SIDED. LIT is 1, BLENDED 0.
+// Macros, 0 or 1: MASKED, and where it is 1 COLORED; TEXTURED (MASKED with a base colour map, or NORMAL_MAPPED);
+// BASE_MAPPED; NORMAL_MAPPED; DOUBLE_SIDED; LIT, which the shadow pass sets to 0: it wants depth alone.
 // In:  unit normal in view space, interpolated; uv and vertex colour for the alpha test.
 // Out: unit normal in view space (signed, rgb), alpha 0.
-
-in vec3 v_normal_view;
 
 #if MASKED
 uniform vec4 u_base_color;
 uniform float u_alpha_cutoff;
-#if TEXTURED
-in vec2 v_uv;
+#if BASE_MAPPED
 uniform sampler2D u_base_color_map;
+uniform vec4 u_base_color_uv[3];
 #endif
 #if COLORED
 in vec4 v_color;
 #endif
 #endif
 
+#if LIT
 layout(location = 0) out vec4 o_normal_view;
+#endif
 
 void main()
 {
 #if MASKED
     float alpha = u_base_color.a;
-#if TEXTURED
-    alpha *= texture(u_base_color_map, v_uv).a;
+#if BASE_MAPPED
+    alpha *= texture(u_base_color_map, map_uv(u_base_color_uv)).a;
 #endif
 #if COLORED
     alpha *= v_color.a;
@@ -36,12 +37,7 @@ void main()
         discard;
 #endif
 
-    // A normal that vanishes (opposite ones interpolated, an instance scaled flat) becomes one that faces the viewer.
-    float length_squared = dot(v_normal_view, v_normal_view);
-    vec3 normal_view = length_squared > 0.0 ? v_normal_view * inversesqrt(length_squared) : vec3(0.0, 0.0, 1.0);
-#if DOUBLE_SIDED
-    if (!gl_FrontFacing)
-        normal_view = -normal_view;
+#if LIT
+    o_normal_view = vec4(shading_normal(), 0.0);
 #endif
-    o_normal_view = vec4(normal_view, 0.0);
 }

@@ -3,9 +3,11 @@
 //
 // Every triangle of the scene, in every pass. The expression for gl_Position stands here once, is invariant, and
 // sees the same inputs in each variant, so that the main pass finds the pre-pass's depth with EQUAL.
-// Macros, 0 or 1: TEXTURED, COLORED, and LIT (normals are wanted).
+// Macros, 0 or 1: TEXTURED (any map is read), COLORED, LIT (normals are wanted), and where LIT: NORMAL_MAPPED,
+// REFLECTIVE, LIGHTS, SHADOWED.
 // In:  mesh-space vertex; per instance, world_from_mesh and the inverse transpose of its upper 3x3.
-// Out: clip position; unit normal in view space; uv after the material's transform; vertex colour, linear.
+// Out: clip position; unit normal and tangent in view space; both uv sets; vertex colour, linear; position in view
+//      space and in the shadow map (uv and depth, 0..1).
 
 layout(location = 0) in vec3 a_position_mesh;
 layout(location = 4) in mat4x3 a_world_from_mesh;
@@ -28,13 +30,24 @@ vec3 unit_or_zero(vec3 v)
     float largest = max(size.x, max(size.y, size.z));
     return largest > 0.0 ? normalize(v / largest) : vec3(0.0);
 }
+
+#if NORMAL_MAPPED
+layout(location = 11) in vec4 a_tangent_mesh;
+uniform float u_handedness; // -1 where the instance mirrors
+out vec4 v_tangent_view;    // and the bitangent's sign
+#endif
+#if REFLECTIVE || LIGHTS
+out vec3 v_position_view;
+#endif
+#if SHADOWED
+uniform mat4 u_shadow_from_world;
+out vec3 v_position_shadow;
+#endif
 #endif
 
 #if TEXTURED
-layout(location = 2) in vec2 a_uv;
-uniform vec3 u_uv_row_u; // u' = dot(row, (u, v, 1))
-uniform vec3 u_uv_row_v;
-out vec2 v_uv;
+layout(location = 2) in vec4 a_uvs;
+out vec4 v_uvs;
 #endif
 
 #if COLORED
@@ -51,9 +64,19 @@ void main()
 #if LIT
     // Unit at each vertex, so that an instance interpolates as the same triangle baked into world space would.
     v_normal_view = unit_or_zero(u_normal_view_from_world * (a_normal_world_from_mesh * a_normal_mesh));
+#if NORMAL_MAPPED
+    vec3 tangent_world = mat3(a_world_from_mesh) * a_tangent_mesh.xyz;
+    v_tangent_view = vec4(unit_or_zero(mat3(u_view_from_world) * tangent_world), a_tangent_mesh.w * u_handedness);
+#endif
+#if REFLECTIVE || LIGHTS
+    v_position_view = position_view.xyz;
+#endif
+#if SHADOWED
+    v_position_shadow = (u_shadow_from_world * vec4(position_world, 1.0)).xyz;
+#endif
 #endif
 #if TEXTURED
-    v_uv = vec2(dot(u_uv_row_u, vec3(a_uv, 1.0)), dot(u_uv_row_v, vec3(a_uv, 1.0)));
+    v_uvs = a_uvs;
 #endif
 #if COLORED
     v_color = a_color;

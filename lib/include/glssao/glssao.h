@@ -144,6 +144,12 @@ typedef struct glssao_frame { /* zero a field that you don't use */
     float projection[16];      /* column-major clip_from_view, finite and invertible: perspective (off-centre,
                                   infinite, reversed: all fine) or orthographic */
     bool clip_zero_to_one;     /* true where the host called glClipControl(..., GL_ZERO_TO_ONE) */
+    int margin;                /* pixels on each side, even: drawn so that occluders beyond the picture's edge are found,
+                                  but not delivered. The result is that much smaller; projection is that of the whole */
+    uint32_t back_texture;     /* horizon; both or neither. A second layer, stored as depth_texture is (view distance in */
+    uint32_t second_texture;   /* red where depth is in the normal map): the nearest back face at or behind the surface
+                                  seen, where surfaces that have two sides count as back faces; and the nearest front
+                                  face behind it. Sky: there is none. Thickness is then read instead of guessed */
 } glssao_frame;
 
 /* ---- what the effect tells ------------------------------------------------------------------------------ */
@@ -173,6 +179,7 @@ typedef enum glssao_pass { /* in the order of the frame */
     GLSSAO_PASS_NORMALS = 0, /* normals rebuilt from depth */
     GLSSAO_PASS_DISTANCE,    /* view distance at the estimate's size */
     GLSSAO_PASS_ESTIMATE,    /* raw accessibility */
+    GLSSAO_PASS_RESOLVE,     /* the mean of accumulated estimates and its error, by glssao_accumulate */
     GLSSAO_PASS_BLUR,        /* all rounds */
     GLSSAO_PASS_UPSAMPLE,    /* a half-size result brought to full size */
     GLSSAO_PASS_APPLY,       /* accessibility multiplied into colour, by glssao_apply */
@@ -189,10 +196,13 @@ typedef struct glssao_plan { /* indexed by glssao_pass; GLSSAO_PASS_APPLY belong
     } passes[GLSSAO_PASS_COUNT]; /* by glssao_pass */
 } glssao_plan;
 
-typedef struct glssao_stats { /* of the last glssao_compute and glssao_apply */
-    uint64_t frame;          /* how many glssao_compute calls succeeded so far */
+typedef struct glssao_stats { /* of the last glssao_compute or glssao_accumulate, and glssao_apply */
+    uint64_t frame;          /* how many glssao_compute and glssao_accumulate calls succeeded so far */
     int draw_calls;          /* sum over the passes */
     double gpu_ms;           /* sum over the passes; negative: not measured, or not known yet */
+    int estimates;           /* in the mean of glssao_accumulate; 0 after glssao_compute */
+    double sampling_error;   /* accessibility, RMS over the surfaces seen: how far the mean of glssao_accumulate is
+                                estimated to be from that of endless estimates; negative: not known (yet) */
     struct glssao_pass_stats { /* one pass of the last frame */
         const char *name;    /* static text */
         int draw_calls;      /* 0 where it was skipped */
@@ -230,6 +240,18 @@ GLSSAO_API glssao_result glssao_end_normals(glssao_effect *effect);
 GLSSAO_API glssao_result glssao_compute(glssao_effect *effect, const glssao_frame *frame,
                                         const glssao_settings *settings);
 
+/* Horizon, a still view: adds one more estimate, at full size and with noise of its own, to a mean that is kept in 32-bit
+ * floats, and leaves the mean as the result. Its error falls to the technique's own with the number of estimates. Starts
+ * anew after glssao_compute, glssao_resize and glssao_restart_accumulation, and where frame, radius or sample_count differ
+ * from the last call's; it can't see that the contents of the textures changed. half_resolution and upsample are not looked at; the planar blur
+ * smooths the mean of fewer than 16 estimates unless blur is GLSSAO_BLUR_NONE. Fails as glssao_compute does, and with
+ * INVALID_ARGUMENT for another technique. */
+GLSSAO_API glssao_result glssao_accumulate(glssao_effect *effect, const glssao_frame *frame,
+                                           const glssao_settings *settings);
+
+/* The next glssao_accumulate starts anew: for when the contents of the textures changed. */
+GLSSAO_API void glssao_restart_accumulation(glssao_effect *effect);
+
 /* Multiplies accessibility into the colour (alpha stays) of draw buffer 0 of `framebuffer` (0: the default one),
  * over the full size from its lower left corner. Occlusion then darkens direct light too: to be exact, sample
  * the map in your own shader and scale ambient light alone. Needs a glssao_compute before. */
@@ -246,7 +268,8 @@ GLSSAO_API const glssao_constants *glssao_get_constants(const glssao_effect *eff
 GLSSAO_API glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *frame,
                                          const glssao_settings *settings);
 
-/* Counts of the last frame; its times as soon as the GPU has them (call glFinish first to be sure). Never waits. */
+/* Counts of the last frame; its times and error as soon as the GPU has them (call glFinish first to be sure). Never
+ * waits. */
 GLSSAO_API glssao_stats glssao_get_stats(glssao_effect *effect);
 
 /* Static English text; never NULL. */

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Full-screen passes over maps: showing one, and view distance.
+ */
+#include "draw_internal.h"
+#include "gl.h"
+#include "scene_shaders.h"
+
+static void begin(const scene_renderer *r, const draw_program *p, unsigned map, unsigned sampler,
+                  scene_rectangle place)
+{
+    draw_set_defaults();
+    gl.Viewport(place.x, place.y, place.width, place.height);
+    gl.UseProgram(p->name);
+    gl.BindVertexArray(r->empty_vertex_array);
+    draw_bind_texture(UNIT_MAP, map, sampler);
+}
+
+static void end(void)
+{
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    draw_set_defaults();
+}
+
+void scene_draw_map_in(scene_renderer *r, unsigned map, scene_rectangle place, bool red_only, float scale, float bias)
+{
+    const draw_program *p = &r->map;
+    begin(r, p, map, r->linear_sampler, place);
+    gl.Uniform2f(p->origin, (float)place.x, (float)place.y);
+    gl.Uniform2f(p->pixel_uv, 1.0f / (float)place.width, 1.0f / (float)place.height);
+    gl.Uniform1f(p->scale, scale);
+    gl.Uniform1f(p->bias, bias);
+    gl.Uniform1i(p->red_only, red_only);
+    end();
+}
+
+void scene_draw_map(scene_renderer *r, unsigned map, int width, int height, bool red_only, float scale, float bias)
+{
+    scene_draw_map_in(r, map, (scene_rectangle){0, 0, width, height}, red_only, scale, bias);
+}
+
+void scene_draw_view_distance(scene_renderer *r, const scene_view *view, unsigned depth_texture)
+{
+    scene_draw_distance_picture(r, view, depth_texture, 1);
+}
+
+void scene_draw_distance_picture(scene_renderer *r, const scene_view *view, unsigned depth_texture, float scale)
+{
+    /* ndc_z = (a z + b) / (c z + e) in view space, solved for -z: (b - e ndc_z) / (a - c ndc_z), with ndc_z = -1 at
+     * depth 0 and 1 at depth 1. */
+    const float *m = view->clip_from_view;
+    double a = m[10], b = m[14], c = m[11], e = m[15];
+    double numerator[2] = {b + e, b - e}, denominator[2] = {a + c, a - c};
+    /* The sign of the quotient's slope says which end is the far one, also where that is infinitely far. */
+    bool reversed = numerator[1] * denominator[0] < numerator[0] * denominator[1];
+
+    const draw_program *p = &r->view_distance;
+    begin(r, p, depth_texture, r->nearest_sampler, (scene_rectangle){0, 0, view->width, view->height});
+    gl.Uniform2f(p->numerator, (float)numerator[0], (float)numerator[1]);
+    gl.Uniform2f(p->denominator, (float)denominator[0], (float)denominator[1]);
+    gl.Uniform1f(p->far_depth, reversed ? 0.0f : 1.0f);
+    gl.Uniform1f(p->scale, scale);
+    end();
+}
+
+bool draw_build_map_programs(scene_renderer *r, char *error, size_t error_size)
+{
+    return draw_program_build(&r->map, "map pass", shader_fullscreen_vert, "", shader_map_frag, 0, error, error_size) &&
+           draw_program_build(&r->view_distance, "view distance pass", shader_fullscreen_vert, "",
+                              shader_view_distance_frag, 0, error, error_size) &&
+           draw_program_build(&r->sky, "sky pass", shader_sky_vert, "", shader_sky_frag, 0, error, error_size);
+}

@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Which shader variant each draw call takes in each pass, what that means in words, and building those that are
+ * missing. A variant is built once and kept.
+ */
+#include "draw_internal.h"
+#include "gl.h"
+#include "scene_shaders.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* Index of the program, built where it is not there yet; -1 on failure. */
+static int find_program(scene_renderer *r, draw_kind kind, unsigned variant, char *error, size_t error_size)
+{
+    static const char *const what[] = {"scene normals pass", "scene main pass", "shadow pass", "layer pass"};
+    const char *const fragment[] = {shader_normals_frag, shader_main_frag, shader_normals_frag, shader_layer_frag};
+    for (int i = 0; i < r->variant_count; i++)
+        if (r->variants[i].kind == kind && r->variants[i].variant == variant)
+            return i;
+    draw_variant *grown = realloc(r->variants, ((size_t)r->variant_count + 1) * sizeof *grown);
+    if (!grown) {
+        snprintf(error, error_size, "out of memory");
+        return -1;
+    }
+    r->variants = grown;
+    draw_variant made = {.kind = kind, .variant = variant};
+    if (!draw_program_build(&made.program, what[kind], shader_scene_vert, shader_surface_glsl, fragment[kind], variant,
+                            error, error_size))
+        return -1;
+    r->variants[r->variant_count] = made;
+    return r->variant_count++;
+}
+
+static unsigned normals_variant(const draw_item *item, const scene_material *m, const scene_draw_options *options,
+                                bool has_tangents)
+{
+    unsigned variant = VARIANT_LIT | (m->double_sided ? VARIANT_DOUBLE_SIDED : 0u);
+    if (m->alpha == SCENE_ALPHA_MASK) {
+        variant |= VARIANT_MASKED | (item->colored ? VARIANT_COLORED : 0u);
+        variant |= m->base_color_texture >= 0 ? VARIANT_BASE_MAPPED | VARIANT_TEXTURED : 0u;
+    }
+    if (options->mapped_normals && m->normal_map.used && has_tangents && m->normal_scale != 0)
+        variant |= VARIANT_NORMAL_MAPPED | VARIANT_TEXTURED;
+    return variant;
+}
+
+static unsigned main_variant(const draw_item *item, const scene_lighting *lighting, const scene_draw_options *options,
+                             bool shadowed)
+{
+    if (!(item->variant & VARIANT_LIT))
+        return item->variant;
+    const bool occluded = !item->blended;
+    return item->variant | (shadowed ? VARIANT_SHADOWED : 0u) | (lighting->light_count ? VARIANT_LIGHTS : 0u) |
+           (options->specular_occlusion && occluded && item->variant & VARIANT_REFLECTIVE ? VARIANT_SPECULAR_OCCLUSION
+                                                                                          : 0u) |
+           (options->multi_bounce && occluded ? VARIANT_MULTI_BOUNCE : 0u);
+}
+
+/* Depth alone, of what the alpha test leaves: the shadow map and the layers. */
+static unsigned depth_variant(unsigned normals)
+{
+    const unsigned test = VARIANT_MASKED | VARIANT_COLORED | VARIANT_BASE_MAPPED | VARIANT_TEXTURED;
+    return normals & VARIANT_MASKED ? normals & test : 0u;
+}
+
+bool draw_choose_programs(scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options,
+                          bool shadowed, char *error, size_t error_size)
+{
+    for (uint32_t i = 0; i < r->item_count; i++) {
+        draw_item *item = &r->items[i];
+        const scene_material *m = &r->scene->materials[item->material];
+        const unsigned normals = normals_variant(item, m, options, r->scene->tangents != NULL);
+        int chosen[DRAW_KIND_COUNT] = {-1, -1, -1, -1};
+        bool done = true;
+        if (!options->no_picture) {
+            chosen[DRAW_MAIN] =
+                find_program(r, DRAW_MAIN, main_variant(item, lighting, options, shadowed), error, error_size);
+            done = chosen[DRAW_MAIN] >= 0;
+        }
+        if (done && !item->blended) {
+            chosen[DRAW_NORMALS] = find_program(r, DRAW_NORMALS, normals, error, error_size);
+            done = chosen[DRAW_NORMALS] >= 0;
+        }
+        if (done && !item->blended && shadowed) {
+            chosen[DRAW_SHADOW] = find_program(r, DRAW_SHADOW, depth_variant(normals), error, error_size);
+            done = chosen[DRAW_SHADOW] >= 0;
+        }
+        if (done && !item->blended && options->layers) {
+            chosen[DRAW_LAYER] = find_program(r, DRAW_LAYER, depth_variant(normals), error, error_size);
+            done = chosen[DRAW_LAYER] >= 0;
+        }
+        if (!done)
+            return false;
+        for (int k = 0; k < DRAW_KIND_COUNT; k++)
+            item->program[k] = chosen[k];
+    }
+    return true;
+}
+
+bool scene_renderer_configure(scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options,
+                              char *error, size_t error_size)
+{
+    const bool shadowed = draw_shadow_wanted(r, lighting, options);
+    const int size = options->shadow_size ? options->shadow_size : 2048;
+    if (shadowed && !draw_shadow_make(r, size, error, error_size))
+        return false;
+    if (!draw_choose_programs(r, lighting, options, shadowed, error, error_size))
+        return false;
+    r->shadow.used = shadowed;
+    r->options = *options;
+    r->configured = true;
+    return true;
+}
+
+static bool any_item(const scene_renderer *r, unsigned bit)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < r->item_count; i++)
+        any = any || r->items[i].variant & bit;
+    return any;
+}
+
+static bool any_instances(const scene_renderer *r)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < r->item_count; i++)
+        any = any || r->items[i].instance_count > 1;
+    return any;
+}
+
+static const char *shadow_reason(const scene_renderer *r, const scene_lighting *lighting)
+{
+    const float *sun = lighting->directional;
+    return r->shadow.used                              ? "a directional light casts, and surfaces receive"
+           : !r->options.shadows                       ? "not asked for"
+           : !(sun[0] > 0 || sun[1] > 0 || sun[2] > 0) ? "no directional light"
+                                                       : "nothing casts, or nothing lit receives";
+}
+
+void scene_renderer_effects(const scene_renderer *r, const scene_lighting *lighting, scene_effect *out)
+{
+    const bool mapped = any_item(r, VARIANT_NORMAL_MAPPED), masked = any_item(r, VARIANT_MASKED);
+    const bool instanced = any_instances(r), blended = r->item_count > r->opaque_count;
+    const bool reflective = any_item(r, VARIANT_REFLECTIVE);
+    const float *tilt = lighting->sky_tilt;
+    const bool gradient = tilt[0] != 0 || tilt[1] != 0 || tilt[2] != 0;
+    const scene_effect effects[SCENE_EFFECT_COUNT] = {
+        {"shadow map", shadow_reason(r, lighting), r->shadow.used},
+        {"normal maps",
+         !mapped                     ? "no material drawn has one"
+         : r->options.mapped_normals ? "in the main pass and the pre-pass"
+                                     : "in the main pass; the pre-pass has the vertices' normals",
+         mapped},
+        {"reflections", reflective ? "metallic-roughness materials" : "every material is matte or unlit", reflective},
+        {"alpha test", masked ? "materials with a cut-off" : "no material has a cut-off", masked},
+        {"instances", instanced ? "meshes that stand in several places" : "every mesh stands in one place", instanced},
+        {"blending", blended ? "blended materials, back to front" : "no material is blended", blended},
+        {"lights", lighting->light_count ? "the file has more than the shadow's" : "none beside the directional one",
+         lighting->light_count > 0},
+        {"sky", gradient ? "a gradient, last, at the far plane" : "one colour: the clear's", gradient},
+    };
+    for (int i = 0; i < SCENE_EFFECT_COUNT; i++)
+        out[i] = effects[i];
+}
+
+scene_draw_counts scene_renderer_counts(const scene_renderer *r)
+{
+    return r->counts;
+}

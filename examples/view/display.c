@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What is on the screen: the frame with and without occlusion, halves of both, or one of its maps. Pictures are copied
+ * to the window as they are, so that it shows the bits that glssao-render writes.
+ */
+#include "viewer.h"
+
+#include "map_view.h"
+
+#include <GLFW/glfw3.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+static GLuint make_target(GLenum format, int width, int height, GLuint depth, GLuint *out_framebuffer)
+{
+    GLuint texture;
+    gl.GenTextures(1, &texture);
+    gl.BindTexture(GL_TEXTURE_2D, texture);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)format, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    gl.GenFramebuffers(1, out_framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, *out_framebuffer);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    return texture;
+}
+
+void viewer_free_targets(viewer *v)
+{
+    gl.DeleteFramebuffers(1, &v->off_framebuffer);
+    gl.DeleteFramebuffers(1, &v->map_framebuffer);
+    gl.DeleteTextures(1, &v->off_color);
+    gl.DeleteTextures(1, &v->map);
+    v->off_framebuffer = v->map_framebuffer = v->off_color = v->map = 0;
+}
+
+bool viewer_resize(viewer *v, int width, int height)
+{
+    viewer_drop_truth(v);
+    viewer_free_targets(v);
+    v->width = width;
+    v->height = height;
+    v->frame_due = true;
+    if (!pipeline_resize(&v->pipeline, width, height, v->error, sizeof v->error)) {
+        viewer_say(v, true, "%s", v->error);
+        return false;
+    }
+    return true;
+}
+
+static bool needs_off(const viewer *v)
+{
+    return v->shown == SHOWN_PICTURE && v->mode != MODE_ON;
+}
+
+/* The settings of the moment, or of the estimate alone. */
+static glssao_settings frame_settings(const viewer *v)
+{
+    glssao_settings s = v->settings;
+    if (v->shown == SHOWN_RAW) {
+        s.blur = GLSSAO_BLUR_NONE;
+        s.blur_rounds = 0;
+        s.upsample = false;
+    }
+    return s;
+}
+
+static void record_times(viewer *v, const stopwatch *times)
+{
+    const glssao_stats stats = glssao_get_stats(v->pipeline.effect);
+    for (int i = 0; i < GLSSAO_PASS_COUNT; i++)
+        v->graph[i][v->graph_next] = stats.passes[i].gpu_ms > 0 ? (float)stats.passes[i].gpu_ms : 0;
+    v->graph[GRAPH_PREPASS][v->graph_next] = (float)times->ms[PHASE_PREPASS];
+    v->graph[GRAPH_MAIN][v->graph_next] = (float)times->ms[PHASE_MAIN];
+    v->graph_next = (v->graph_next + 1) % GRAPH_LENGTH;
+}
+
+static bool draw_frame(viewer *v)
+{
+    stopwatch times = {.finish = true};
+    v->pipeline.settings = frame_settings(v);
+    stopwatch_start(&times);
+    if (!viewpoint_view(&v->viewpoint, v->scene, 0, v->width, v->height, &v->view, v->error, sizeof v->error) ||
+        !pipeline_draw(&v->pipeline, &v->view, &times, v->error, sizeof v->error)) {
+        viewer_say(v, true, "%s", v->error);
+        return false;
+    }
+    v->frames++;
+    record_times(v, &times);
+    return true;
+}
+
+/* The picture without occlusion shares the frame's depth. */
+static void draw_off(viewer *v)
+{
+    if (!v->off_color)
+        v->off_color = make_target(GL_SRGB8_ALPHA8, v->width, v->height, v->pipeline.depth, &v->off_framebuffer);
+    pipeline_shade(&v->pipeline, &v->view, 0, v->off_framebuffer);
+}
+
+static void draw_map(viewer *v)
+{
+    static const options_map maps[SHOWN_COUNT] = {[SHOWN_AO] = OPTIONS_MAP_AO,
+                                                  [SHOWN_RAW] = OPTIONS_MAP_AO,
+                                                  [SHOWN_NORMALS] = OPTIONS_MAP_NORMALS,
+                                                  [SHOWN_DISTANCE] = OPTIONS_MAP_DEPTH,
+                                                  [SHOWN_RANDOM] = OPTIONS_MAP_RANDOM,
+                                                  [SHOWN_SHADOW] = OPTIONS_MAP_SHADOW};
+    scene_rectangle place = {0, 0, v->width, v->height};
+    const float black[4] = {0, 0, 0, 1};
+    if (!v->map)
+        v->map = make_target(GL_RGBA8, v->width, v->height, 0, &v->map_framebuffer);
+    if (viewer_shows_truth(v)) {
+        viewer_draw_truth(v);
+        return;
+    }
+    if (v->shown == SHOWN_SHADOW || v->shown == SHOWN_RANDOM) { /* square, as large as it fits */
+        const int side = v->width < v->height ? v->width : v->height;
+        place = (scene_rectangle){(v->width - side) / 2, (v->height - side) / 2, side, side};
+    }
+    gl.BindFramebuffer(GL_FRAMEBUFFER, v->map_framebuffer);
+    gl.ClearBufferfv(GL_COLOR, 0, black);
+    map_view_draw(&v->pipeline, &v->view, maps[v->shown], place, v->map_framebuffer);
+}
+
+/* Columns from `left` up to `right`, bits as they are: no sRGB conversion either way. */
+static void copy_columns(const viewer *v, GLuint from, GLuint to, int left, int right)
+{
+    if (right <= left)
+        return;
+    gl.Disable(GL_FRAMEBUFFER_SRGB);
+    gl.BindFramebuffer(GL_READ_FRAMEBUFFER, from);
+    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
+    gl.BlitFramebuffer(left, 0, right, v->height, left, 0, right, v->height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+static void compose(const viewer *v, GLuint to)
+{
+    const GLuint on = v->pipeline.color_framebuffer, off = v->off_framebuffer;
+    if (v->shown != SHOWN_PICTURE) {
+        copy_columns(v, v->map_framebuffer, to, 0, v->width);
+    } else if (v->mode == MODE_SPLIT) {
+        const int line = (int)(v->split * (float)v->width + 0.5f);
+        copy_columns(v, off, to, 0, line);
+        copy_columns(v, on, to, line, v->width);
+    } else {
+        const bool without = v->mode == MODE_OFF || (v->mode == MODE_BLINK && v->blink_off);
+        copy_columns(v, without ? off : on, to, 0, v->width);
+    }
+    gl.BindFramebuffer(GL_FRAMEBUFFER, to);
+}
+
+void viewer_display(viewer *v)
+{
+    const bool due = v->frame_due;
+    if (due && !draw_frame(v)) {
+        v->frame_due = false;
+        gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+        return;
+    }
+    v->frame_due = false;
+    if (needs_off(v) && (due || !v->off_color))
+        draw_off(v);
+    if (v->shown != SHOWN_PICTURE)
+        draw_map(v);
+    compose(v, 0);
+}
+
+void *viewer_read_shown(viewer *v)
+{
+    GLuint framebuffer;
+    const GLuint texture = make_target(GL_RGBA8, v->width, v->height, 0, &framebuffer);
+    void *pixels = malloc((size_t)v->width * (size_t)v->height * 4);
+    if (pixels) {
+        compose(v, framebuffer);
+        gl.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+        gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+        gl.ReadPixels(0, 0, v->width, v->height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+    }
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    gl.DeleteFramebuffers(1, &framebuffer);
+    gl.DeleteTextures(1, &texture);
+    return pixels;
+}

@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Dear ImGui as plain C: the widgets that the viewer has, and nothing more. gui.cpp is the only C++ of the viewer.
+ */
+#ifndef GLSSAO_EXAMPLES_GUI_H
+#define GLSSAO_EXAMPLES_GUI_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct GLFWwindow;
+
+/* After the window's own callbacks were set: they are still called, before the panel's. `scale`: pixels a point of a
+ * screen of usual density. */
+void gui_start(struct GLFWwindow *window, float scale);
+void gui_stop(void);
+void gui_begin_frame(void);
+void gui_end_frame(void); /* draws into the bound framebuffer */
+
+bool gui_wants_mouse(void);    /* the pointer is over the panel, or drags something of it */
+bool gui_wants_keyboard(void); /* keys go to the panel: a text field, or moving about in it */
+void gui_leave(void);          /* gives the keyboard back */
+
+/* Fixed to the left edge of the window, over its height; `focus`: keys go to it. Ended in any case. */
+void gui_begin_panel(const char *title, bool focus);
+void gui_end_panel(void);
+/* A window in the middle, closed by its button; false: closed. Ended only where true. */
+bool gui_begin_dialog(const char *title, bool *open);
+void gui_end_dialog(void);
+
+bool gui_section(const char *title, bool open_at_first);
+void gui_text(const char *text);
+void gui_text_wrapped(const char *text);
+void gui_same_line(void);
+bool gui_button(const char *label);
+void gui_tip(const char *text); /* of the widget before */
+bool gui_check(const char *label, bool *value);
+/* `names` separated by '|'. */
+bool gui_choice(const char *label, int *value, const char *names);
+/* With a button that sets `standard`. True where the value changed. */
+bool gui_slider(const char *label, const char *unit, float *value, float low, float high, bool logarithmic,
+                float standard);
+bool gui_slider_whole(const char *label, const char *unit, int *value, int low, int high, int standard);
+/* True when Enter was pressed in it. */
+bool gui_input(const char *label, char *text, size_t size, bool focus);
+void gui_graph(const char *label, const float *values, int count, int first, float high);
+void gui_progress(float share, const char *text);
+/* A table of three columns: name, whether it runs, why. */
+bool gui_begin_table(const char *name);
+void gui_table_row(const char *name, bool runs, const char *value, const char *reason);
+void gui_end_table(void);
+
+/* Over the picture, in window coordinates. */
+void gui_line(float x0, float y0, float x1, float y1);
+void gui_label(float x, float y, const char *text);
+/* Along the lower edge; errors stand out. */
+void gui_notice(const char *text, bool is_error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * glssao-view: a window, and a loop that waits until something happens.
+ */
+#include "gui.h"
+#include "viewer.h"
+
+#include <GLFW/glfw3.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { EXIT_DONE = 0, EXIT_NOT_SHOWN = 1, EXIT_USAGE = 2 };
+/* The panel answers an event in the frame after it, and its last movements in the one after that. */
+enum { UPDATES_AFTER_EVENT = 3 };
+static const double blink_seconds = 0.6;
+
+static void *load_function(const char *name, void *user)
+{
+    (void)user;
+    GLFWglproc function = glfwGetProcAddress(name);
+    void *address = NULL;
+    memcpy(&address, &function, sizeof address); /* as in viewer.c */
+    return address;
+}
+
+static void on_glfw_error(int code, const char *text)
+{
+    fprintf(stderr, "glssao-view: window system: %s (%d)\n", text, code);
+}
+
+static bool open_window(viewer *v)
+{
+    glfwSetErrorCallback(on_glfw_error);
+    if (!glfwInit())
+        return false;
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    v->window = glfwCreateWindow(v->options.width, v->options.height, "glssao-view", NULL, NULL);
+    if (!v->window)
+        return false;
+    glfwMakeContextCurrent(v->window);
+    glfwSwapInterval(1);
+    return gl_load(load_function, NULL, v->error, sizeof v->error);
+}
+
+/* False while the window is minimised. */
+static bool follow_size(viewer *v)
+{
+    int width, height;
+    glfwGetFramebufferSize(v->window, &width, &height);
+    if (width < 1 || height < 1)
+        return false;
+    return (width == v->width && height == v->height) || viewer_resize(v, width, height);
+}
+
+static void update(viewer *v)
+{
+    v->blink_off = fmod(glfwGetTime(), 2 * blink_seconds) > blink_seconds;
+    viewer_display(v);
+    gui_begin_frame();
+    panel_draw(v);
+    gui_end_frame();
+    glfwSwapBuffers(v->window);
+    v->updates++;
+    const GLenum error = gl.GetError();
+    if (error != GL_NO_ERROR)
+        viewer_say(v, true, "OpenGL error 0x%04x", error);
+}
+
+/* How long nothing can change by itself, in seconds. */
+static double quiet_time(const viewer *v, bool walking)
+{
+    double quiet = v->notice[0] && v->notice_until > glfwGetTime() ? v->notice_until - glfwGetTime() + 0.01 : 3600;
+    if (v->mode == MODE_BLINK && v->shown == SHOWN_PICTURE)
+        quiet = fmin(quiet, blink_seconds - fmod(glfwGetTime(), blink_seconds) + 0.01);
+    return walking ? 0.001 : quiet;
+}
+
+static void run(viewer *v, double start)
+{
+    bool walking = false;
+    int due = UPDATES_AFTER_EVENT;
+    double last = glfwGetTime(), first_shown = -1;
+    while (!glfwWindowShouldClose(v->window)) {
+        const double now = glfwGetTime();
+        walking = input_walk(v, fmin(now - last, 0.1));
+        last = now;
+        if (follow_size(v))
+            update(v);
+        if (first_shown < 0)
+            first_shown = glfwGetTime() - start;
+        if (--due > 0) {
+            glfwPollEvents();
+            continue;
+        }
+        glfwWaitEventsTimeout(quiet_time(v, walking));
+        if (glfwGetTime() - last > 0.2)
+            last = glfwGetTime(); /* waiting is no time to walk in */
+        due = UPDATES_AFTER_EVENT;
+    }
+    fprintf(stderr, "glssao-view: shown after %.0f ms; %u frames drawn, %u screen updates\n", 1e3 * first_shown,
+            v->frames, v->updates);
+}
+
+int main(int argc, char **argv)
+{
+    static viewer v; /* large, and zero */
+    switch (options_parse_for_viewer(argc, argv, &v.options, v.error, sizeof v.error)) {
+    case OPTIONS_DONE:
+        return EXIT_DONE;
+    case OPTIONS_WRONG:
+        fprintf(stderr, "glssao-view: %s\n", v.error);
+        return EXIT_USAGE;
+    case OPTIONS_RUN:
+        break;
+    }
+    v.split = 0.5f;
+    v.panel_open = true;
+    v.truth_rmse = -1;
+    v.mode = v.options.no_ao ? MODE_OFF : MODE_ON;
+    if (!open_window(&v)) {
+        fprintf(stderr, "glssao-view: no window with OpenGL 3.3%s%s\n", v.error[0] ? ": " : "", v.error);
+        glfwTerminate();
+        return EXIT_NOT_SHOWN;
+    }
+    float scale = 1;
+    int window_width = 1, window_height = 1;
+    glfwGetWindowContentScale(v.window, &scale, NULL);
+    glfwGetFramebufferSize(v.window, &v.width, &v.height);
+    glfwGetWindowSize(v.window, &window_width, &window_height);
+    v.width = v.width < 1 ? 1 : v.width;
+    v.height = v.height < 1 ? 1 : v.height;
+    const bool opened = viewer_open(&v, v.options.scene_path, v.options.scene_name);
+    if (opened) {
+        input_start(&v);
+        /* Where screen coordinates are larger than pixels, as on macOS, they are scaled already. */
+        gui_start(v.window, v.width > window_width ? 1 : scale);
+        run(&v, 0);
+        gui_stop();
+    }
+    viewer_close(&v);
+    glfwDestroyWindow(v.window);
+    glfwTerminate();
+    return opened ? EXIT_DONE : EXIT_NOT_SHOWN;
+}

@@ -1,0 +1,300 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The panel: what is shown, the settings with units and resets, the plan with reasons, times, help.
+ */
+#include "gui.h"
+#include "setting_table.h"
+#include "viewer.h"
+
+#include <GLFW/glfw3.h>
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static void draw_scene(viewer *v)
+{
+    char text[512];
+    if (!gui_section("Scene", true))
+        return;
+    const float *low = v->scene->bounds_min, *high = v->scene->bounds_max;
+    snprintf(text, sizeof text, "%s\n%u triangles stored, %u instances, %.4g x %.4g x %.4g units", v->scene->name,
+             v->scene->index_count / 3, v->scene->instance_count, (double)(high[0] - low[0]),
+             (double)(high[1] - low[1]), (double)(high[2] - low[2]));
+    gui_text_wrapped(text);
+    if (gui_button("Open ..."))
+        v->opening = v->about_to_open = true;
+    static const char *const names[] = {"columns", "cornell", "steps", "plane"};
+    for (int i = 0; i < 4; i++) {
+        gui_same_line();
+        if (gui_button(names[i]))
+            viewer_open(v, NULL, names[i]);
+    }
+    if (gui_button("Frame it (F)")) {
+        v->moved = true;
+        viewer_frame_scene(v);
+    }
+}
+
+static void draw_show(viewer *v)
+{
+    char text[128];
+    if (!gui_section("Show", true))
+        return;
+    int mode = (int)v->mode, shown = (int)v->shown;
+    const bool was_raw = v->shown == SHOWN_RAW;
+    if (gui_choice("picture", &mode, VIEWER_MODES))
+        v->mode = (viewer_mode)mode;
+    if (gui_choice("or a map", &shown, VIEWER_SHOWN)) {
+        v->shown = (viewer_shown)shown;
+        v->frame_due = v->frame_due || was_raw != (v->shown == SHOWN_RAW);
+        if (!viewer_shows_truth(v))
+            viewer_drop_truth(v);
+    }
+    if (v->mode == MODE_SPLIT)
+        gui_slider("line", "of the width", &v->split, 0, 1, false, 0.5f);
+    if (viewer_shows_truth(v)) {
+        snprintf(text, sizeof text, "%d of %d rays a pixel", v->truth_shown_rounds * TRUTH_ROUND_RAYS,
+                 TRUTH_ROUNDS * TRUTH_ROUND_RAYS);
+        gui_progress((float)v->truth_shown_rounds / TRUTH_ROUNDS, text);
+        if (v->truth_rmse >= 0) {
+            snprintf(text, sizeof text, "RMSE %.4f; difference shown 4 times as large", v->truth_rmse);
+            gui_text(text);
+        }
+        gui_text("red: too dark, blue: too bright");
+    }
+}
+
+/* Sliders have ends: for a length, ten times what comes with the radius that suits the scene. */
+static float slider_end(const setting *s, const viewer *v, float standard)
+{
+    if (s->high < FLT_MAX)
+        return s->high;
+    const float suggested = camera_suggest_radius(v->scene);
+    return s->offset == offsetof(glssao_settings, radius) ? 10 * suggested : fmaxf(10 * standard, suggested);
+}
+
+static int most_samples(const viewer *v)
+{
+    return v->settings.technique == GLSSAO_CLASSIC ? 14 : 64;
+}
+
+static bool draw_samples(viewer *v, int standard)
+{
+    static const int counts[] = {12, 16, 24, 32, 48, 64};
+    if (v->settings.technique != GLSSAO_HORIZON)
+        return gui_slider_whole("samples", "a pixel", &v->settings.sample_count, 1, most_samples(v), standard);
+    int at = 0;
+    for (int i = 0; i < 6; i++)
+        if (counts[i] == v->settings.sample_count)
+            at = i;
+    const bool changed = gui_choice("samples, a pixel", &at, "12|16|24|32|48|64");
+    v->settings.sample_count = counts[at];
+    return changed;
+}
+
+static bool draw_setting(viewer *v, const setting *s, const glssao_settings *standard)
+{
+    void *at = (char *)&v->settings + s->offset;
+    const void *from = (const char *)standard + s->offset;
+    bool changed = false;
+    switch (s->kind) {
+    case SETTING_NUMBER: {
+        float value = *(float *)at;
+        const float usual = s->offset == offsetof(glssao_settings, radius) ? camera_suggest_radius(v->scene)
+                                                                           : *(const float *)from;
+        changed = gui_slider(s->name, s->unit, &value, s->low, slider_end(s, v, usual), s->length, usual);
+        if (changed && s->offset == offsetof(glssao_settings, radius))
+            setting_scale_radius(&v->settings, value);
+        else if (changed)
+            *(float *)at = value;
+        break;
+    }
+    case SETTING_WHOLE:
+        changed = s->offset == offsetof(glssao_settings, sample_count)
+                      ? draw_samples(v, *(const int *)from)
+                      : gui_slider_whole(s->name, s->unit, at, (int)s->low, (int)s->high, *(const int *)from);
+        break;
+    case SETTING_SWITCH:
+        changed = gui_check(s->name, at);
+        break;
+    case SETTING_WORD: {
+        int value = *(int *)at;
+        changed = gui_choice(s->name, &value, s->words);
+        *(int *)at = value;
+        break;
+    }
+    }
+    gui_tip(s->help);
+    return changed;
+}
+
+static void draw_settings(viewer *v)
+{
+    if (!gui_section("Occlusion", true))
+        return;
+    int technique = v->options.technique, quality = v->options.quality;
+    const bool chosen = gui_choice("technique (Tab)", &technique, "classic|hemisphere|horizon");
+    if (gui_choice("quality (Shift+Tab)", &quality, "low|medium|high|ultra") || chosen)
+        viewer_set_technique(v, technique, quality);
+    const glssao_settings standard = viewer_standard(v);
+    bool changed = false;
+    for (int i = 0; i < setting_count; i++)
+        if (setting_table[i].techniques & 1u << v->settings.technique)
+            changed = draw_setting(v, &setting_table[i], &standard) || changed;
+    if (gui_button("All as they come")) {
+        v->settings = standard;
+        changed = true;
+    }
+    gui_same_line();
+    if (gui_button("Suggested radius (R)")) {
+        setting_scale_radius(&v->settings, camera_suggest_radius(v->scene));
+        changed = true;
+    }
+    if (changed) {
+        v->options.radius = (options_number){true, v->settings.radius};
+        viewer_change(v);
+    }
+}
+
+static void draw_drawing(viewer *v)
+{
+    if (!gui_section("Drawing", false))
+        return;
+    options *o = &v->options;
+    bool shadows = !o->no_shadows;
+    int size = o->shadow_size ? o->shadow_size : 2048;
+    bool changed = gui_check("shadows (J)", &shadows);
+    changed = gui_slider_whole("shadow map", "texels", &size, 64, 4096, 2048) || changed;
+    changed = gui_check("occlusion sees normal maps (K)", &o->mapped_normals) || changed;
+    changed = gui_check("specular occlusion (L)", &o->specular_occlusion) || changed;
+    changed = gui_check("multi-bounce tint (B)", &o->multi_bounce) || changed;
+    changed = gui_choice("map in the corner (I)", &o->debug_map, "none|ao|normals|depth|random|shadow") || changed;
+    o->no_shadows = !shadows;
+    o->shadow_size = size == 2048 ? 0 : size;
+    if (changed)
+        viewer_configure(v);
+}
+
+static void draw_plan(viewer *v)
+{
+    if (!gui_section("Frame plan", false) || !gui_begin_table("plan"))
+        return;
+    char text[64];
+    glssao_frame frame = {.depth_texture = v->pipeline.depth,
+                          .normal_texture = glssao_map(v->pipeline.effect, GLSSAO_MAP_NORMAL, NULL, NULL)};
+    memcpy(frame.projection, v->view.clip_from_view, sizeof frame.projection);
+    const glssao_plan plan = glssao_plan_frame(v->pipeline.effect, &frame, &v->settings);
+    const scene_draw_counts counts = scene_renderer_counts(v->pipeline.renderer);
+    snprintf(text, sizeof text, "%u draws", counts.normals);
+    gui_table_row("pre-pass", true, text, "depth and view-space normals");
+    for (int i = 0; i < GLSSAO_PASS_APPLY; i++) {
+        snprintf(text, sizeof text, "%d draw%s", plan.passes[i].draw_calls, plan.passes[i].draw_calls == 1 ? "" : "s");
+        gui_table_row(plan.passes[i].name, plan.passes[i].run, plan.passes[i].run ? text : "skip",
+                      plan.passes[i].reason);
+    }
+    snprintf(text, sizeof text, "%u draws", counts.main + counts.blended + counts.sky);
+    gui_table_row("main", true, text, counts.culled ? "what is outside the view is left out" : "all is in the view");
+    scene_effect effects[SCENE_EFFECT_COUNT];
+    scene_renderer_effects(v->pipeline.renderer, &v->pipeline.lighting, effects);
+    for (int i = 0; i < SCENE_EFFECT_COUNT; i++)
+        gui_table_row(effects[i].name, effects[i].used, effects[i].used ? "use" : "skip", effects[i].reason);
+    gui_end_table();
+}
+
+static void draw_times(viewer *v)
+{
+    if (!gui_section("Milliseconds a pass", true))
+        return;
+    const glssao_stats stats = glssao_get_stats(v->pipeline.effect);
+    float high = 1;
+    for (int i = 0; i < GRAPH_COUNT; i++)
+        for (int k = 0; k < GRAPH_LENGTH; k++)
+            high = fmaxf(high, v->graph[i][k]);
+    for (int i = 0; i < GRAPH_COUNT; i++) {
+        char label[64];
+        const float last = v->graph[i][(v->graph_next + GRAPH_LENGTH - 1) % GRAPH_LENGTH];
+        const char *name = i == GRAPH_PREPASS ? "pre-pass" : i == GRAPH_MAIN ? "main" : stats.passes[i].name;
+        if (last <= 0 || !name)
+            continue;
+        snprintf(label, sizeof label, "%.2f %s", (double)last, name);
+        gui_graph(label, v->graph[i], GRAPH_LENGTH, v->graph_next, high);
+    }
+    char text[96];
+    snprintf(text, sizeof text, "%d x %d, %u frames drawn", v->width, v->height, v->frames);
+    gui_text(text);
+}
+
+static void draw_save(viewer *v)
+{
+    static char line[2048];
+    if (!gui_section("Save", false))
+        return;
+    if (gui_button("Picture (Ctrl+S)"))
+        viewer_save_picture(v);
+    gui_same_line();
+    if (gui_button("Copy command line (Ctrl+C)"))
+        viewer_copy_command_line(v);
+    if (viewer_command_line(v, line, sizeof line))
+        gui_text_wrapped(line);
+}
+
+static void draw_help(viewer *v)
+{
+    if (!gui_begin_dialog("Keys (F1)", &v->help_open))
+        return;
+    for (int i = 0; input_help[i][0]; i++) {
+        char text[256];
+        snprintf(text, sizeof text, "%-31s %s", input_help[i][0], input_help[i][1]);
+        gui_text(text);
+    }
+    gui_end_dialog();
+}
+
+static void draw_open(viewer *v)
+{
+    if (!gui_begin_dialog("Open a .gltf or .glb file", &v->opening))
+        return;
+    bool chosen = gui_input("file, then Enter", v->typed_path, sizeof v->typed_path, v->about_to_open);
+    v->about_to_open = false;
+    chosen = gui_button("Open") || chosen;
+    gui_text("Or drop one on the window.");
+    gui_end_dialog();
+    if (chosen && v->typed_path[0] && viewer_open(v, v->typed_path, NULL))
+        v->opening = false;
+}
+
+/* The line that divides the picture, and which side is which. */
+static void draw_split(const viewer *v)
+{
+    int width = 0, height = 0;
+    glfwGetWindowSize(v->window, &width, &height);
+    const float x = v->split * (float)width;
+    if (v->mode != MODE_SPLIT || v->shown != SHOWN_PICTURE)
+        return;
+    gui_line(x, 0, x, (float)height);
+    gui_label(x - 40, 8, "off");
+    gui_label(x + 12, 8, "on");
+}
+
+void panel_draw(viewer *v)
+{
+    draw_split(v);
+    if (v->panel_open) {
+        gui_begin_panel("glssao-view - F1: keys", v->panel_focus_due);
+        v->panel_focus_due = false;
+        draw_scene(v);
+        draw_show(v);
+        draw_settings(v);
+        draw_drawing(v);
+        draw_plan(v);
+        draw_times(v);
+        draw_save(v);
+        gui_end_panel();
+    }
+    draw_help(v);
+    draw_open(v);
+    if (v->notice[0] && glfwGetTime() < v->notice_until)
+        gui_notice(v->notice, v->notice_is_error);
+}

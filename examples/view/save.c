@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Pictures and command lines.
+ */
+#define _POSIX_C_SOURCE 200809L
+#include "picture.h"
+#include "setting_table.h"
+#include "viewer.h"
+
+#include <GLFW/glfw3.h>
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* The command line's --output, or the first name that is free. */
+static void choose_name(const viewer *v, char *out, size_t out_size)
+{
+    snprintf(out, out_size, "%s", v->options.output ? v->options.output : "");
+    for (int i = 1; !v->options.output && i < 10000; i++) {
+        snprintf(out, out_size, "glssao-view-%04d.png", i);
+        if (access(out, F_OK) != 0)
+            return;
+    }
+}
+
+void viewer_save_picture(viewer *v)
+{
+    char name[4096];
+    choose_name(v, name, sizeof name);
+    uint8_t *pixels = viewer_read_shown(v);
+    if (!pixels) {
+        viewer_say(v, true, "%s: out of memory", name);
+        return;
+    }
+    /* Alpha means nothing here: RGB, as glssao-render writes it. */
+    const size_t count = (size_t)v->width * (size_t)v->height;
+    for (size_t i = 0; i < count; i++)
+        memmove(pixels + 3 * i, pixels + 4 * i, 3);
+    if (picture_write_png(name, v->width, v->height, 3, pixels, v->error, sizeof v->error))
+        viewer_say(v, false, "saved %s", name);
+    else
+        viewer_say(v, true, "%s", v->error);
+    free(pixels);
+}
+
+typedef struct line {
+    char *text;
+    size_t size, used;
+    bool full;
+} line;
+
+static void add(line *l, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vsnprintf(l->text + l->used, l->size - l->used, format, arguments);
+    va_end(arguments);
+    if (length < 0 || (size_t)length >= l->size - l->used)
+        l->full = true;
+    else
+        l->used += (size_t)length;
+}
+
+/* For a POSIX shell. */
+static void add_quoted(line *l, const char *text)
+{
+    add(l, " '");
+    for (const char *c = text; *c; c++)
+        add(l, *c == '\'' ? "'\\''" : "%c", *c);
+    add(l, "'");
+}
+
+static void add_vector(line *l, const char *name, const float value[3])
+{
+    add(l, " --%s %.9g,%.9g,%.9g", name, (double)value[0], (double)value[1], (double)value[2]);
+}
+
+static void add_camera(line *l, const viewer *v)
+{
+    const options *o = &v->options;
+    const camera *c = &v->viewpoint.base;
+    if (o->camera)
+        add(l, " --camera %d", o->camera);
+    if (v->moved || o->eye.given)
+        add_vector(l, "eye", c->eye);
+    if (v->moved || o->target.given)
+        add_vector(l, "target", c->target);
+    if (v->moved || o->up.given)
+        add_vector(l, "up", c->up);
+    if (v->moved || o->fov_deg.given)
+        add(l, " --fov %.9g", (double)c->fov_y_rad * 57.295779513);
+    if (o->near_plane.given)
+        add(l, " --near %.9g", (double)o->near_plane.value);
+    if (o->far_plane.given)
+        add(l, " --far %.9g", (double)o->far_plane.value);
+}
+
+bool viewer_command_line(const viewer *v, char *out, size_t out_size)
+{
+    static const char *const techniques[] = {"classic", "hemisphere", "horizon"};
+    static const char *const qualities[] = {"low", "medium", "high", "ultra"};
+    static const char *const maps[] = {"none", "ao", "normals", "depth", "random", "shadow"};
+    const options *o = &v->options;
+    char settings[1024];
+    line l = {out, out_size, 0, false};
+    out[0] = '\0';
+    add(&l, "glssao-render -o picture.png -s %dx%d -t %s -q %s --radius %.9g", v->width, v->height,
+        techniques[v->settings.technique], qualities[o->quality], (double)v->settings.radius);
+    const glssao_settings standard = viewer_standard(v);
+    glssao_settings rest = v->settings;
+    rest.radius = standard.radius;
+    if (!setting_differences(&standard, &rest, settings, sizeof settings))
+        return false;
+    if (settings[0])
+        add(&l, " --set %s", settings);
+    add_camera(&l, v);
+    if (v->mode == MODE_OFF)
+        add(&l, " --no-ao");
+    if (o->no_shadows)
+        add(&l, " --no-shadows");
+    if (o->shadow_size && !o->no_shadows)
+        add(&l, " --shadow-size %d", o->shadow_size);
+    add(&l, "%s%s%s", o->mapped_normals ? " --mapped-normals" : "", o->specular_occlusion ? " --specular-occlusion" : "",
+        o->multi_bounce ? " --multi-bounce" : "");
+    if (o->debug_map)
+        add(&l, " --debug-map %s", maps[o->debug_map]);
+    if (o->seed)
+        add(&l, " --seed %u", o->seed);
+    if (v->scene_path[0])
+        add_quoted(&l, v->scene_path);
+    else
+        add(&l, " --scene %s", v->scene->name);
+    return !l.full;
+}
+
+void viewer_copy_command_line(viewer *v)
+{
+    char text[8192];
+    if (!viewer_command_line(v, text, sizeof text)) {
+        viewer_say(v, true, "the command line is too long");
+        return;
+    }
+    glfwSetClipboardString(v->window, text);
+    puts(text);
+    fflush(stdout);
+    viewer_say(v, false, "copied and printed: %s", text);
+}

@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Opening and closing scenes, and changing what the frame is made of.
+ */
+#include "viewer.h"
+
+#include "setting_table.h"
+
+#include <GLFW/glfw3.h>
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static void *load_function(const char *name, void *user)
+{
+    (void)user;
+    GLFWglproc function = glfwGetProcAddress(name);
+    void *address = NULL;
+    /* ISO C has no cast from a function pointer to an object pointer; POSIX promises that the bytes agree. */
+    memcpy(&address, &function, sizeof address);
+    return address;
+}
+
+void viewer_say(viewer *v, bool is_error, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(v->notice, sizeof v->notice, format, arguments);
+    va_end(arguments);
+    v->notice_is_error = is_error;
+    v->notice_until = glfwGetTime() + (is_error ? 20 : 5);
+    if (is_error)
+        fprintf(stderr, "glssao-view: %s\n", v->notice);
+}
+
+void viewer_change(viewer *v)
+{
+    v->frame_due = true;
+    viewer_drop_truth(v);
+}
+
+void viewer_frame_scene(viewer *v)
+{
+    options o = v->options;
+    o.width = v->width;
+    o.height = v->height;
+    if (v->moved) { /* once more: the whole scene, whatever the file's camera shows */
+        v->viewpoint = (viewpoint){.base = camera_frame_scene(v->scene, (float)v->width / (float)v->height)};
+    } else if (!viewpoint_choose(&o, v->scene, &v->viewpoint, v->error, sizeof v->error)) {
+        viewer_say(v, true, "%s", v->error);
+        v->viewpoint = (viewpoint){.base = camera_frame_scene(v->scene, (float)v->width / (float)v->height)};
+        v->moved = true;
+    }
+    viewer_change(v);
+}
+
+static bool make_pipeline(viewer *v, pipeline *p, const scene *s)
+{
+    const pipeline_wants wants = {.picture = true, .ao = true, .prepass = true, .normals = true, .timers = true};
+    options o = v->options;
+    o.width = v->width;
+    o.height = v->height;
+    return pipeline_create(p, s, load_function, NULL, &o, wants, v->error, sizeof v->error);
+}
+
+bool viewer_open(viewer *v, const char *path, const char *name)
+{
+    const double start = glfwGetTime();
+    const bool first = !v->scene;
+    scene *s = path ? scene_load(path, v->error, sizeof v->error) : scene_make(name, v->error, sizeof v->error);
+    pipeline made = {0};
+    const options before = v->options;
+    v->options.scene_path = path;
+    v->options.scene_name = name;
+    if (s && !first)
+        v->options.radius.given = false; /* another scene, another size */
+    if (!s || !make_pipeline(v, &made, s)) {
+        v->options = before;
+        pipeline_destroy(&made);
+        scene_destroy(s);
+        viewer_say(v, true, "%s", v->error);
+        return false;
+    }
+    if (!first) {
+        viewer_drop_truth(v);
+        viewer_free_targets(v);
+        pipeline_destroy(&v->pipeline);
+        scene_destroy(v->scene);
+    }
+    v->pipeline = made;
+    v->scene = s;
+    snprintf(v->scene_path, sizeof v->scene_path, "%s", path ? path : "");
+    v->options.scene_path = path ? v->scene_path : NULL;
+    if (first) {
+        v->settings = made.settings;
+    } else {
+        v->moved = false;
+        v->options.camera = 0;
+        v->options.eye.given = v->options.target.given = v->options.up.given = v->options.fov_deg.given = false;
+        setting_scale_radius(&v->settings, path ? camera_suggest_radius(s) : viewer_standard(v).radius);
+        viewer_say(v, false, "%s: %u triangles stored, opened in %.0f ms", s->name, s->index_count / 3,
+                   1e3 * (glfwGetTime() - start));
+    }
+    viewer_frame_scene(v);
+    glfwSetWindowTitle(v->window, s->name);
+    return true;
+}
+
+void viewer_close(viewer *v)
+{
+    viewer_drop_truth(v);
+    viewer_free_targets(v);
+    if (v->scene)
+        pipeline_destroy(&v->pipeline);
+    scene_destroy(v->scene);
+    v->scene = NULL;
+}
+
+glssao_settings viewer_standard(const viewer *v)
+{
+    options o = v->options;
+    o.radius = (options_number){v->settings.radius > 0, v->settings.radius};
+    o.power.given = false;
+    o.sample_count = 0;
+    o.blur_rounds = -1;
+    o.set = NULL;
+    return pipeline_settings(&o, v->scene);
+}
+
+void viewer_set_technique(viewer *v, int technique, int quality)
+{
+    v->options.technique = technique;
+    v->options.quality = quality;
+    v->settings = viewer_standard(v);
+    viewer_change(v);
+}
+
+void viewer_configure(viewer *v)
+{
+    scene_draw_options *o = &v->pipeline.draw_options;
+    o->shadows = !v->options.no_shadows;
+    o->shadow_size = v->options.shadow_size;
+    o->mapped_normals = v->options.mapped_normals;
+    o->specular_occlusion = v->options.specular_occlusion;
+    o->multi_bounce = v->options.multi_bounce;
+    v->pipeline.debug_map = (options_map)v->options.debug_map;
+    if (!scene_renderer_configure(v->pipeline.renderer, &v->pipeline.lighting, o, v->error, sizeof v->error))
+        viewer_say(v, true, "%s", v->error);
+    viewer_change(v);
+}

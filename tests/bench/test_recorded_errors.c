@@ -1,0 +1,205 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_recorded_errors FILE.tsv [SCENES] [--record]: RMSE of each horizon level, as shipped, against ray-traced truth
+ * on small pictures of a few scenes, compared with the figures recorded in the file. Worse by more than the tolerance
+ * fails; much better fails too, and asks for a new record, so that the gain is held. --record writes the file instead.
+ * Scenes that are not there (SCENES is the folder of the glTF ones) are left out with a message, and can't be recorded.
+ */
+#include "effects.h"
+#include "views.h"
+
+#include <glssao/glssao.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WIDTH = 240, HEIGHT = 135, RAYS = 64, LEVELS = GLSSAO_ULTRA + 1, ERROR_LENGTH = 1024, MAX_ROWS = 64 };
+
+/* Other drivers and compilers round otherwise; what a change of the shader brings is larger. */
+static const double WORSE = 0.01, BETTER = 0.03, FLOOR = 0.0002;
+
+/* Words of their names; "cornell" stands for cornell-box too. */
+static const char picked[] = "columns,cornell,steps,plane,zdm2,garage,cycloidal,dutch,hermes,ivy,truck-town";
+
+typedef struct row {
+    char scene[64];
+    double rmse[LEVELS];
+} row;
+
+typedef struct record {
+    row rows[MAX_ROWS];
+    int count;
+} record;
+
+static bool read_record(const char *path, record *r)
+{
+    FILE *f = fopen(path, "r");
+    if (!f) {
+        perror(path);
+        return false;
+    }
+    char line[256];
+    bool good = true;
+    while (good && fgets(line, sizeof line, f)) {
+        if (line[0] == '#')
+            continue;
+        row *at = &r->rows[r->count];
+        good = r->count < MAX_ROWS && sscanf(line, "%63s %lf %lf %lf %lf", at->scene, &at->rmse[0], &at->rmse[1],
+                                             &at->rmse[2], &at->rmse[3]) == 1 + LEVELS;
+        r->count += good;
+    }
+    fclose(f);
+    if (!good)
+        fprintf(stderr, "%s: not a record: %s\n", path, line);
+    return good;
+}
+
+static bool write_record(const char *path, const record *r)
+{
+    FILE *f = fopen(path, "w");
+    if (!f) {
+        perror(path);
+        return false;
+    }
+    fprintf(f,
+            "# SPDX-License-Identifier: MIT\n"
+            "# RMSE of horizon against %d rays a pixel at %dx%d; written by `test_recorded_errors --record`.\n"
+            "# scene\tlow\tmedium\thigh\tultra\n",
+            RAYS, WIDTH, HEIGHT);
+    for (int i = 0; i < r->count; i++) {
+        fprintf(f, "%s", r->rows[i].scene);
+        for (int level = 0; level < LEVELS; level++)
+            fprintf(f, "\t%.5f", r->rows[i].rmse[level]);
+        fputc('\n', f);
+    }
+    const bool written = fclose(f) == 0;
+    if (written)
+        printf("%s is written, %d scenes\n", path, r->count);
+    return written;
+}
+
+static bool measure_view(effects *e, map_reader *m, const bench_view *v, float *picture, row *out, char *error)
+{
+    memcpy(out->scene, v->name, sizeof out->scene);
+    error_sum *sum = malloc(sizeof *sum);
+    bool measured = sum != NULL;
+    for (int level = 0; measured && level < LEVELS; level++) {
+        const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)level);
+        memset(sum, 0, sizeof *sum);
+        measured = effects_run(e, m, &v->gbuffer, v->radius, &settings, picture, error, ERROR_LENGTH);
+        error_add(sum, picture, v->truth.accessibility, v->classes, (size_t)WIDTH * HEIGHT);
+        const error_measure found = error_finish(sum);
+        measured = measured && found.nonfinite_share <= 0.0;
+        out->rmse[level] = found.rmse;
+    }
+    free(sum);
+    return measured;
+}
+
+/* Measures every scene that is there. */
+static bool measure(const options *o, context *c, record *out, char *error)
+{
+    static bench_scene scenes[BENCH_SCENES_MAX];
+    effects e = {.context = c, .width = WIDTH, .height = HEIGHT};
+    map_reader m;
+    float *picture = malloc((size_t)WIDTH * HEIGHT * sizeof *picture);
+    bool measured = map_reader_create(&m, WIDTH, HEIGHT, error, ERROR_LENGTH) && picture;
+    const int count = bench_scenes_list(o, scenes);
+    for (int i = 0; measured && i < count; i++) {
+        bench_view v;
+        measured = bench_view_create(&v, &scenes[i], o, error, ERROR_LENGTH) &&
+                   measure_view(&e, &m, &v, picture, &out->rows[out->count++], error);
+        bench_view_destroy(&v);
+    }
+    effects_destroy(&e);
+    map_reader_destroy(&m);
+    free(picture);
+    return measured;
+}
+
+static const row *find(const record *r, const char *name)
+{
+    for (int i = 0; i < r->count; i++)
+        if (strcmp(r->rows[i].scene, name) == 0)
+            return &r->rows[i];
+    return NULL;
+}
+
+/* How many figures are off. */
+static int compare(const record *recorded, const record *now)
+{
+    static const char *const names[LEVELS] = {"low", "medium", "high", "ultra"};
+    int off = 0;
+    for (int i = 0; i < recorded->count; i++)
+        if (!find(now, recorded->rows[i].scene))
+            printf("%s is skipped: its file is not there\n", recorded->rows[i].scene);
+    for (int i = 0; i < now->count; i++) {
+        const row *is = &now->rows[i], *was = find(recorded, is->scene);
+        if (!was) {
+            printf("%s is not recorded\n", is->scene);
+            off++;
+            continue;
+        }
+        for (int level = 0; level < LEVELS; level++) {
+            const double least = was->rmse[level] * (1 - BETTER) - FLOOR, most = was->rmse[level] * (1 + WORSE) + FLOOR;
+            const bool worse = !(is->rmse[level] <= most), better = is->rmse[level] < least;
+            printf("%-18s %-6s %.5f, recorded %.5f%s\n", is->scene, names[level], is->rmse[level], was->rmse[level],
+                   worse    ? ": WORSE"
+                   : better ? ": BETTER, record anew with --record"
+                            : "");
+            off += worse || better;
+        }
+    }
+    return off;
+}
+
+/* The built-in scenes at the least. */
+static bool has_built_ins(const record *r)
+{
+    return find(r, "columns") && find(r, "cornell") && find(r, "steps") && find(r, "plane");
+}
+
+static int finish(const char *path, const record *now, bool write)
+{
+    static record recorded;
+    const bool read = read_record(path, &recorded);
+    if (!write)
+        return read && compare(&recorded, now) == 0 ? 0 : 1;
+    for (int i = 0; i < recorded.count; i++)
+        if (!find(now, recorded.rows[i].scene)) {
+            fprintf(stderr, "%s is recorded and not there: nothing is written\n", recorded.rows[i].scene);
+            return 1;
+        }
+    return write_record(path, now) ? 0 : 1;
+}
+
+int main(int argc, char **argv)
+{
+    const char *path = NULL, *scenes = NULL;
+    bool write = false;
+    for (int i = 1; i < argc; i++) {
+        if (strcmp(argv[i], "--record") == 0)
+            write = true;
+        else if (!path)
+            path = argv[i];
+        else
+            scenes = argv[i];
+    }
+    if (!path) {
+        fprintf(stderr, "usage: test_recorded_errors FILE.tsv [SCENES] [--record]\n");
+        return 2;
+    }
+    const options o = {.scenes = scenes, .pick = picked, .size = {WIDTH, HEIGHT}, .rays = RAYS};
+    char error[ERROR_LENGTH] = "";
+    static record now;
+    context *c = context_create(&(context_options){.kind = CONTEXT_EGL}, error, sizeof error);
+    bool measured = c && gl_load(context_load, c, error, sizeof error) && measure(&o, c, &now, error);
+    context_destroy(c);
+    if (!measured || !has_built_ins(&now)) {
+        fprintf(stderr, "test_recorded_errors: %s\n", error[0] ? error : "a built-in scene is missing");
+        return 1;
+    }
+    return finish(path, &now, write);
+}

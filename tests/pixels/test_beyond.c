@@ -1,0 +1,249 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What lies beyond the one layer of the picture: the margin around it, and the second layer behind it.
+ */
+#include "analytic.h"
+#include "fixture.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { W = 96, H = 64, MARGIN = 32, WIDE = W + 2 * MARGIN, HIGH = H + 2 * MARGIN };
+
+/* The room; `margin` pixels more on each side, under a projection that shows the middle alike. */
+static glssao_frame make_frame(int margin, float **out_depth)
+{
+    const int width = W + 2 * margin, height = H + 2 * margin;
+    analytic_shape room[ANALYTIC_ROOM_SHAPES];
+    analytic_room(room, 1.0);
+    analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
+    view.projection[0] *= (float)W / (float)width;
+    view.projection[5] *= (float)H / (float)height;
+    float *depth, *normals;
+    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, width, height, &depth, &normals);
+    glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, width, height, depth),
+                          .normal_texture = fixture_normal_texture(width, height, normals),
+                          .margin = margin};
+    memcpy(frame.projection, view.projection, sizeof frame.projection);
+    free(normals);
+    if (out_depth)
+        *out_depth = depth;
+    else
+        free(depth);
+    return frame;
+}
+
+static void delete_frame(glssao_frame *frame)
+{
+    const GLuint textures[] = {frame->depth_texture, frame->normal_texture, frame->back_texture, frame->second_texture};
+    gl.DeleteTextures(4, textures);
+}
+
+static const glssao_technique techniques[] = {GLSSAO_CLASSIC, GLSSAO_HEMISPHERE, GLSSAO_HORIZON};
+
+/* With a margin the result is the middle of what comes out for the whole: cutting passes short changes no pixel. */
+static void margin_is_cut_off(void **state)
+{
+    for (int i = 0; i < 3; ++i)
+        for (int variant = 0; variant < 4; ++variant) {
+            glssao_settings settings = glssao_default_settings(techniques[i], GLSSAO_HIGH);
+            settings.half_resolution = variant % 2 == 0;
+            settings.upsample = variant < 2;
+            if (variant == 3) {
+                settings.blur = GLSSAO_BLUR_NONE;
+                settings.blur_rounds = 0;
+            }
+            glssao_effect *whole = fixture_effect(*state, WIDE, HIGH), *cut = fixture_effect(*state, WIDE, HIGH);
+            glssao_frame frame = make_frame(MARGIN, NULL);
+            int w, h, wide, high;
+            float *got = fixture_compute(cut, &frame, &settings, &w, &h);
+            frame.margin = 0;
+            float *wanted = fixture_compute(whole, &frame, &settings, &wide, &high);
+            const int m = (wide - w) / 2;
+            assert_true(wide == (variant == 2 ? WIDE / 2 : WIDE) && high == (variant == 2 ? HIGH / 2 : HIGH));
+            assert_true(w == (variant == 2 ? W / 2 : W) && h == (variant == 2 ? H / 2 : H));
+            for (int y = 0; y < h; ++y)
+                for (int x = 0; x < w; ++x)
+                    assert_float_equal(got[y * w + x], wanted[(y + m) * wide + x + m], 2e-5f);
+            assert_true(glssao_plan_frame(cut, &frame, &settings).passes[GLSSAO_PASS_ESTIMATE].width ==
+                        (variant % 2 == 0 ? WIDE / 2 : WIDE));
+            frame.margin = MARGIN;
+            if (techniques[i] == GLSSAO_HORIZON) /* three rounds of classic's blur reach as far as the margin */
+                assert_true(glssao_plan_frame(cut, &frame, &settings).passes[GLSSAO_PASS_ESTIMATE].width <
+                            (variant % 2 == 0 ? WIDE / 2 : WIDE));
+            free(got);
+            free(wanted);
+            glssao_destroy(whole);
+            glssao_destroy(cut);
+            delete_frame(&frame);
+        }
+}
+
+/* A floor whose wall stands just outside of the picture: only the margin shows what darkens it. */
+static void margin_finds_occluders_beyond_the_edge(void **state)
+{
+    double darkened[2];
+    for (int i = 0; i < 2; ++i) {
+        const int margin = i == 0 ? 0 : MARGIN, width = W + 2 * margin, height = H + 2 * margin;
+        analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
+        const double edge = 4.0 / (double)view.projection[0]; /* half the picture's width at distance 4 */
+        view.projection[0] *= (float)W / (float)width;
+        view.projection[5] *= (float)H / (float)height;
+        analytic_shape shapes[2] = {{ANALYTIC_PLANE, {0.0, 0.0, -4.0}, {0.0, 0.0, 1.0}},
+                                    {ANALYTIC_PLANE, {edge + 0.05, 0.0, 0.0}, {-1.0, 0.0, 0.0}}};
+        float *depth, *normals;
+        analytic_render(&view, shapes, 2, width, height, &depth, &normals);
+        glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, width, height, depth),
+                              .normal_texture = fixture_normal_texture(width, height, normals),
+                              .margin = margin};
+        memcpy(frame.projection, view.projection, sizeof frame.projection);
+        glssao_effect *effect = fixture_effect(*state, width, height);
+        const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_ULTRA);
+        int w, h;
+        float *got = fixture_compute(effect, &frame, &settings, &w, &h);
+        darkened[i] = 0.0;
+        for (int y = 0; y < H; ++y)
+            darkened[i] += (1.0 - (double)got[y * W + W - 1]) / H;
+        free(got);
+        free(depth);
+        free(normals);
+        glssao_destroy(effect);
+        delete_frame(&frame);
+    }
+    print_message("right column darkened by %.3f without, %.3f with a margin\n", darkened[0], darkened[1]);
+    assert_true(darkened[0] < 0.02);
+    assert_true(darkened[1] > 0.25); /* exact: 0.40; the radius is eight pixels here. Measured: 0.295 */
+}
+
+/* What a plate of another thickness takes from the plane behind it, where nothing but a second layer can tell. */
+static double behind_a_plate(fixture *f, double thickness, bool layers, double sheet_behind)
+{
+    analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
+    const analytic_shape shapes[2] = {{ANALYTIC_PLANE, {0.0, 0.0, -5.0}, {0.0, 0.0, 1.0}},
+                                      {ANALYTIC_BOX, {0.0, 0.0, -4.6 - thickness / 2}, {0.4, 4.0, thickness / 2}}};
+    const analytic_shape behind[2] = {{ANALYTIC_PLANE, {0.0, 0.0, -4.6 - thickness}, {0.0, 0.0, 1.0}},
+                                      {ANALYTIC_PLANE, {0.0, 0.0, -4.6 - thickness - sheet_behind}, {0.0, 0.0, 1.0}}};
+    float *depth, *normals, *back, *second, *spare;
+    analytic_render(&view, shapes, 2, W, H, &depth, &normals);
+    analytic_render(&view, &behind[0], 1, W, H, &back, &spare);
+    free(spare);
+    analytic_render(&view, &behind[1], 1, W, H, &second, &spare);
+    free(spare);
+    for (int i = 0; i < W * H; ++i)
+        if (normals[3 * i + 2] < 0.99f || depth[i] >= back[i])
+            back[i] = second[i] = 1.0f; /* the plane behind has neither */
+    glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, depth),
+                          .normal_texture = fixture_normal_texture(W, H, normals)};
+    if (layers) {
+        frame.back_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, back);
+        frame.second_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, second);
+    }
+    memcpy(frame.projection, view.projection, sizeof frame.projection);
+    glssao_effect *effect = fixture_effect(f, W, H);
+    const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_ULTRA);
+    int w, h;
+    float *got = fixture_compute(effect, &frame, &settings, &w, &h);
+    double sum = 0.0;
+    int count = 0;
+    for (int x = 0; x < W; ++x) {
+        const int i = H / 2 * W + x;
+        const bool is_plate = depth[i] < depth[H / 2 * W];
+        const bool is_near = (x > 3 && depth[i - 4] < depth[i]) || (x + 4 < W && depth[i + 4] < depth[i]);
+        if (!is_plate && is_near) {
+            sum += 1.0 - (double)got[i];
+            ++count;
+        }
+    }
+    assert_true(count >= 4);
+    free(got);
+    free(depth);
+    free(normals);
+    free(back);
+    free(second);
+    glssao_destroy(effect);
+    delete_frame(&frame);
+    return sum / count;
+}
+
+static void thickness_is_read(void **state)
+{
+    const double far_off = 20.0;
+    const double thin = behind_a_plate(*state, 0.05, true, far_off), thick = behind_a_plate(*state, 0.4, true, far_off);
+    const double guess_thin = behind_a_plate(*state, 0.05, false, far_off),
+                 guess_thick = behind_a_plate(*state, 0.4, false, far_off);
+    const double seconded = behind_a_plate(*state, 0.05, true, 0.2);
+    print_message("occlusion beside a plate: thin %.3f, thick %.3f; guessed %.3f, %.3f; second surface %.3f\n", thin,
+                  thick, guess_thin, guess_thick, seconded);
+    assert_true(fabs(guess_thin - guess_thick) < 0.02); /* from the front both look alike */
+    assert_true(thick > thin + 0.05);
+    assert_true(seconded > thin + 0.02); /* what stands behind the plate occludes too */
+}
+
+static void refuses_what_it_cannot_use(void **state)
+{
+    fixture *f = *state;
+    glssao_effect *effect = fixture_effect(f, W, H);
+    const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
+    static const int margins[] = {-2, 3, H / 2, 1 << 30};
+    for (int i = 0; i < 4; ++i) {
+        glssao_frame frame = make_frame(0, NULL);
+        frame.margin = margins[i];
+        assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_INVALID_ARGUMENT);
+        assert_non_null(strstr(f->log, "frame.margin"));
+        fixture_clear_log(f);
+        delete_frame(&frame);
+    }
+    glssao_frame frame = make_frame(0, NULL);
+    frame.back_texture = frame.depth_texture;
+    assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_INVALID_ARGUMENT);
+    assert_non_null(strstr(f->log, "frame.second_texture"));
+    fixture_clear_log(f);
+    frame.second_texture = 9999;
+    assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_INVALID_ARGUMENT);
+    assert_non_null(strstr(f->log, "frame.second_texture"));
+    fixture_clear_log(f);
+    frame.back_texture = frame.second_texture = 0;
+    delete_frame(&frame);
+    glssao_destroy(effect);
+}
+
+/* The mean of a frame with a margin, and that it ends at the mean of the frame without where nothing lies beyond. */
+static void accumulation_keeps_the_margin(void **state)
+{
+    glssao_effect *effect = fixture_effect(*state, WIDE, HIGH), *wide_effect = fixture_effect(*state, WIDE, HIGH);
+    glssao_frame frame = make_frame(MARGIN, NULL), wide_frame = frame;
+    wide_frame.margin = 0;
+    glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
+    for (int i = 0; i < 5; ++i) {
+        assert_int_equal(glssao_accumulate(effect, &frame, &settings), GLSSAO_OK);
+        assert_int_equal(glssao_accumulate(wide_effect, &wide_frame, &settings), GLSSAO_OK);
+    }
+    int w, h, wide, high;
+    const uint32_t map = glssao_map(effect, GLSSAO_MAP_AMBIENT, &w, &h),
+                   wide_map = glssao_map(wide_effect, GLSSAO_MAP_AMBIENT, &wide, &high);
+    assert_true(w == W && h == H && wide == WIDE && high == HIGH);
+    float *got = fixture_read_texture(map, w, h, 1), *wanted = fixture_read_texture(wide_map, wide, high, 1);
+    for (int y = 0; y < H; ++y)
+        for (int x = 0; x < W; ++x)
+            assert_float_equal(got[y * W + x], wanted[(y + MARGIN) * WIDE + x + MARGIN], 2e-5f);
+    gl.Finish();
+    assert_true(glssao_get_stats(effect).sampling_error > 0.0);
+    free(got);
+    free(wanted);
+    glssao_destroy(effect);
+    glssao_destroy(wide_effect);
+    delete_frame(&frame);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(margin_is_cut_off, NULL, fixture_no_gl_error),
+        cmocka_unit_test_setup_teardown(margin_finds_occluders_beyond_the_edge, NULL, fixture_no_gl_error),
+        cmocka_unit_test_setup_teardown(thickness_is_read, NULL, fixture_no_gl_error),
+        cmocka_unit_test_setup_teardown(refuses_what_it_cannot_use, NULL, fixture_no_gl_error),
+        cmocka_unit_test_setup_teardown(accumulation_keeps_the_margin, NULL, fixture_no_gl_error),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+}

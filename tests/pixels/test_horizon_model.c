@@ -1,0 +1,341 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The horizon estimate against its double-precision model, pixel by pixel: rooms, slopes, posts and spheres, and frames
+ * of random numbers.
+ *
+ * Tolerance on accessibility: 1.5 steps of R16 and 5e-6 times power (the driver's pow()). What float arithmetic could
+ * decide either way is in the model's interval; how wide those are is bounded too, so that the test can't pass by being
+ * vague.
+ */
+#include "analytic.h"
+#include "fixture.h"
+#include "horizon_internals.h"
+#include "horizon_model.h"
+#include "shader_constants.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double R16_STEP = 1.0 / 65535.0;
+static const double PI = 3.14159265358979323846;
+
+/* Everything that was given to the estimate, in arrays. */
+typedef struct setup {
+    glssao_effect *effect;
+    glssao_frame frame;
+    glssao_settings settings;
+    horizon_input input;
+    int width, height;
+    float *normals; /* NULL: rebuilt */
+} setup;
+
+static glssao_settings bare_settings(int sample_count, bool half, double radius)
+{
+    glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
+    s.sample_count = sample_count;
+    s.half_resolution = half;
+    s.radius = (float)radius;
+    s.blur = GLSSAO_BLUR_NONE;
+    s.upsample = false;
+    return s;
+}
+
+/* How vague the model may be: mean width of its intervals, and share of those wider than three sectors of 31. */
+typedef struct vagueness {
+    double mean, wide;
+} vagueness;
+
+static const vagueness ORDINARY = {2e-4, 0.002};
+
+/* How far the distance map is off what the depth means, in units of what float rounding allows. */
+static double distance_error(const setup *s, const float *depth, const float *distance)
+{
+    const float *p = s->frame.projection;
+    const int factor = s->input.factor;
+    const float sky_depth = s->frame.clip_zero_to_one || p[10] > 0.0f ? 0.0f : 1.0f;
+    double worst = 0.0;
+    for (int y = 0; y < s->input.height; ++y)
+        for (int x = 0; x < s->input.width; ++x) {
+            const float stored = depth[y * factor * s->width + x * factor], got = distance[y * s->input.width + x];
+            const bool window = s->frame.depth_kind == GLSSAO_DEPTH_WINDOW;
+            const bool sky = window ? stored == sky_depth : !isfinite(stored);
+            double want[2]; /* of the stored depth, and of the next float's */
+            for (int i = 0; i < 2; ++i) {
+                const double d = (double)stored + i * 0x1p-24;
+                const double ndc = s->frame.clip_zero_to_one ? d : 2.0 * d - 1.0;
+                want[i] = ((double)p[14] - ndc * (double)p[15]) / ((double)p[10] - ndc * (double)p[11]);
+            }
+            if (sky || !window)
+                worst = got == (sky ? 1e15f : stored) ? worst : HUGE_VAL;
+            else
+                worst = fmax(worst, fabs((double)got - want[0]) / (fabs(want[1] - want[0]) + 0x1p-24 * want[0]));
+        }
+    return worst;
+}
+
+/* `depth`: full size, as its texture holds it. Returns the share of pixels that are occluded. */
+static double check(setup *s, const float *depth, const vagueness *most, const char *what)
+{
+    int width, height, map_width, map_height, normal_width, normal_height;
+    float *got = fixture_compute(s->effect, &s->frame, &s->settings, &width, &height);
+    const uint32_t map = horizon_distance_map(s->effect, &map_width, &map_height);
+    assert_true(map_width == width && map_height == height);
+    float *distance = fixture_read_texture(map, width, height, 1);
+    float *normals = s->normals;
+    if (!normals)
+        normals = fixture_read_texture(glssao_map(s->effect, GLSSAO_MAP_NORMAL, &normal_width, &normal_height),
+                                       s->width, s->height, 3);
+    s->input = (horizon_input){
+        .full_width = s->width,
+        .full_height = s->height,
+        .factor = s->settings.half_resolution ? 2 : 1,
+        .width = width,
+        .height = height,
+        .distance = distance,
+        .normals = normals,
+        .radius = (double)s->settings.radius,
+        .power = (double)s->settings.power,
+    };
+    memcpy(s->input.projection, s->frame.projection, sizeof s->input.projection);
+    assert_true(horizon_variant(s->effect, &s->input));
+    assert_int_equal(2 * s->input.slices * s->input.steps, s->settings.sample_count);
+    const double off = distance_error(s, depth, distance);
+
+    const double tolerance = 1.5 * R16_STEP + 5e-6 * fmax(1.0, s->input.power);
+    double worst = 0.0, vague = 0.0;
+    int wide = 0, occluded = 0, wrong = 0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            double low, high;
+            const double value = (double)got[y * width + x];
+            horizon_model(&s->input, x, y, &low, &high);
+            const double outside = fmax(low - value, value - high);
+            worst = fmax(worst, outside);
+            if (!(outside <= tolerance) && wrong++ < 3)
+                print_error("%s: pixel %d, %d: got %.6f, model %.6f to %.6f\n", what, x, y, value, low, high);
+            vague += (high - low) / (width * height);
+            wide += high - low > 3.0 / 31.0;
+            occluded += high < 0.97;
+        }
+    const double share = (double)occluded / (width * height);
+    print_message("%s: worst outside interval %.2e, mean width %.1e, wide %.2f %%, occluded %.0f %%, distance %.2f\n",
+                  what, worst, vague, 100.0 * wide / (width * height), 100.0 * share, off);
+    if (normals != s->normals)
+        free(normals);
+    free(distance);
+    free(got);
+    assert_int_equal(wrong, 0);
+    assert_true(off < 4.0);
+    assert_true(vague < most->mean);
+    assert_true(wide <= most->wide * width * height);
+    return share;
+}
+
+enum { SCENE_SHAPES = 8 };
+
+/* A row of thin posts on a floor, a slope that leans away, and a large sphere partly off the screen. */
+static int make_posts(analytic_shape shapes[SCENE_SHAPES])
+{
+    const double lean = 70.0 * PI / 180.0;
+    int n = 0;
+    shapes[n++] = (analytic_shape){ANALYTIC_PLANE, {0.0, -1.0, 0.0}, {0.0, 1.0, 0.0}};
+    shapes[n++] = (analytic_shape){ANALYTIC_PLANE, {2.0, 0.0, -6.0}, {-sin(lean), 0.0, cos(lean)}};
+    for (int i = 0; i < 4; ++i)
+        shapes[n++] = (analytic_shape){
+            ANALYTIC_BOX, {-1.6 + 0.8 * i, 0.0, -4.0 - 0.7 * i}, {0.04 + 0.02 * i, 1.0, 0.04 + 0.02 * i}};
+    shapes[n++] = (analytic_shape){ANALYTIC_SPHERE, {-2.2, 0.2, -4.5}, {1.0, 0.0, 0.0}};
+    return n;
+}
+
+typedef struct scene_options {
+    analytic_projection projection;
+    int width, height;
+    bool posts, rebuilt;
+} scene_options;
+
+static void check_scene(fixture *f, const scene_options *o, const glssao_settings *settings, const char *what)
+{
+    analytic_shape shapes[SCENE_SHAPES];
+    int count = ANALYTIC_ROOM_SHAPES;
+    if (o->posts)
+        count = make_posts(shapes);
+    else
+        analytic_room(shapes, 1.0);
+    const analytic_view view = analytic_make_view(o->projection, (double)o->width / o->height, 0.5, 40.0, 1.0);
+    float *depth, *normals;
+    analytic_render(&view, shapes, count, o->width, o->height, &depth, &normals);
+    setup s = {.effect = fixture_effect(f, o->width, o->height),
+               .frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, o->width, o->height, depth),
+                         .clip_zero_to_one = view.clip_zero_to_one},
+               .settings = *settings,
+               .width = o->width,
+               .height = o->height,
+               .normals = o->rebuilt ? NULL : normals};
+    memcpy(s.frame.projection, view.projection, sizeof view.projection);
+    if (!o->rebuilt)
+        s.frame.normal_texture = fixture_normal_texture(o->width, o->height, normals);
+    const double occluded = check(&s, depth, &ORDINARY, what);
+    assert_true(occluded > 0.01);
+    gl.DeleteTextures(1, &s.frame.depth_texture);
+    gl.DeleteTextures(1, &s.frame.normal_texture);
+    glssao_destroy(s.effect);
+    free(depth);
+    free(normals);
+}
+
+/* Both scenes for both sizes and both projections, by turns. */
+static void agrees_for_every_sample_count_and_size(void **state)
+{
+    static const int counts[] = {12, 16, 24, 32, 48, 64};
+    for (int i = 0; i < 6; ++i)
+        for (int half = 0; half < 2; ++half)
+            for (int orthographic = 0; orthographic < 2; ++orthographic) {
+                const bool posts = (i + half + orthographic) % 2 == 1;
+                char what[100];
+                snprintf(what, sizeof what, "%d samples, %s, %s, %s", counts[i], half ? "half size" : "full size",
+                         orthographic ? "orthographic" : "perspective", posts ? "posts" : "room");
+                const scene_options o = {orthographic ? ORTHOGRAPHIC : PERSPECTIVE, half ? 160 : 80, half ? 101 : 51,
+                                         posts, false};
+                const glssao_settings s = bare_settings(counts[i], half == 1, 0.8);
+                check_scene(*state, &o, &s, what);
+            }
+}
+
+static void agrees_for_every_projection(void **state)
+{
+    for (int p = 0; p < PROJECTION_COUNT; ++p) {
+        char what[40];
+        snprintf(what, sizeof what, "projection %d", p);
+        const scene_options o = {(analytic_projection)p, 120, 80, p % 2 == 1, false};
+        const glssao_settings s = bare_settings(32, false, 1.0);
+        check_scene(*state, &o, &s, what);
+    }
+}
+
+/* Radii from a few pixels to far more than the picture, another exponent, rebuilt normals. */
+static void agrees_at_other_settings(void **state)
+{
+    static const double radii[] = {0.15, 4.0};
+    const scene_options o = {PERSPECTIVE, 120, 80, true, false};
+    for (int i = 0; i < 2; ++i) {
+        glssao_settings s = bare_settings(48, false, radii[i]);
+        check_scene(*state, &o, &s, i == 0 ? "small radius" : "large radius");
+    }
+    glssao_settings s = bare_settings(48, true, 1.0);
+    s.power = 2.5f;
+    check_scene(*state, &o, &s, "power 2.5");
+    s.power = 1.0f;
+    const scene_options rebuilt = {PERSPECTIVE, 120, 80, true, true};
+    check_scene(*state, &rebuilt, &s, "rebuilt normals");
+}
+
+static double next_random(uint32_t *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return (*state >> 8) * 0x1p-24;
+}
+
+/* Distances and normals of no scene at all: some sky, some normals that look away, all heights from runs of steps to
+ * noise. */
+static void agrees_on_random_frames(void **state)
+{
+    static const int counts[] = {12, 16, 24, 32, 48, 64};
+    fixture *f = *state;
+    for (uint32_t seed = 1; seed <= 24; ++seed) {
+        uint32_t random = seed;
+        for (int i = 0; i < 20; ++i)
+            (void)next_random(&random);
+        const int width = 5 + (int)(36.0 * next_random(&random)), height = 5 + (int)(36.0 * next_random(&random));
+        const bool orthographic = next_random(&random) < 0.3;
+        const double roughness = pow(10.0, -3.0 * next_random(&random)),
+                     radius = pow(10.0, 2.0 * next_random(&random) - 1.0);
+        const int sample_count = counts[(int)(6.0 * next_random(&random))];
+        const analytic_view view =
+            analytic_make_view(orthographic ? ORTHOGRAPHIC : PERSPECTIVE, (double)width / height, 0.5, 40.0, 1.0);
+        float *distance = malloc((size_t)(width * height) * sizeof *distance);
+        float *normals = malloc((size_t)(3 * width * height) * sizeof *normals);
+        double level = 4.0;
+        for (int i = 0; i < width * height; ++i) {
+            if (next_random(&random) < 0.1)
+                level = 1.0 + 8.0 * next_random(&random);
+            distance[i] = (float)(level * (1.0 + roughness * (next_random(&random) - 0.5)));
+            if (next_random(&random) < 0.05)
+                distance[i] = INFINITY;
+            for (int axis = 0; axis < 3; ++axis)
+                normals[3 * i + axis] = (float)(2.0 * next_random(&random) - (axis == 2 ? 0.5 : 1.0));
+        }
+        setup s = {.effect = fixture_effect(f, width, height),
+                   .frame = {.depth_kind = GLSSAO_DEPTH_VIEW_DISTANCE,
+                             .normal_texture = fixture_normal_texture(width, height, normals)},
+                   .settings = bare_settings(sample_count, next_random(&random) < 0.5, radius),
+                   .width = width,
+                   .height = height,
+                   .normals = normals};
+        gl.GenTextures(1, &s.frame.depth_texture);
+        gl.BindTexture(GL_TEXTURE_2D, s.frame.depth_texture);
+        gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, width, height, 0, GL_RED, GL_FLOAT, distance);
+        gl.BindTexture(GL_TEXTURE_2D, 0);
+        memcpy(s.frame.projection, view.projection, sizeof view.projection);
+        char what[120];
+        snprintf(what, sizeof what, "seed %u: %dx%d, %d samples, radius %.3f, roughness %.4f%s", seed, width, height,
+                 sample_count, radius, roughness, orthographic ? ", orthographic" : "");
+        const vagueness most = {0.005, 0.01};
+        (void)check(&s, distance, &most, what);
+        gl.DeleteTextures(1, &s.frame.depth_texture);
+        gl.DeleteTextures(1, &s.frame.normal_texture);
+        glssao_destroy(s.effect);
+        free(distance);
+        free(normals);
+    }
+}
+
+/* The polynomial against the integral of cos(t - g) sin(t) over 0 <= t <= acos(c), g to either side. */
+static void measure_is_near_the_integral(void **state)
+{
+    (void)state;
+    double worst = 0.0;
+    for (int degrees = -90; degrees <= 90; degrees += 3)
+        for (int i = 0; i <= 100; ++i) {
+            const double g = degrees * PI / 180.0, c = fmax(-sin(g), -1.0) * i / 100.0 + 1.0 - i / 100.0;
+            const double end = acos(fmin(fmax(c, -1.0), 1.0));
+            enum { PARTS = 400 };
+            double integral = 0.0;
+            for (int k = 0; k < PARTS; ++k) {
+                const double t = end * (k + 0.5) / PARTS;
+                integral += cos(t - g) * sin(t) * end / PARTS;
+            }
+            worst = fmax(worst, fabs(horizon_measure(cos(g), sin(g), c) - integral));
+        }
+    print_message("worst %.5f\n", worst);
+    assert_true(worst < 0.0021); /* half of what h is off by, and the midpoint rule's own error */
+    assert_true(worst > 1e-4);   /* it is a polynomial */
+}
+
+static void constants_are_read_where_they_count(void **state)
+{
+    (void)state;
+    static const char *const pieces[] = {"#define A ", "1\n", "#define B 0\nconst float X = 2.5; // a\n#if B || !A\n",
+                                         "const float Y = 1.0;\n#elif A && !B\nconst float Y = -3.0;\n#else\n",
+                                         "const float Y = 4.0;\n#endif\nconst float Z = 1.0 / X;\n"};
+    double value;
+    assert_true(shader_constant(pieces, 5, "X", &value) && value == 2.5);
+    assert_true(shader_constant(pieces, 5, "Y", &value) && value == -3.0);
+    assert_false(shader_constant(pieces, 5, "Z", &value)); /* no number */
+    assert_false(shader_constant(pieces, 5, "W", &value));
+}
+
+int main(void)
+{
+#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(measure_is_near_the_integral),
+        cmocka_unit_test(constants_are_read_where_they_count),
+        GL_TEST(agrees_for_every_sample_count_and_size),
+        GL_TEST(agrees_for_every_projection),
+        GL_TEST(agrees_at_other_settings),
+        GL_TEST(agrees_on_random_frames),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+}

@@ -1,0 +1,226 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The planar blur and upsampling against their double-precision models, pixel by pixel, from the maps that they read.
+ *
+ * Tolerance: 2e-6 between float maps, 1.5 steps of R16 where a pass writes the result.
+ */
+#include "analytic.h"
+#include "fixture.h"
+#include "horizon_internals.h"
+#include "horizon_passes.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double FLOAT_MAP = 2e-6, RESULT = 1.5 / 65535.0;
+
+typedef struct setup {
+    glssao_effect *effect;
+    glssao_frame frame;
+    glssao_settings settings;
+    int width, height; /* full size */
+    bool orthographic;
+    float *depth;
+    double blur_tolerance, upsample_tolerance; /* scene units */
+} setup;
+
+static void set_up(setup *s, fixture *f, analytic_projection projection, int width, int height)
+{
+    analytic_shape room[ANALYTIC_ROOM_SHAPES];
+    analytic_room(room, 1.0);
+    const analytic_view view = analytic_make_view(projection, (double)width / height, 0.5, 40.0, 1.0);
+    float *normals;
+    *s = (setup){.width = width, .height = height};
+    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, width, height, &s->depth, &normals);
+    s->effect = fixture_effect(f, width, height);
+    s->frame = (glssao_frame){.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, width, height, s->depth),
+                              .normal_texture = fixture_normal_texture(width, height, normals),
+                              .clip_zero_to_one = view.clip_zero_to_one};
+    memcpy(s->frame.projection, view.projection, sizeof view.projection);
+    s->orthographic = view.projection[11] == 0.0f;
+    s->settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
+    s->settings.upsample = true;
+    s->settings.radius = 0.8f;
+    assert_true(horizon_read_tolerances(&s->blur_tolerance, &s->upsample_tolerance));
+    s->blur_tolerance *= (double)s->settings.radius;
+    s->upsample_tolerance *= (double)s->settings.radius;
+    free(normals);
+}
+
+static void tear_down(setup *s)
+{
+    gl.DeleteTextures(1, &s->frame.depth_texture);
+    gl.DeleteTextures(1, &s->frame.normal_texture);
+    glssao_destroy(s->effect);
+    free(s->depth);
+}
+
+static paired_map read_paired(const setup *s, int number)
+{
+    const int divisor = s->settings.half_resolution ? 2 : 1;
+    paired_map map = {.width = (s->width + divisor - 1) / divisor, .height = (s->height + divisor - 1) / divisor};
+    map.texels = fixture_read_texture(horizon_paired_map(s->effect, number), map.width, map.height, 3);
+    return map;
+}
+
+static void free_paired(paired_map *map)
+{
+    free(map->texels);
+    map->texels = NULL;
+}
+
+/* How one pass came out. */
+typedef struct tally {
+    const char *what;
+    double worst;
+    int count, open, wrong, changed;
+} tally;
+
+static void add(tally *t, double got, double before, double low, double high, double tolerance)
+{
+    const double outside = fmax(low - got, got - high);
+    t->worst = fmax(t->worst, outside);
+    t->wrong += !(outside <= tolerance);
+    t->open += high - low > 0.01;
+    t->changed += fabs(got - before) > 0.01;
+    ++t->count;
+}
+
+/* Some pixels must change, or the pass could do nothing. Few may be open: those midway between two neighbours across a
+ * crease, one as near as the other (measured: 0.45 %). */
+static void finish(const tally *t)
+{
+    print_message("%s: worst outside %.1e, open %.2f %%, changed %.0f %%\n", t->what, t->worst,
+                  100.0 * t->open / t->count, 100.0 * t->changed / t->count);
+    assert_int_equal(t->wrong, 0);
+    assert_true(t->open * 100 < t->count);
+    assert_true(t->changed * 200 > t->count);
+}
+
+/* `got` is a float map's first channel of three, or the result. */
+static void check_blur(const setup *s, const paired_map *from, bool horizontal, const float *got, int stride,
+                       double tolerance)
+{
+    tally t = {.what = horizontal ? "horizontal blur" : "vertical blur"};
+    for (int y = 0; y < from->height; ++y)
+        for (int x = 0; x < from->width; ++x) {
+            double low, high;
+            const size_t at = (size_t)y * (size_t)from->width + (size_t)x;
+            planar_blur_model(from, horizontal, s->orthographic, s->blur_tolerance, x, y, &low, &high);
+            add(&t, (double)got[(size_t)stride * at], (double)from->texels[3 * at], low, high, tolerance);
+        }
+    finish(&t);
+}
+
+static double view_distance(const setup *s, int x, int y)
+{
+    const float *p = s->frame.projection;
+    const double d = (double)s->depth[y * s->width + x], ndc = s->frame.clip_zero_to_one ? d : 2.0 * d - 1.0;
+    return ((double)p[14] - ndc * (double)p[15]) / ((double)p[10] - ndc * (double)p[11]);
+}
+
+static void check_upsampling(const setup *s, const paired_map *half, const float *got)
+{
+    tally t = {.what = "upsampling"};
+    const float sky = s->frame.clip_zero_to_one ? 0.0f : 1.0f;
+    for (int y = 0; y < s->height; ++y)
+        for (int x = 0; x < s->width; ++x) {
+            const size_t at = (size_t)y * (size_t)s->width + (size_t)x;
+            const size_t half_at = (size_t)(y / 2) * (size_t)half->width + (size_t)(x / 2);
+            const double distance = view_distance(s, x, y);
+            double low = 1.0, high = 1.0;
+            if (s->depth[at] != sky)
+                upsample_model(half, s->orthographic, s->upsample_tolerance,
+                               s->orthographic ? distance : 1.0 / distance, x, y, &low, &high);
+            add(&t, (double)got[at], (double)half->texels[3 * half_at], low, high, RESULT);
+        }
+    finish(&t);
+}
+
+/* The estimate writes the linear quantity beside accessibility. */
+static void check_linear(const setup *s, const paired_map *map)
+{
+    const int factor = s->settings.half_resolution ? 2 : 1;
+    int seen = 0;
+    for (int y = 0; y < map->height; ++y)
+        for (int x = 0; x < map->width; ++x) {
+            const double got = (double)map->texels[3 * (y * map->width + x) + 1];
+            const double distance = view_distance(s, x * factor, y * factor);
+            if (!(distance < 39.0))
+                continue; /* sky */
+            const double want = s->orthographic ? distance : 1.0 / distance;
+            assert_true(fabs(got - want) < 1e-5 * want);
+            ++seen;
+        }
+    assert_true(seen * 20 > map->width * map->height);
+}
+
+/* The estimate brought to full size alone, then with the blur between. */
+static void check_half_size(fixture *f, analytic_projection projection, int width, int height)
+{
+    setup s;
+    set_up(&s, f, projection, width, height);
+    int w, h;
+    s.settings.blur = GLSSAO_BLUR_NONE;
+    float *result = fixture_compute(s.effect, &s.frame, &s.settings, &w, &h);
+    assert_true(w == width && h == height);
+    paired_map estimate = read_paired(&s, 0);
+    check_linear(&s, &estimate);
+    check_upsampling(&s, &estimate, result);
+    free(result);
+    s.settings.blur = GLSSAO_BLUR_PLANAR;
+    result = fixture_compute(s.effect, &s.frame, &s.settings, &w, &h);
+    paired_map horizontal = read_paired(&s, 1), vertical = read_paired(&s, 0);
+    check_blur(&s, &estimate, true, horizontal.texels, 3, FLOAT_MAP);
+    check_blur(&s, &horizontal, false, vertical.texels, 3, FLOAT_MAP);
+    check_upsampling(&s, &vertical, result);
+    free(result);
+    free_paired(&estimate);
+    free_paired(&horizontal);
+    free_paired(&vertical);
+    tear_down(&s);
+}
+
+/* The vertical blur is the last pass, and writes the result. */
+static void check_full_size(fixture *f, analytic_projection projection, int width, int height)
+{
+    setup s;
+    set_up(&s, f, projection, width, height);
+    s.settings.half_resolution = false;
+    int w, h;
+    float *result = fixture_compute(s.effect, &s.frame, &s.settings, &w, &h);
+    assert_true(w == width && h == height);
+    paired_map estimate = read_paired(&s, 0), horizontal = read_paired(&s, 1);
+    check_linear(&s, &estimate);
+    check_blur(&s, &estimate, true, horizontal.texels, 3, FLOAT_MAP);
+    check_blur(&s, &horizontal, false, result, 1, RESULT);
+    free(result);
+    free_paired(&estimate);
+    free_paired(&horizontal);
+    tear_down(&s);
+}
+
+static void passes_agree_at_half_size(void **state)
+{
+    check_half_size(*state, PERSPECTIVE, 160, 120);
+    check_half_size(*state, PERSPECTIVE_REVERSED_ZERO_TO_ONE, 161, 121);
+    check_half_size(*state, ORTHOGRAPHIC, 121, 160);
+}
+
+static void passes_agree_at_full_size(void **state)
+{
+    check_full_size(*state, PERSPECTIVE, 120, 90);
+    check_full_size(*state, ORTHOGRAPHIC, 121, 91);
+}
+
+int main(void)
+{
+#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
+    const struct CMUnitTest tests[] = {
+        GL_TEST(passes_agree_at_half_size),
+        GL_TEST(passes_agree_at_full_size),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+}

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: MIT */
+#include "horizon_internals.h"
+
+#include "effect.h"
+#include "shader_constants.h"
+
+uint32_t horizon_distance_map(const glssao_effect *effect, int *out_width, int *out_height)
+{
+    *out_width = effect->distance_map.width;
+    *out_height = effect->distance_map.height;
+    return effect->distance_map.texture;
+}
+
+uint32_t horizon_paired_map(const glssao_effect *effect, int number)
+{
+    return effect->paired.texture[number];
+}
+
+bool horizon_read_tolerances(double *out_blur, double *out_upsample)
+{
+    const char *pieces[GLSSAO__PROGRAM_MAX_SOURCES];
+    int count = glssao__program_sources(SHADER_PLANAR_BLUR, 0, GL_FRAGMENT_SHADER, pieces);
+    const bool blur = shader_constant(pieces, count, "TOLERANCE", out_blur);
+    count = glssao__program_sources(SHADER_UPSAMPLE, 0, GL_FRAGMENT_SHADER, pieces);
+    return blur && shader_constant(pieces, count, "TOLERANCE", out_upsample);
+}
+
+bool horizon_variant(const glssao_effect *effect, horizon_input *out)
+{
+    int found = 0;
+    unsigned variant = 0;
+    for (int i = 0; i < effect->program_count; ++i)
+        if (effect->programs[i].shader == SHADER_HORIZON) {
+            variant = effect->programs[i].variant;
+            ++found;
+        }
+    out->steps = variant & VARIANT_STEPS_16 ? 16 : variant & VARIANT_STEPS_12 ? 12 : variant & VARIANT_STEPS_8 ? 8 : 6;
+    out->slices = variant & VARIANT_SLICES_2 ? 2 : 1;
+    const char *pieces[GLSSAO__PROGRAM_MAX_SOURCES];
+    const int count = glssao__program_sources(SHADER_HORIZON, variant, GL_FRAGMENT_SHADER, pieces);
+    return found == 1 && horizon_read_constants(pieces, count, &out->constants);
+}

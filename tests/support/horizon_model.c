@@ -1,0 +1,226 @@
+/* SPDX-License-Identifier: MIT */
+#include "horizon_slice.h"
+#include "shader_constants.h"
+
+#include <stddef.h>
+
+static const double SKY = (double)1e15f; /* view distance that stands for none */
+static const double TRIGONOMETRY = 4e-7; /* error of a driver's sine and cosine: GLSL leaves it open */
+
+bool horizon_read_constants(const char *const *pieces, int count, horizon_constants *out)
+{
+    const struct {
+        const char *name;
+        double *out;
+    } wanted[] = {{"JUMP", &out->jump},
+                  {"ALIKE", &out->alike},
+                  {"OPEN_END", &out->open_end},
+                  {"WIDTH", &out->width},
+                  {"VEIL", &out->veil},
+                  {"VEIL_WIDTH", &out->veil_width},
+                  {"CALIBRATION", &out->calibration}};
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; ++i)
+        if (!shader_constant(pieces, count, wanted[i].name, wanted[i].out))
+            return false;
+    return true;
+}
+
+static rounded dot(vector a, vector b)
+{
+    return add(add(multiply(a.x, b.x), multiply(a.y, b.y)), multiply(a.z, b.z));
+}
+
+static vector scaled(rounded s, vector a)
+{
+    return (vector){multiply(s, a.x), multiply(s, a.y), multiply(s, a.z)};
+}
+
+static vector sum(vector a, vector b)
+{
+    return (vector){add(a.x, b.x), add(a.y, b.y), add(a.z, b.z)};
+}
+
+static vector unit(vector a)
+{
+    return scaled(divide(exactly(1.0), square_root(dot(a, a))), a);
+}
+
+static vector cross(vector a, vector b)
+{
+    return (vector){subtract(multiply(a.y, b.z), multiply(a.z, b.y)), subtract(multiply(a.z, b.x), multiply(a.x, b.z)),
+                    subtract(multiply(a.x, b.y), multiply(a.y, b.x))};
+}
+
+static double bound(double value, double least, double most)
+{
+    return fmin(fmax(value, least), most);
+}
+
+/* The texels that a sample `along` the slice (in radii) may be snapped to; beyond the border, the border's. */
+static void take_sample(const point *p, const slice *s, double along, candidate out[MAX_CANDIDATES], int *out_count)
+{
+    const horizon_input *in = p->in;
+    const int size[2] = {in->width, in->height}, center[2] = {p->x, p->y};
+    int texels[2][2], counts[2];
+    for (int axis = 0; axis < 2; ++axis) {
+        const rounded at = add(exactly(center[axis] + 0.5), multiply(once_rounded(along), s->step_px[axis]));
+        const interval where = bounds(at);
+        const double least = bound(floor(where.low), 0.0, size[axis] - 1);
+        const double most = bound(floor(where.high), 0.0, size[axis] - 1);
+        texels[axis][0] = (int)least;
+        texels[axis][1] = (int)most;
+        counts[axis] = most > least ? 2 : 1;
+    }
+    *out_count = 0;
+    for (int k = 0; k < counts[0] * counts[1]; ++k) {
+        const int tx = texels[0][k % counts[0]], ty = texels[1][k / counts[0]];
+        const double distance = (double)in->distance[ty * in->width + tx];
+        const rounded offset[2] = {exactly(tx - center[0]), exactly(ty - center[1])};
+        const rounded scale = exactly(p->orthographic ? 1.0 : distance);
+        const rounded deeper = divide(p->ray_length, once_rounded(in->radius));
+        const double direction = along < 0.0 ? -1.0 : 1.0;
+        candidate *c = &out[(*out_count)++];
+        c->x = multiply(scale, add(multiply(offset[0], s->x_per_px[0]), multiply(offset[1], s->x_per_px[1])));
+        c->x.v *= direction;
+        c->y = add(multiply(deeper, subtract(exactly(p->distance), exactly(distance))),
+                   multiply(scale, add(multiply(offset[0], s->y_per_px[0]), multiply(offset[1], s->y_per_px[1]))));
+        c->step = divide(once_rounded(p->orthographic ? 1.0 / in->steps : distance / in->steps),
+                         exactly(p->orthographic ? 1.0 : p->distance));
+        c->step.e += 4.0 * ROUNDING * c->step.v;
+        c->sky = distance >= SKY;
+    }
+}
+
+static slice make_slice(const point *p, double angle, double jitter)
+{
+    const horizon_input *in = p->in;
+    slice s = {.jitter = jitter};
+    const rounded direction[2] = {{cos(PI * angle), TRIGONOMETRY}, {sin(PI * angle), TRIGONOMETRY}};
+    const rounded radius = once_rounded(in->radius);
+    for (int axis = 0; axis < 2; ++axis) {
+        const rounded reach = p->orthographic ? radius : divide(radius, exactly(p->distance));
+        s.step_px[axis] = clamp_to(divide(multiply(reach, direction[axis]), p->px[axis]), -1e5, 1e5);
+        s.step_px[axis].e += 4.0 * ROUNDING * fabs(s.step_px[axis].v);
+    }
+    vector along = {direction[0], direction[1], exactly(0.0)};
+    rounded into = dot(p->up, along);
+    into.v = -into.v;
+    along = unit(sum(along, scaled(into, p->up)));
+    const vector across = cross(p->up, along);
+    const rounded normal_up = at_least(dot(p->normal, p->up), 0.0);
+    const rounded normal_along = dot(p->normal, along);
+    const rounded slope = clamp_to(divide(dot(p->normal, across), at_least(normal_up, 1e-3)), -40.0, 40.0);
+    const rounded ups[2] = {p->up.x, p->up.y}, alongs[2] = {along.x, along.y}, acrosses[2] = {across.x, across.y};
+    for (int axis = 0; axis < 2; ++axis) {
+        s.x_per_px[axis] = divide(multiply(p->px[axis], alongs[axis]), radius);
+        s.y_per_px[axis] = divide(multiply(p->px[axis], add(ups[axis], multiply(slope, acrosses[axis]))), radius);
+    }
+    s.projected =
+        square_root(at_least(add(multiply(normal_along, normal_along), multiply(normal_up, normal_up)), 1e-12));
+    s.cos_g = divide(normal_up, s.projected);
+    s.sin_g = divide(normal_along, s.projected);
+    const interval to = bounds(s.sin_g);
+    s.total_minus = middle(horizon_slice_measure(&s, -1.0, to));
+    s.total = add(s.total_minus, middle(horizon_slice_measure(&s, 1.0, (interval){-to.high, -to.low})));
+    s.total = at_least(s.total, 1e-6);
+    return s;
+}
+
+static int count_sectors(uint32_t mask)
+{
+    int count = 0;
+    for (; mask; mask &= mask - 1)
+        ++count;
+    return count;
+}
+
+/* What the slice adds to occlusion. */
+static interval slice_occlusion(const point *p, double angle, double jitter)
+{
+    const slice s = make_slice(p, angle, jitter);
+    /* A normal straight across the slice: which way it leans is rounding, but it weighs next to nothing. */
+    if (s.projected.v < 10.0 * s.projected.e)
+        return (interval){0.0, 1.6 * (s.projected.v + s.projected.e)};
+    const int steps = p->in->steps;
+    hidden h[2];
+    for (int minus = 0; minus < 2; ++minus) {
+        side d = {.minus = minus, .lowest = s.sin_g};
+        d.lowest.v *= minus ? 1.0 : -1.0;
+        for (int i = 0; i < steps; ++i) {
+            const double along = (i + 1.0 - jitter) / steps;
+            take_sample(p, &s, minus ? -along : along, d.candidates[i], &d.candidate_count[i]);
+        }
+        h[minus] = horizon_slice_hidden(p, &s, &d);
+    }
+    const interval total = bounds(s.total), projected = bounds(s.projected);
+    const interval plus_veil = horizon_slice_measure(&s, 1.0, h[0].highest),
+                   minus_veil = horizon_slice_measure(&s, -1.0, h[1].highest);
+    const interval veiled = {total.low - plus_veil.high - minus_veil.high, total.high - plus_veil.low - minus_veil.low};
+    const double share = p->in->constants.veil;
+    const interval covered = {total.low * count_sectors(h[0].surely | h[1].surely) / SECTORS,
+                              total.high * count_sectors(h[0].possibly | h[1].possibly) / SECTORS};
+    return (interval){projected.low * ((1.0 - share) * covered.low + share * veiled.low) - 4.0 * ROUNDING,
+                      projected.high * ((1.0 - share) * covered.high + share * veiled.high) + 4.0 * ROUNDING};
+}
+
+/* The ordered tile: Bayer's matrix, as ranks, row by row from the bottom. */
+static const int bayer[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
+
+static void tile_noise(const horizon_input *in, int x, int y, double out[2])
+{
+    const int rank = bayer[y % 4][x % 4];
+    int mirrored = 0; /* the four bits in reverse */
+    for (int bit = 0; bit < 4; ++bit)
+        mirrored |= (rank >> bit & 1) << (3 - bit);
+    const double noise[2] = {(rank + 0.5) / 16.0, (mirrored + 0.5) / 16.0};
+    for (int i = 0; i < 2; ++i)
+        out[i] = noise[i] + in->noise_offset[i] - floor(noise[i] + in->noise_offset[i]);
+}
+
+static bool make_point(const horizon_input *in, int x, int y, point *out)
+{
+    const float *m = in->projection;
+    *out = (point){.in = in, .x = x, .y = y, .orthographic = !(m[11] < 0.0f)};
+    out->distance = (double)in->distance[y * in->width + x];
+    const int full[2] = {x * in->factor, y * in->factor}, size[2] = {in->full_width, in->full_height};
+    const float *n = in->normals + 3 * ((size_t)full[1] * (size_t)in->full_width + (size_t)full[0]);
+    const double length2 = (double)n[0] * (double)n[0] + (double)n[1] * (double)n[1] + (double)n[2] * (double)n[2];
+    if (out->distance >= SKY || !(length2 > 1e-20 && length2 < 1e20))
+        return false;
+    out->normal = unit((vector){exactly((double)n[0]), exactly((double)n[1]), exactly((double)n[2])});
+    rounded ray[2];
+    for (int axis = 0; axis < 2; ++axis) {
+        /* clip = P view: with w = P15 - P11 t at view distance t, ndc w = P0 x - P8 t + P12, alike in y. */
+        const double scale = (double)m[5 * axis], w = out->orthographic ? (double)m[15] : -(double)m[11];
+        const double ndc = 2.0 * (full[axis] + 0.5) / size[axis] - 1.0;
+        const double towards = out->orthographic ? (double)m[8 + axis] : ndc * w + (double)m[8 + axis];
+        out->px[axis] = once_rounded(2.0 * in->factor / size[axis] * w / scale);
+        out->px[axis].e *= 4.0;
+        ray[axis] = (rounded){towards / scale, 6.0 * ROUNDING * (fabs(w) + fabs((double)m[8 + axis])) / fabs(scale)};
+        if (out->orthographic)
+            ray[axis].e = 2.0 * ROUNDING * fabs(ray[axis].v);
+    }
+    const vector back = {{-ray[0].v, ray[0].e}, {-ray[1].v, ray[1].e}, exactly(1.0)};
+    out->ray_length = square_root(dot(back, back));
+    out->up = unit(back);
+    return true;
+}
+
+void horizon_model(const horizon_input *in, int x, int y, double *out_low, double *out_high)
+{
+    *out_low = *out_high = 1.0;
+    point p;
+    if (!make_point(in, x, y, &p))
+        return;
+    double noise[2];
+    tile_noise(in, x, y, noise);
+    interval occlusion = {0.0, 0.0};
+    for (int i = 0; i < in->slices; ++i) {
+        const interval one = slice_occlusion(&p, (noise[0] + i) / in->slices, noise[1]);
+        occlusion.low += one.low / in->slices;
+        occlusion.high += one.high / in->slices;
+    }
+    const double exponent = in->constants.calibration * in->power;
+    *out_low = fmin(pow(fmax(1.0 - occlusion.high, 1e-6), exponent), 1.0);
+    *out_high = fmin(pow(fmax(1.0 - occlusion.low, 1e-6), exponent), 1.0);
+}

@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Jumps, runs, and the sectors that a run's samples hide.
+ */
+#include "horizon_slice.h"
+
+enum { MAX_UNDECIDED = 5, MAX_COMBINATIONS = 32 };
+
+double horizon_measure(double cos_g, double sin_g, double c)
+{
+    /* h(c) = acos(c) - c sqrt(1 - c^2), nearly. */
+    const double h = 0.5 * PI - c * (1.98868 - 0.25869 * c * c - 0.15521 * c * c * c * c);
+    return 0.5 * (cos_g * (1.0 - c * c) + sin_g * h);
+}
+
+interval horizon_slice_measure(const slice *s, double sign, interval c)
+{
+    const double a = horizon_measure(s->cos_g.v, sign * s->sin_g.v, c.low);
+    const double b = horizon_measure(s->cos_g.v, sign * s->sin_g.v, c.high);
+    const double error = 0.5 * s->cos_g.e + 0.5 * PI * s->sin_g.e + 24.0 * ROUNDING;
+    return (interval){fmin(a, b) - error, fmax(a, b) + error};
+}
+
+/* Sectors are numbered from the far end of the minus side, and rounded to. */
+static void sector(const slice *s, const side *d, interval cosine, int *out_least, int *out_most)
+{
+    const rounded m = middle(horizon_slice_measure(s, d->minus ? -1.0 : 1.0, cosine));
+    const rounded place = d->minus ? subtract(s->total_minus, m) : add(s->total_minus, m);
+    const interval v = bounds(divide(multiply(exactly(SECTORS), place), s->total));
+    *out_least = (int)floor(fmin(fmax(v.low, 0.0), SECTORS) + 0.5);
+    *out_most = (int)floor(fmin(fmax(v.high, 0.0), SECTORS) + 0.5);
+}
+
+static uint32_t sectors_between(int from, int to)
+{
+    return from < to ? (UINT32_C(1) << to) - (UINT32_C(1) << from) : 0;
+}
+
+/* y / sqrt(x^2 + y^2), over all that x and y may be. */
+static interval cosine_of(interval x, interval y)
+{
+    interval c = {HUGE_VAL, -HUGE_VAL};
+    for (int i = 0; i < 4; ++i) {
+        const double a = i % 2 ? x.low : x.high, b = i / 2 ? y.low : y.high;
+        const double value = b / sqrt(a * a + 1e-12 + b * b);
+        c = (interval){fmin(c.low, value), fmax(c.high, value)};
+    }
+    const double error = 8.0 * ROUNDING;
+    return (interval){c.low - error, c.high + error};
+}
+
+/* Adds what one sample hides, whose run is `width` steps wide. */
+static void add_sample(const point *p, const slice *s, const side *d, const candidate *at, rounded width, hidden *h)
+{
+    const interval x = bounds(at->x), y = bounds(at->y);
+    if (x.high <= 0.0 || x.low >= 1.0 + 4.0 * ROUNDING)
+        return; /* on the point or on the other side of it; beyond the sphere */
+    const bool maybe_outside = x.low <= 0.0 || x.high >= 1.0 - 4.0 * ROUNDING;
+    const interval outward = {fmax(x.low, 0.0), x.high};
+    const rounded thickness = multiply(multiply(once_rounded(p->in->constants.width), width), at->step);
+    const double square_error = 4.0 * ROUNDING;
+    const interval chord = {sqrt(fmax(1.0 - outward.high * outward.high - square_error, 0.0)),
+                            sqrt(fmax(1.0 - outward.low * outward.low + square_error, 0.0))};
+    const interval top = {fmin(y.low, chord.low), fmin(y.high, chord.high)};
+    const interval below = bounds(subtract(at->y, thickness));
+    const interval bottom = {fmax(below.low, -chord.high), fmax(below.high, -chord.low)};
+    const interval lowest = bounds(d->lowest);
+    const interval cos_top = cosine_of(outward, top), cos_bottom = cosine_of(outward, bottom);
+    if (cos_top.high <= lowest.low)
+        return;
+    const interval t = {fmax(cos_top.low, lowest.low), fmax(cos_top.high, lowest.high)};
+    const interval b = {fmin(fmax(cos_bottom.low, lowest.low), t.high),
+                        fmin(fmax(cos_bottom.high, lowest.high), t.high)};
+
+    const double veil_width = p->in->constants.veil_width;
+    if (thickness.v + thickness.e > veil_width)
+        h->highest.high = fmax(h->highest.high, t.high);
+    if (thickness.v - thickness.e > veil_width && !maybe_outside)
+        h->highest.low = fmax(h->highest.low, t.low);
+
+    if (bottom.low >= top.high)
+        return; /* below the sphere */
+    int top_least, top_most, bottom_least, bottom_most;
+    sector(s, d, t, &top_least, &top_most);
+    sector(s, d, b, &bottom_least, &bottom_most);
+    if (d->minus) {
+        h->possibly |= sectors_between(bottom_least, top_most);
+        h->surely |= maybe_outside ? 0 : sectors_between(bottom_most, top_least);
+    } else {
+        h->possibly |= sectors_between(top_least, bottom_most);
+        h->surely |= maybe_outside ? 0 : sectors_between(top_most, bottom_least);
+    }
+}
+
+/* Both ways of what could not be decided. */
+static void merge(hidden *all, const hidden *one)
+{
+    if (!all->started) {
+        *all = *one;
+        all->started = true;
+        return;
+    }
+    all->surely &= one->surely;
+    all->possibly |= one->possibly;
+    all->highest.low = fmin(all->highest.low, one->highest.low);
+    all->highest.high = fmax(all->highest.high, one->highest.high);
+}
+
+static void add_runs(const point *p, const slice *s, const side *d, const candidate *const samples[MAX_STEPS],
+                     uint32_t jumps, hidden *all)
+{
+    const int steps = p->in->steps;
+    hidden h = {.highest = bounds(d->lowest)};
+    for (int i = 0; i < steps; ++i) {
+        /* A run goes from the last jump up to here to the next; the point's own is thicker than any sphere. */
+        int first = i, next = i + 1;
+        while (first >= 0 && !(jumps >> first & 1u))
+            --first;
+        while (next < steps && !(jumps >> next & 1u))
+            ++next;
+        const double start = first >= 0 ? first : -100.0;
+        const rounded end = next < steps ? exactly(next)
+                                         : add(subtract(once_rounded(p->in->constants.open_end * steps), exactly(0.5)),
+                                               exactly(s->jitter));
+        add_sample(p, s, d, samples[i], subtract(end, exactly(start)), &h);
+    }
+    merge(all, &h);
+}
+
+typedef enum truth { NO, YES, MAYBE } truth;
+
+static truth exceeds(rounded a, double bound)
+{
+    const double size = fabs(a.v);
+    return size - a.e > bound ? YES : size + a.e < bound ? NO : MAYBE;
+}
+
+/* Whether a change of height is large, and goes on neither before nor after. */
+static truth is_jump(const horizon_constants *c, rounded before, rounded change, rounded after)
+{
+    const truth parts[] = {exceeds(change, c->jump), exceeds(subtract(change, before), c->alike),
+                           exceeds(subtract(change, after), c->alike)};
+    truth all = YES;
+    for (int i = 0; i < 3; ++i)
+        all = parts[i] == NO || all == NO ? NO : parts[i] == MAYBE ? MAYBE : all;
+    return all;
+}
+
+/* False where too much is open. */
+static bool add_jumps(const point *p, const slice *s, const side *d, const candidate *const samples[MAX_STEPS],
+                      hidden *all)
+{
+    const int steps = p->in->steps;
+    rounded change[MAX_STEPS + 1];
+    for (int i = 0; i < steps; ++i)
+        change[i] = i > 0 ? subtract(samples[i]->y, samples[i - 1]->y) : samples[i]->y;
+    change[steps] = exactly(1e3);
+    uint32_t jumps = 0;
+    int open[MAX_STEPS], open_count = 0;
+    for (int i = 0; i < steps; ++i) {
+        const truth jump = is_jump(&p->in->constants, i > 0 ? change[i - 1] : exactly(1e3), change[i], change[i + 1]);
+        /* From sky to sky a jump changes nothing: runs about it end at the sky, and sky hides nothing. */
+        const bool deep =
+            i > 0 && samples[i]->sky && samples[i - 1]->sky && samples[i]->y.v < -1e6 && samples[i - 1]->y.v < -1e6;
+        if (jump == YES)
+            jumps |= UINT32_C(1) << i;
+        if (jump == MAYBE && !deep)
+            open[open_count++] = i;
+    }
+    if (open_count > MAX_UNDECIDED)
+        return false;
+    for (uint32_t k = 0; k < UINT32_C(1) << open_count; ++k) {
+        uint32_t with = jumps;
+        for (int i = 0; i < open_count; ++i)
+            with |= (k >> i & 1u) << open[i];
+        add_runs(p, s, d, samples, with, all);
+    }
+    return true;
+}
+
+/* Every choice of texels. */
+hidden horizon_slice_hidden(const point *p, const slice *s, const side *d)
+{
+    const hidden anything = {.surely = 0, .possibly = UINT32_MAX >> 1, .highest = {bounds(d->lowest).low, 1.0}};
+    const int steps = p->in->steps;
+    int combinations = 1;
+    for (int i = 0; i < steps; ++i) {
+        combinations *= d->candidate_count[i];
+        if (combinations > MAX_COMBINATIONS)
+            return anything;
+    }
+    hidden all = {.started = false};
+    for (int k = 0; k < combinations; ++k) {
+        const candidate *samples[MAX_STEPS];
+        int rest = k;
+        for (int i = 0; i < steps; ++i) {
+            samples[i] = &d->candidates[i][rest % d->candidate_count[i]];
+            rest /= d->candidate_count[i];
+        }
+        if (!add_jumps(p, s, d, samples, &all))
+            return anything;
+    }
+    return all;
+}

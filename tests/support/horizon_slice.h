@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What the two halves of the horizon model share: the slice that one makes, and what the other finds hidden in it.
+ */
+#ifndef GLSSAO_TESTS_HORIZON_SLICE_H
+#define GLSSAO_TESTS_HORIZON_SLICE_H
+
+#include "horizon_model.h"
+#include "rounded.h"
+
+#include <stdint.h>
+
+enum { MAX_STEPS = 16, MAX_CANDIDATES = 4, SECTORS = 31 };
+
+static const double PI = 3.14159265358979323846;
+
+typedef struct vector {
+    rounded x, y, z;
+} vector;
+
+typedef struct point {
+    const horizon_input *in;
+    int x, y; /* of the estimate */
+    bool orthographic;
+    double distance;
+    vector up, normal;
+    rounded px[2]; /* view xy that a pixel gains; in perspective per unit of distance */
+    rounded ray_length;
+} point;
+
+typedef struct slice {
+    rounded step_px[2]; /* the radius along the slice, in pixels */
+    rounded x_per_px[2], y_per_px[2];
+    rounded cos_g, sin_g, projected;
+    rounded total, total_minus; /* measure of the whole slice and of its minus side */
+    double jitter;
+} slice;
+
+/* A texel that a sample may be snapped to, in units of the radius: distance along the slice outwards, height, and the
+ * width of a step there. */
+typedef struct candidate {
+    rounded x, y, step;
+    bool sky;
+} candidate;
+
+typedef struct side {
+    candidate candidates[MAX_STEPS][MAX_CANDIDATES];
+    int candidate_count[MAX_STEPS];
+    bool minus;
+    rounded lowest; /* cosine of the angle at which the hemisphere ends */
+} side;
+
+typedef struct hidden {
+    uint32_t surely, possibly; /* sectors */
+    interval highest;          /* cosine of the horizon over what veils */
+    bool started;
+} hidden;
+
+/* Bounds of the measure for a cosine between two; `sign` -1 for the side that the normal leans away from. */
+interval horizon_slice_measure(const slice *s, double sign, interval cosine);
+
+/* What one side's samples hide, over everything that rounding leaves open. */
+hidden horizon_slice_hidden(const point *p, const slice *s, const side *d);
+
+#endif
