@@ -68,6 +68,7 @@ static float *accessibility(fixture *f, const scene *s, mistake m)
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, m == NO_BLUR ? GLSSAO_LOW : GLSSAO_ULTRA);
     settings.radius = m == RADIUS_TINY ? 0.02f : m == RADIUS_HUGE ? 12.0f : 0.7f;
     settings.power = 1.5f; /* so that small pictures tell */
+    settings.half_resolution = false;
     if (m == NO_BLUR)
         settings.blur = GLSSAO_BLUR_NONE;
     glssao_effect *effect = fixture_effect(f, W, H);

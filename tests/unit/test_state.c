@@ -429,6 +429,7 @@ static float *walk(fixture *f, const inputs *in, const host *h, double *out_erro
         (void)glssao_get_stats(effect);
         (void)glssao_plan_frame(effect, &in->frame, &settings);
         (void)glssao_get_constants(effect);
+        glssao_restart_accumulation(effect);
         (void)glssao_map(effect, GLSSAO_MAP_NORMAL, NULL, NULL);
         (void)glssao_version();
         (void)glssao_result_string(GLSSAO_OK);
