@@ -48,7 +48,7 @@ static void print_columns(FILE *f, const results *r)
           "- *exponent*, *RMSE with it*: classic and hemisphere leave contrast to taste (`power`), so a result with "
           "power 1 is also raised to the one exponent that fits best over all scenes. The chart shows this RMSE for "
           "them, and the plain one for horizon.\n"
-          "- *front*: no other configuration is both faster and nearer to the truth.\n\n",
+          "- *front*: no other configuration that is given as little is both faster and nearer to the truth.\n\n",
           f);
 }
 

@@ -48,6 +48,8 @@ bool results_on_front(const results *r, const config_result *c)
     for (int i = 0; i < r->config_count; i++) {
         const config_result *other = &r->configs[i];
         const double rmse = results_rmse(other), own = results_rmse(c);
+        if (other->config.beyond && !c->config.beyond) /* the host would have to draw more */
+            continue;
         if (other != c && other->time.median_ms <= c->time.median_ms && rmse <= own &&
             (other->time.median_ms < c->time.median_ms || rmse < own))
             return false;

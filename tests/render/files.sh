@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# files.sh GLSSAO_RENDER SCENES [FILE.glb]: each scene in SCENES and each file below SCENES/invalid either renders (exit 0,
+# files.sh GLSSAO_RENDER EVERY SCENES [FILE.glb]: each scene in SCENES and every EVERY-th file below SCENES/invalid either renders (exit 0,
 # a picture) or is refused (exit 1, one line on stderr that names it, no picture). Skips (77) where the folder is absent.
 set -uo pipefail
 render=$1
-scenes=$2
-engine=${3:-}
+every=$2
+scenes=$3
+engine=${4:-}
 if [ ! -d "$scenes" ]; then
     echo "skipped: no folder $scenes"
     exit 77
@@ -13,7 +14,9 @@ fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 rendered=0 refused=0 failures=0
+number=0
 while IFS= read -r -d '' file; do
+    case $file in "$scenes"/invalid/*) number=$((number + 1)) && [ $((number % every)) = 0 ] || continue ;; esac
     rm -f "$work/out.png"
     timeout 60 "$render" -s 32x18 -o "$work/out.png" "$file" >"$work/out" 2>"$work/err"
     code=$?

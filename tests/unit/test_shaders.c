@@ -9,12 +9,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool check_stage(const char *validator, const char *folder, enum glssao__shader id, unsigned variant,
-                        gl_enum stage)
+/* Adds the file to the validator's command. */
+static bool write_stage(const char *folder, enum glssao__shader id, unsigned variant, gl_enum stage, char *command,
+                        size_t size)
 {
     const char *sources[GLSSAO__PROGRAM_MAX_SOURCES];
     int count = glssao__program_sources(id, variant, stage, sources);
-    char path[1024], command[2400];
+    char path[1024];
     snprintf(path, sizeof path, "%s/%s-%u.%s", folder, glssao__program_shader_name(id), variant,
              stage == GL_VERTEX_SHADER ? "vert" : "frag");
     FILE *file = fopen(path, "wb");
@@ -29,8 +30,9 @@ static bool check_stage(const char *validator, const char *folder, enum glssao__
         fprintf(stderr, "%s does not begin with #version 330\n", path);
         return false;
     }
-    snprintf(command, sizeof command, "\"%s\" \"%s\"", validator, path);
-    return system(command) == 0; /* it prints the file's name, and errors */
+    size_t length = strlen(command);
+    int added = snprintf(command + length, size - length, " \"%s\"", path);
+    return added > 0 && (size_t)added < size - length;
 }
 
 int main(int argc, char **argv)
@@ -39,15 +41,27 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: test_shaders VALIDATOR FOLDER\n");
         return 2;
     }
-    int bad = 0, programs = 0;
+    /* One process for a batch: starting it takes longer than judging a shader. It prints names, and errors. */
+    enum { BATCH = 64, COMMAND_SIZE = 96 * 1024 };
+    static char command[COMMAND_SIZE];
+    int bad = 0, programs = 0, pending = 0;
     for (int id = 0; id < SHADER_COUNT; ++id)
         for (unsigned variant = 0; variant < VARIANT_COUNT; ++variant) {
             if (!glssao__program_exists((enum glssao__shader)id, variant))
                 continue;
+            if (pending == 0)
+                snprintf(command, sizeof command, "\"%s\"", argv[1]);
             ++programs;
-            bad += !check_stage(argv[1], argv[2], (enum glssao__shader)id, variant, GL_FRAGMENT_SHADER);
+            bad += !write_stage(argv[2], (enum glssao__shader)id, variant, GL_FRAGMENT_SHADER, command, sizeof command);
+            if (++pending == BATCH) {
+                bad += system(command) != 0;
+                pending = 0;
+            }
         }
-    bad += !check_stage(argv[1], argv[2], SHADER_APPLY, 0, GL_VERTEX_SHADER); /* shared by all */
-    printf("%d programs, %d bad stages\n", programs, bad);
+    if (pending == 0)
+        snprintf(command, sizeof command, "\"%s\"", argv[1]);
+    bad += !write_stage(argv[2], SHADER_APPLY, 0, GL_VERTEX_SHADER, command, sizeof command); /* shared by all */
+    bad += system(command) != 0;
+    printf("%d programs, %d bad batches\n", programs, bad);
     return bad ? 1 : 0;
 }
