@@ -142,7 +142,8 @@ static void print_points(FILE *f, const results *r, int technique, bool front)
         int next = -1;
         for (int i = 0; i < r->config_count; i++) {
             const config_result *c = &r->configs[i];
-            const bool wanted = front ? results_on_front(r, c) : (int)c->config.settings.technique == technique;
+            const bool wanted =
+                front ? !c->config.beyond && results_on_front(r, c) : (int)c->config.settings.technique == technique;
             if (charted(c) && wanted && !used[i] && (next < 0 || c->time.median_ms < r->configs[next].time.median_ms))
                 next = i;
         }

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { W = 64, H = 48, UNITS = 5 };
+enum { W = 64, H = 48, UNITS = 7 };
 
 /* ---- a snapshot: rows of name and values, so that a difference can be named ---- */
 
@@ -416,6 +416,10 @@ static float *walk(fixture *f, const inputs *in, const host *h, double *out_erro
     CALL(glssao_compute(effect, &rebuilt, &hemisphere));
     const glssao_settings horizon = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW), classic = settings;
     CALL(glssao_compute(effect, &in->frame, &horizon)); /* makes maps and programs of its own */
+    glssao_frame beyond = in->frame; /* with a scissor, and two textures more */
+    beyond.margin = 8;
+    beyond.back_texture = beyond.second_texture = in->frame.depth_texture;
+    CALL(glssao_compute(effect, &beyond, &horizon));
     CALL(glssao_accumulate(effect, &in->frame, &horizon));
     CALL(glssao_accumulate(effect, &in->frame, &horizon));
     gl.Finish();
