@@ -33,7 +33,8 @@ void main()
     float back = distance_at(u_back_map, uv);
     float second = distance_at(u_second_map, uv);
     bool known = back < FAR_AWAY && second - back >= GAP * gOcclusionRadius && back - distance >= THIN * gOcclusionRadius;
-    o_distance = vec4(distance, known ? back - distance : -1.0, second < FAR_AWAY ? max(second - distance, 0.0) : FAR_AWAY, 0.0);
+    float behind = second < FAR_AWAY ? max(second - distance, 0.0) : FAR_AWAY;
+    o_distance = vec4(distance, known ? back - distance : -1.0, behind, 0.0);
 #else
     o_distance = distance;
 #endif

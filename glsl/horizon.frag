@@ -133,7 +133,8 @@ vec3 sample_at(slice_frame f, vec2 step_px, float along, out vec2 layers)
 
 // Sectors that are hidden at x between two heights, where they lie within the sphere, whose half chord is 0 beyond it: top
 // and bottom then come out alike.
-uint hidden_between(float x, float x2, float chord, float top, float bottom, polynomial sectors, bool minus, float lowest, out float cos_top)
+uint hidden_between(float x, float x2, float chord, float top, float bottom, polynomial sectors, bool minus, float lowest,
+                    out float cos_top)
 {
     // Sky can lie so deep that its square overflows, and its cosine would come out as 0.
     top = clamp(top, -1e6, chord);
@@ -167,7 +168,8 @@ uint hidden_by(vec3 at, vec2 layers, float width, polynomial sectors, bool minus
 
 // Sectors that one side's samples hide. `lowest` is the cosine of the angle at which the hemisphere ends there, `highest`
 // that of the horizon over occluders that veil what is behind them.
-uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, polynomial sectors, bool minus, float lowest, out float highest)
+uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, polynomial sectors, bool minus, float lowest,
+                    out float highest)
 {
     float change[STEPS];
     bool bend[STEPS + 1];

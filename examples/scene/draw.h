@@ -63,7 +63,8 @@ void scene_renderer_destroy(scene_renderer *r);
 
 /* Chooses what the passes do from now on, and makes the programs and the shadow map that this calls for. Lighting may
  * change from frame to frame, but whether it has a directional light, and further ones, is decided here. Without this
- * call the first drawing chooses the plainest, and draws nothing where that fails. False, with one line in `error`, on failure; the renderer then still draws. */
+ * call the first drawing chooses the plainest, and draws nothing where that fails. False, with one line in `error`, on
+ * failure; the renderer then still draws. */
 bool scene_renderer_configure(scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options,
                               char *error, size_t error_size);
 

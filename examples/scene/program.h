@@ -60,7 +60,8 @@ typedef struct draw_program {
     int numerator, denominator, far_depth;
 } draw_program;
 
-/* Compiles and links; `shared_source` (may be "") comes before the fragment shader's own. False on failure, with `what` and the driver's log in one line of `error`. */
+/* Compiles and links; `shared_source` (may be "") comes before the fragment shader's own. False on failure, with `what`
+ * and the driver's log in one line of `error`. */
 bool draw_program_build(draw_program *p, const char *what, const char *vertex_source, const char *shared_source,
                         const char *fragment_source, unsigned variant, char *error, size_t error_size);
 

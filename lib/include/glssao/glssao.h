@@ -243,9 +243,9 @@ GLSSAO_API glssao_result glssao_compute(glssao_effect *effect, const glssao_fram
 /* Horizon, a still view: adds one more estimate, at full size and with noise of its own, to a mean that is kept in 32-bit
  * floats, and leaves the mean as the result. Its error falls to the technique's own with the number of estimates. Starts
  * anew after glssao_compute, glssao_resize and glssao_restart_accumulation, and where frame, radius or sample_count differ
- * from the last call's; it can't see that the contents of the textures changed. half_resolution and upsample are not looked at; the planar blur
- * smooths the mean of fewer than 16 estimates unless blur is GLSSAO_BLUR_NONE. Fails as glssao_compute does, and with
- * INVALID_ARGUMENT for another technique. */
+ * from the last call's; it can't see that the contents of the textures changed. half_resolution and upsample are not
+ * looked at; the planar blur smooths the mean of fewer than 16 estimates unless blur is GLSSAO_BLUR_NONE. Fails as
+ * glssao_compute does, and with INVALID_ARGUMENT for another technique. */
 GLSSAO_API glssao_result glssao_accumulate(glssao_effect *effect, const glssao_frame *frame,
                                            const glssao_settings *settings);
 
@@ -253,7 +253,7 @@ GLSSAO_API glssao_result glssao_accumulate(glssao_effect *effect, const glssao_f
 GLSSAO_API void glssao_restart_accumulation(glssao_effect *effect);
 
 /* Multiplies accessibility into the colour (alpha stays) of draw buffer 0 of `framebuffer` (0: the default one),
- * over the full size from its lower left corner. Occlusion then darkens direct light too: to be exact, sample
+ * over the full size, less the margin, from its lower left corner. Occlusion then darkens direct light too: to be exact, sample
  * the map in your own shader and scale ambient light alone. Needs a glssao_compute before. */
 GLSSAO_API glssao_result glssao_apply(glssao_effect *effect, uint32_t framebuffer);
 
