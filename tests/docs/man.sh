@@ -10,7 +10,7 @@ fi
 # STYLE: the date's form, and that other pages are not installed here.
 mandoc -T lint -W warning "$page"
 options() { grep -oE -- '--[a-z][a-z-]*' | sort -u; }
-diff <("$program" --help | options) <(mandoc -T ascii "$page" | col -b | options) || {
+diff <("$program" --help | options) <(mandoc -T ascii "$page" | sed 's/.\x08//g' | options) || {
     echo "man.sh: $(basename "$page") and --help differ (< help, > page)" >&2
     exit 1
 }
