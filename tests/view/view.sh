@@ -39,10 +39,17 @@ same() { # what, one, other, [X,Y,WxH]
     count=$("$eyes" differ "$2" "$3" ${4:+"$4"})
     [ "$count" = 0 ] || fail "$1: $2 and $3 differ in $count pixels"
 }
+# The newest screenshot is taken again for a while: a title changes, or a dialog goes, a moment before the picture.
 different() { # what, at least, one, other
-    local count
-    count=$("$eyes" differ "$3" "$4")
-    [ "$count" -ge "$2" ] 2>/dev/null || fail "$1: $3 and $4 differ in $count pixels alone"
+    local count try
+    for try in $(seq 20); do
+        count=$("$eyes" differ "$3" "$4")
+        [ "$count" -ge "$2" ] 2>/dev/null && return
+        [ "$3" = "$last" ] || [ "$4" = "$last" ] || break
+        sleep 0.2
+        "$eyes" shot "$window" "$last"
+    done
+    fail "$1: $3 and $4 differ in $count pixels alone"
 }
 
 # A screenshot once the window shows something else than in the last one, and then stands still.
