@@ -12,7 +12,7 @@ out vec2 o_ambient;
 // Two unit vectors that span the plane across the normal, turned by the pixel's place in the 4x4 tile.
 mat3 view_from_tangent(vec3 normal_view)
 {
-    ivec2 tile = ivec2(gl_FragCoord.xy) & 3;
+    ivec2 tile = ivec2(pixel_center()) & 3;
     vec3 turned = vec3(gRotations[tile.y * 4 + tile.x].xy, 0.0);
     // A rotation vector along the normal leaves nothing after Gram-Schmidt; the z axis is then across.
     vec3 tangent = turned - normal_view * dot(turned, normal_view);

@@ -14,7 +14,6 @@
 static int find_program(scene_renderer *r, draw_kind kind, unsigned variant, char *error, size_t error_size)
 {
     static const char *const what[] = {"scene normals pass", "scene main pass", "shadow pass", "layer pass"};
-    const char *const fragment[] = {shader_normals_frag, shader_main_frag, shader_normals_frag, shader_layer_frag};
     for (int i = 0; i < r->variant_count; i++)
         if (r->variants[i].kind == kind && r->variants[i].variant == variant)
             return i;
@@ -25,7 +24,7 @@ static int find_program(scene_renderer *r, draw_kind kind, unsigned variant, cha
     }
     r->variants = grown;
     draw_variant made = {.kind = kind, .variant = variant};
-    if (!draw_program_build(&made.program, what[kind], shader_scene_vert, shader_surface_glsl, fragment[kind], variant,
+    if (!draw_program_build(&made.program, what[kind], shader_scene_vert, shader_surface_glsl, kind == DRAW_MAIN ? shader_main_frag : shader_normals_frag, variant,
                             error, error_size))
         return -1;
     r->variants[r->variant_count] = made;
@@ -87,7 +86,7 @@ bool draw_choose_programs(scene_renderer *r, const scene_lighting *lighting, con
             done = chosen[DRAW_SHADOW] >= 0;
         }
         if (done && !item->blended && options->layers) {
-            chosen[DRAW_LAYER] = find_program(r, DRAW_LAYER, depth_variant(normals), error, error_size);
+            chosen[DRAW_LAYER] = find_program(r, DRAW_LAYER, depth_variant(normals) | VARIANT_BEHIND, error, error_size);
             done = chosen[DRAW_LAYER] >= 0;
         }
         if (!done)

@@ -30,6 +30,7 @@ static const struct {
     {VARIANT_SPECULAR_OCCLUSION, "SPECULAR_OCCLUSION"},
     {VARIANT_MULTI_BOUNCE, "MULTI_BOUNCE"},
     {VARIANT_BASE_MAPPED, "BASE_MAPPED"},
+    {VARIANT_BEHIND, "BEHIND"},
 };
 
 static const struct {

@@ -26,7 +26,8 @@ enum {
     VARIANT_LIGHTS = 8192,         /* more lights than the first directional one */
     VARIANT_SPECULAR_OCCLUSION = 16384, /* where REFLECTIVE and not BLENDED */
     VARIANT_MULTI_BOUNCE = 32768,  /* where not BLENDED */
-    VARIANT_BASE_MAPPED = 65536    /* base colour texture */
+    VARIANT_BASE_MAPPED = 65536,   /* base colour texture */
+    VARIANT_BEHIND = 131072        /* a layer: depth alone, of what lies behind the pre-pass's */
 };
 
 /* Texture units, fixed when a program is made. */

@@ -152,6 +152,7 @@ glssao_result glssao_resize(glssao_effect *effect, int width, int height)
     glssao__maps_delete_target(&effect->gl, &effect->result_map);
     glssao__accumulate_destroy(effect);
     effect->has_result_map = false;
+    effect->margin = 0;
     effect->is_paired = false;
     effect->normal_map = normal;
     effect->ambient = ambient;

@@ -9,7 +9,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { W = 96, H = 64, MARGIN = 32, WIDE = W + 2 * MARGIN, HIGH = H + 2 * MARGIN };
+enum {
+    W = 96,
+    H = 64,
+    MARGIN = 30 /* no multiple of the tiles of noise */,
+    WIDE = W + 2 * MARGIN,
+    HIGH = H + 2 * MARGIN
+};
 
 /* The room; `margin` pixels more on each side, under a projection that shows the middle alike. */
 static glssao_frame make_frame(int margin, float **out_depth)
@@ -208,6 +214,29 @@ static void refuses_what_it_cannot_use(void **state)
     glssao_destroy(effect);
 }
 
+/* The margin of the frame before is none of the new size's: glssao_apply would draw less than nothing. */
+static void resize_forgets_the_margin(void **state)
+{
+    glssao_effect *effect = fixture_effect(*state, WIDE, HIGH);
+    glssao_frame frame = make_frame(MARGIN, NULL);
+    const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
+    assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_OK);
+    assert_int_equal(glssao_resize(effect, 16, 16), GLSSAO_OK);
+    GLuint color, framebuffer;
+    gl.GenTextures(1, &color);
+    gl.BindTexture(GL_TEXTURE_2D, color);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 16, 16, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    gl.GenFramebuffers(1, &framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
+    assert_int_equal(glssao_apply(effect, framebuffer), GLSSAO_OK); /* the teardown looks for OpenGL errors */
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    gl.DeleteFramebuffers(1, &framebuffer);
+    gl.DeleteTextures(1, &color);
+    glssao_destroy(effect);
+    delete_frame(&frame);
+}
+
 /* The mean of a frame with a margin, and that it ends at the mean of the frame without where nothing lies beyond. */
 static void accumulation_keeps_the_margin(void **state)
 {
@@ -243,6 +272,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(margin_finds_occluders_beyond_the_edge, NULL, fixture_no_gl_error),
         cmocka_unit_test_setup_teardown(thickness_is_read, NULL, fixture_no_gl_error),
         cmocka_unit_test_setup_teardown(refuses_what_it_cannot_use, NULL, fixture_no_gl_error),
+        cmocka_unit_test_setup_teardown(resize_forgets_the_margin, NULL, fixture_no_gl_error),
         cmocka_unit_test_setup_teardown(accumulation_keeps_the_margin, NULL, fixture_no_gl_error),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);

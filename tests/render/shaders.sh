@@ -8,7 +8,7 @@ cd "$2" || exit 1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 macros=(TEXTURED BASE_MAPPED COLORED MASKED DOUBLE_SIDED BLENDED NORMAL_MAPPED REFLECTIVE ROUGHNESS_MAPPED BAKED EMISSIVE
-    EMISSION_MAPPED SHADOWED LIGHTS SPECULAR_OCCLUSION MULTI_BOUNCE)
+    EMISSION_MAPPED SHADOWED LIGHTS SPECULAR_OCCLUSION MULTI_BOUNCE BEHIND)
 programs=0 failures=0
 # As program.c puts them together: shared functions behind #version.
 for pass in main normals; do
@@ -39,6 +39,8 @@ check_variant() { # LIT, then the macros that are 1
 check_variant 0
 check_variant 0 BASE_MAPPED COLORED MASKED
 check_variant 0 BASE_MAPPED COLORED BLENDED
+check_variant 0 BEHIND
+check_variant 0 BASE_MAPPED COLORED MASKED BEHIND
 check_variant 1 "${macros[@]}"
 for i in "${!macros[@]}"; do
     check_variant 1 "${macros[i]}"

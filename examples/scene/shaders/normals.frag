@@ -3,7 +3,8 @@
 //
 // Pre-pass: the normal map, and with it the depth map.
 // Macros, 0 or 1: MASKED, and where it is 1 COLORED; TEXTURED (MASKED with a base colour map, or NORMAL_MAPPED);
-// BASE_MAPPED; NORMAL_MAPPED; DOUBLE_SIDED; LIT, which the shadow pass sets to 0: it wants depth alone.
+// BASE_MAPPED; NORMAL_MAPPED; DOUBLE_SIDED; LIT, which the shadow pass and the layers set to 0: they want depth alone;
+// BEHIND: a layer, of what lies behind the surfaces that the pre-pass left.
 // In:  unit normal in view space, interpolated; uv and vertex colour for the alpha test.
 // Out: unit normal in view space (signed, rgb), alpha 0.
 
@@ -19,12 +20,22 @@ in vec4 v_color;
 #endif
 #endif
 
+#if BEHIND
+uniform sampler2D u_first_depth_map; // the pre-pass's window depth
+uniform float u_depth_offset;        // what lies no farther than this behind is dropped
+#endif
+
 #if LIT
 layout(location = 0) out vec4 o_normal_view;
 #endif
 
 void main()
 {
+#if BEHIND
+    if (gl_FragCoord.z <= texelFetch(u_first_depth_map, ivec2(gl_FragCoord.xy), 0).r + u_depth_offset)
+        discard;
+#endif
+
 #if MASKED
     float alpha = u_base_color.a;
 #if BASE_MAPPED
