@@ -5,12 +5,12 @@
 // in  v_uv           0..1
 // in  u_ambient_map  accessibility, point sampled
 // in  u_normal_map, u_depth_map  as for the estimate, fetched (EDGE_AWARE 1)
-// out o_ambient      accessibility, and the centre's second channel
+// out o_ambient      accessibility, and the centre's other channels
 
 in vec2 v_uv;
 uniform sampler2D u_ambient_map;
 uniform bool gHorizontalBlur;
-out vec2 o_ambient;
+out vec4 o_ambient;
 
 #if EDGE_AWARE
 ivec2 last;
@@ -66,5 +66,5 @@ void main()
     add_tap(4, gBlurWeights[2].y, step_uv, sum, weights);
     add_tap(5, gBlurWeights[2].z, step_uv, sum, weights);
 #endif
-    o_ambient = vec2(sum / weights, texture(u_ambient_map, v_uv).g);
+    o_ambient = vec4(sum / weights, texture(u_ambient_map, v_uv).gba);
 }

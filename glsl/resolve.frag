@@ -2,11 +2,12 @@
 // Mean of the accumulated estimates.
 // in  u_ambient_map   sums of the linear accessibility of two replicates; point sampled
 // in  u_distance_map  view distance, full size; point sampled
-// out o_ambient       accessibility, and the linear quantity of distance
+// in  u_normal_map    view space, full size; point sampled
+// out o_ambient       paired()
 
 uniform sampler2D u_ambient_map;
 uniform sampler2D u_distance_map;
-out vec2 o_ambient;
+out vec4 o_ambient;
 
 void main()
 {
@@ -14,5 +15,6 @@ void main()
     vec2 sums = textureLod(u_ambient_map, uv, 0.0).rg;
     float mean = (sums.x + sums.y) / (gAccumulation.z + gAccumulation.w);
     // pow() is undefined for a base of 0 with power 0.
-    o_ambient = vec2(pow(max(mean, 1e-6), gPower), linear_from_distance(textureLod(u_distance_map, uv, 0.0).r));
+    o_ambient = paired(pow(max(mean, 1e-6), gPower), linear_from_distance(textureLod(u_distance_map, uv, 0.0).r),
+                       normal_view_at_uv(uv));
 }

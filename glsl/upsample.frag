@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Brings a half-size result to full size: linearly where the pixel lies on the plane of its neighbours, else mostly from
-// those that are nearest to it in distance.
-// in  u_ambient_map    accessibility, and the linear quantity of distance, half size; point sampled, clamped
+// Brings a half-size result to full size: linearly where the pixel lies on the plane of its neighbours, else from those
+// of them that lie near it on the same surface, else from the one that is nearest in distance.
+// in  u_ambient_map    accessibility, the linear quantity of distance, projected normal, half size; point sampled, clamped
 // in  u_depth_map      stored depth, full size; point sampled
+// in  u_normal_map     view space, full size; point sampled
 // out o_accessibility  0..1, R16, full size
 
 uniform sampler2D u_ambient_map;
 out float o_accessibility;
 
-// How far off the plane a pixel may be, in units of the radius; found by experiment.
+// How far off the plane a pixel may be, and how far off a neighbour on the same surface, in units of the radius; found by
+// experiment.
 const float TOLERANCE = 0.02;
+const float NEAR = 0.1;
+// By how much farther those around a crease count, where the nearest is looked for.
+const float AROUND_CREASE = 1000.0;
 
 void main()
 {
@@ -17,21 +22,30 @@ void main()
     // A half-size texel stands for the full-size texel of twice its index: odd pixels lie midway between two, and where
     // a coordinate is even, both are the same, so that the mean of the four is the linear interpolation.
     vec2 half_pixel = floor(0.5 * pixel);
+    vec2 odd = pixel - 2.0 * half_pixel;
     vec2 uv_a = (half_pixel + 0.5) * gInvRenderTargetSize;
-    vec2 uv_d = uv_a + (pixel - 2.0 * half_pixel) * gInvRenderTargetSize;
-    vec2 a = textureLod(u_ambient_map, uv_a, 0.0).rg;
-    vec2 b = textureLod(u_ambient_map, vec2(uv_d.x, uv_a.y), 0.0).rg;
-    vec2 c = textureLod(u_ambient_map, vec2(uv_a.x, uv_d.y), 0.0).rg;
-    vec2 d = textureLod(u_ambient_map, uv_d, 0.0).rg;
-    float depth = depth_component(textureLod(u_depth_map, pixel_center() / vec2(textureSize(u_depth_map, 0)), 0.0));
+    vec2 uv_d = uv_a + odd * gInvRenderTargetSize;
+    vec4 a = textureLod(u_ambient_map, uv_a, 0.0);
+    vec4 b = textureLod(u_ambient_map, vec2(uv_d.x, uv_a.y), 0.0);
+    vec4 c = textureLod(u_ambient_map, vec2(uv_a.x, uv_d.y), 0.0);
+    vec4 d = textureLod(u_ambient_map, uv_d, 0.0);
+    vec2 full_uv = pixel_center() / vec2(textureSize(u_depth_map, 0));
+    float depth = depth_component(textureLod(u_depth_map, full_uv, 0.0));
     float own = linear_from_depth(depth);
-    float tolerance = linear_error(TOLERANCE * gOcclusionRadius, own);
-    vec4 neighbours = vec4(a.y, b.y, c.y, d.y);
-    bool on_plane = abs(dot(neighbours, vec4(0.25)) - own) < tolerance;
-    vec4 apart = abs(neighbours - own);
-    vec2 ab = apart.x <= apart.y ? vec2(a.x, apart.x) : vec2(b.x, apart.y);
-    vec2 cd = apart.w <= apart.z ? vec2(d.x, apart.w) : vec2(c.x, apart.z);
+    vec2 normal = projected_normal(normal_view_at_uv(full_uv));
+    vec4 values = vec4(a.x, b.x, c.x, d.x);
+    vec4 apart = vec4(a.y, b.y, c.y, d.y) - own;
+    bool on_plane = abs(dot(apart, vec4(0.25))) < linear_error(TOLERANCE * gOcclusionRadius, own);
+    bvec4 turned = bvec4(turns_away(a.zw - normal, -odd), turns_away(b.zw - normal, vec2(odd.x, -odd.y)),
+                         turns_away(c.zw - normal, vec2(-odd.x, odd.y)), turns_away(d.zw - normal, odd));
+    bvec4 near = lessThan(abs(apart), vec4(linear_error(NEAR * gOcclusionRadius, own)));
+    vec4 weights = vec4(!turned.x && near.x, !turned.y && near.y, !turned.z && near.z, !turned.w && near.w);
+    weights = on_plane && !any(turned) ? vec4(1.0) : weights;
+    float total = dot(weights, vec4(1.0));
+    vec4 off = abs(apart) * mix(vec4(1.0), vec4(AROUND_CREASE), turned);
+    vec2 ab = off.x <= off.y ? vec2(a.x, off.x) : vec2(b.x, off.y);
+    vec2 cd = off.w <= off.z ? vec2(d.x, off.w) : vec2(c.x, off.z);
     float nearest = ab.y <= cd.y ? ab.x : cd.x;
-    float accessibility = on_plane ? 0.25 * (a.x + b.x + c.x + d.x) : nearest;
+    float accessibility = total > 0.0 ? dot(weights, values) / total : nearest;
     o_accessibility = is_sky(depth) ? 1.0 : accessibility;
 }

@@ -204,7 +204,7 @@ struct glssao_effect {
     bool has_result_map;         /* the last result lies there */
     int margin;                  /* of the last frame */
     glssao__ambient_maps ambient;
-    glssao__ambient_maps paired; /* accessibility and the linear quantity of distance; made when first needed */
+    glssao__ambient_maps paired; /* RGBA32F, see paired() in normal_map.glsl; made when first needed */
     bool is_paired;              /* the last frame's passes drew into them */
     bool ambient_is_one;         /* both ambient maps hold 1 everywhere: nothing to clear */
     gl_uint random_vector_map;

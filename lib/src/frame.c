@@ -76,7 +76,7 @@ static glssao_result get_programs(glssao_effect *effect, const glssao_frame *fra
         {GLSSAO_PASS_ESTIMATE, estimate_shader(settings),
          inputs | estimate_variant(settings) | (plan->passes[GLSSAO_PASS_RESOLVE].run ? VARIANT_ACCUMULATE : 0u),
          &out->estimate},
-        {GLSSAO_PASS_RESOLVE, SHADER_RESOLVE, 0, &out->resolve},
+        {GLSSAO_PASS_RESOLVE, SHADER_RESOLVE, inputs, &out->resolve},
         {GLSSAO_PASS_RESOLVE, SHADER_PROBE, 0, &out->probe},
         {GLSSAO_PASS_BLUR, settings->blur == GLSSAO_BLUR_PLANAR ? SHADER_PLANAR_BLUR : SHADER_BLUR, blur, &out->blur},
         {GLSSAO_PASS_UPSAMPLE, SHADER_UPSAMPLE, inputs, &out->upsample},

@@ -22,8 +22,8 @@ typedef struct setup {
     glssao_settings settings;
     int width, height; /* full size */
     bool orthographic;
-    float *depth;
-    double blur_tolerance, upsample_tolerance; /* scene units */
+    float *depth, *normals;
+    pass_constants blur, upsample;
 } setup;
 
 static void set_up(setup *s, fixture *f, analytic_projection projection, int width, int height)
@@ -31,22 +31,23 @@ static void set_up(setup *s, fixture *f, analytic_projection projection, int wid
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     analytic_room(room, 1.0);
     const analytic_view view = analytic_make_view(projection, (double)width / height, 0.5, 40.0, 1.0);
-    float *normals;
     *s = (setup){.width = width, .height = height};
-    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, width, height, &s->depth, &normals);
+    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, width, height, &s->depth, &s->normals);
     s->effect = fixture_effect(f, width, height);
     s->frame = (glssao_frame){.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, width, height, s->depth),
-                              .normal_texture = fixture_normal_texture(width, height, normals),
+                              .normal_texture = fixture_normal_texture(width, height, s->normals),
                               .clip_zero_to_one = view.clip_zero_to_one};
     memcpy(s->frame.projection, view.projection, sizeof view.projection);
     s->orthographic = view.projection[11] == 0.0f;
     s->settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     s->settings.upsample = true;
     s->settings.radius = 0.8f;
-    assert_true(horizon_read_tolerances(&s->blur_tolerance, &s->upsample_tolerance));
-    s->blur_tolerance *= (double)s->settings.radius;
-    s->upsample_tolerance *= (double)s->settings.radius;
-    free(normals);
+    assert_true(horizon_read_pass_constants(&s->blur, &s->upsample));
+    pass_constants *in_radius[] = {&s->blur, &s->upsample};
+    for (int i = 0; i < 2; ++i) {
+        in_radius[i]->tolerance *= (double)s->settings.radius;
+        in_radius[i]->near *= (double)s->settings.radius;
+    }
 }
 
 static void tear_down(setup *s)
@@ -55,13 +56,14 @@ static void tear_down(setup *s)
     gl.DeleteTextures(1, &s->frame.normal_texture);
     glssao_destroy(s->effect);
     free(s->depth);
+    free(s->normals);
 }
 
 static paired_map read_paired(const setup *s, int number)
 {
     const int divisor = s->settings.half_resolution ? 2 : 1;
     paired_map map = {.width = (s->width + divisor - 1) / divisor, .height = (s->height + divisor - 1) / divisor};
-    map.texels = fixture_read_texture(horizon_paired_map(s->effect, number), map.width, map.height, 3);
+    map.texels = fixture_read_texture(horizon_paired_map(s->effect, number), map.width, map.height, PAIRED_CHANNELS);
     return map;
 }
 
@@ -99,7 +101,7 @@ static void finish(const tally *t)
     assert_true(t->changed * 200 > t->count);
 }
 
-/* `got` is a float map's first channel of three, or the result. */
+/* `got` is a float map's first channel, or the result. */
 static void check_blur(const setup *s, const paired_map *from, bool horizontal, const float *got, int stride,
                        double tolerance)
 {
@@ -108,8 +110,8 @@ static void check_blur(const setup *s, const paired_map *from, bool horizontal, 
         for (int x = 0; x < from->width; ++x) {
             double low, high;
             const size_t at = (size_t)y * (size_t)from->width + (size_t)x;
-            planar_blur_model(from, horizontal, s->orthographic, s->blur_tolerance, x, y, &low, &high);
-            add(&t, (double)got[(size_t)stride * at], (double)from->texels[3 * at], low, high, tolerance);
+            planar_blur_model(from, horizontal, s->orthographic, &s->blur, x, y, &low, &high);
+            add(&t, (double)got[(size_t)stride * at], (double)from->texels[PAIRED_CHANNELS * at], low, high, tolerance);
         }
     finish(&t);
 }
@@ -130,11 +132,13 @@ static void check_upsampling(const setup *s, const paired_map *half, const float
             const size_t at = (size_t)y * (size_t)s->width + (size_t)x;
             const size_t half_at = (size_t)(y / 2) * (size_t)half->width + (size_t)(x / 2);
             const double distance = view_distance(s, x, y);
+            const float *n = s->normals + 3 * at;
+            const full_pixel own = {s->orthographic ? distance : 1.0 / distance,
+                                    {(double)n[0], (double)n[1], (double)n[2]}};
             double low = 1.0, high = 1.0;
             if (s->depth[at] != sky)
-                upsample_model(half, s->orthographic, s->upsample_tolerance,
-                               s->orthographic ? distance : 1.0 / distance, x, y, &low, &high);
-            add(&t, (double)got[at], (double)half->texels[3 * half_at], low, high, RESULT);
+                upsample_model(half, s->orthographic, &s->upsample, &own, x, y, &low, &high);
+            add(&t, (double)got[at], (double)half->texels[PAIRED_CHANNELS * half_at], low, high, RESULT);
         }
     finish(&t);
 }
@@ -146,7 +150,7 @@ static void check_linear(const setup *s, const paired_map *map)
     int seen = 0;
     for (int y = 0; y < map->height; ++y)
         for (int x = 0; x < map->width; ++x) {
-            const double got = (double)map->texels[3 * (y * map->width + x) + 1];
+            const double got = (double)map->texels[PAIRED_CHANNELS * (y * map->width + x) + 1];
             const double distance = view_distance(s, x * factor, y * factor);
             if (!(distance < 39.0))
                 continue; /* sky */
@@ -173,8 +177,8 @@ static void check_half_size(fixture *f, analytic_projection projection, int widt
     s.settings.blur = GLSSAO_BLUR_PLANAR;
     result = fixture_compute(s.effect, &s.frame, &s.settings, &w, &h);
     paired_map horizontal = read_paired(&s, 1), vertical = read_paired(&s, 0);
-    check_blur(&s, &estimate, true, horizontal.texels, 3, FLOAT_MAP);
-    check_blur(&s, &horizontal, false, vertical.texels, 3, FLOAT_MAP);
+    check_blur(&s, &estimate, true, horizontal.texels, PAIRED_CHANNELS, FLOAT_MAP);
+    check_blur(&s, &horizontal, false, vertical.texels, PAIRED_CHANNELS, FLOAT_MAP);
     check_upsampling(&s, &vertical, result);
     free(result);
     free_paired(&estimate);
@@ -194,7 +198,7 @@ static void check_full_size(fixture *f, analytic_projection projection, int widt
     assert_true(w == width && h == height);
     paired_map estimate = read_paired(&s, 0), horizontal = read_paired(&s, 1);
     check_linear(&s, &estimate);
-    check_blur(&s, &estimate, true, horizontal.texels, 3, FLOAT_MAP);
+    check_blur(&s, &estimate, true, horizontal.texels, PAIRED_CHANNELS, FLOAT_MAP);
     check_blur(&s, &horizontal, false, result, 1, RESULT);
     free(result);
     free_paired(&estimate);

@@ -16,13 +16,20 @@ uint32_t horizon_paired_map(const glssao_effect *effect, int number)
     return effect->paired.texture[number];
 }
 
-bool horizon_read_tolerances(double *out_blur, double *out_upsample)
+static bool read_pass_constants(enum glssao__shader shader, pass_constants *out)
 {
     const char *pieces[GLSSAO__PROGRAM_MAX_SOURCES];
-    int count = glssao__program_sources(SHADER_PLANAR_BLUR, 0, GL_FRAGMENT_SHADER, pieces);
-    const bool blur = shader_constant(pieces, count, "TOLERANCE", out_blur);
-    count = glssao__program_sources(SHADER_UPSAMPLE, 0, GL_FRAGMENT_SHADER, pieces);
-    return blur && shader_constant(pieces, count, "TOLERANCE", out_upsample);
+    const int count = glssao__program_sources(shader, 0, GL_FRAGMENT_SHADER, pieces);
+    return shader_constant(pieces, count, "TOLERANCE", &out->tolerance) &&
+           shader_constant(pieces, count, "NEAR", &out->near) && shader_constant(pieces, count, "CHORD", &out->chord);
+}
+
+bool horizon_read_pass_constants(pass_constants *out_blur, pass_constants *out_upsample)
+{
+    const char *pieces[GLSSAO__PROGRAM_MAX_SOURCES];
+    const int count = glssao__program_sources(SHADER_UPSAMPLE, 0, GL_FRAGMENT_SHADER, pieces);
+    return read_pass_constants(SHADER_PLANAR_BLUR, out_blur) && read_pass_constants(SHADER_UPSAMPLE, out_upsample) &&
+           shader_constant(pieces, count, "AROUND_CREASE", &out_upsample->around_crease);
 }
 
 bool horizon_variant(const glssao_effect *effect, horizon_input *out)

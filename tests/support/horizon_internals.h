@@ -6,17 +6,18 @@
 #define GLSSAO_TESTS_HORIZON_INTERNALS_H
 
 #include "horizon_model.h"
+#include "horizon_passes.h"
 
 #include <glssao/glssao.h>
 
 /* The distance map's texture, and its size. */
 uint32_t horizon_distance_map(const glssao_effect *effect, int *out_width, int *out_height);
 
-/* One of the two maps that hold accessibility and the linear quantity of distance, by turns. */
+/* One of the two maps that the passes after the estimate read, by turns; see paired_map. */
 uint32_t horizon_paired_map(const glssao_effect *effect, int number);
 
-/* TOLERANCE of the planar blur and of upsampling; false where there is none. */
-bool horizon_read_tolerances(double *out_blur, double *out_upsample);
+/* Constants of the planar blur and of upsampling, lengths in units of the radius; false where one is missing. */
+bool horizon_read_pass_constants(pass_constants *out_blur, pass_constants *out_upsample);
 
 /* Slices, steps and constants of the variant that was compiled; the effect must have run one alone. */
 bool horizon_variant(const glssao_effect *effect, horizon_input *out);

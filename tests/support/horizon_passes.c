@@ -4,13 +4,25 @@
 #include <math.h>
 #include <stddef.h>
 
-enum { ACCESSIBILITY, LINEAR };
+typedef struct texel {
+    double value, linear, normal[2];
+} texel;
 
-static double texel(const paired_map *map, int x, int y, int channel)
+static texel texel_at(const paired_map *map, int x, int y)
 {
     x = x < 0 ? 0 : x >= map->width ? map->width - 1 : x;
     y = y < 0 ? 0 : y >= map->height ? map->height - 1 : y;
-    return (double)map->texels[3 * ((size_t)y * (size_t)map->width + (size_t)x) + (size_t)channel];
+    const float *t = map->texels + PAIRED_CHANNELS * ((size_t)y * (size_t)map->width + (size_t)x);
+    return (texel){(double)t[0], (double)t[1], {(double)t[2], (double)t[3]}};
+}
+
+void project_normal(const double normal[3], double out[2])
+{
+    /* Lambert's: the plane's radius is 2 sin(angle / 2). */
+    const double angle = acos(fmax(fmin(normal[2], 1.0), -1.0));
+    const double across = hypot(normal[0], normal[1]);
+    for (int i = 0; i < 2; ++i)
+        out[i] = across > 0.0 ? 2.0 * sin(0.5 * angle) * normal[i] / across : 0.0;
 }
 
 /* What a length about a surface comes to in the linear quantity: d(1 / t) = dt / t^2. */
@@ -26,6 +38,16 @@ static truth is_below(double value, double error, double limit)
     return value + error < limit ? YES : value - error >= limit ? NO : MAYBE;
 }
 
+static truth not(truth t)
+{
+    return t == MAYBE ? MAYBE : t == YES ? NO : YES;
+}
+
+static truth both(truth a, truth b)
+{
+    return a == NO || b == NO ? NO : a == YES && b == YES ? YES : MAYBE;
+}
+
 /* Whether b lies on the line through a and c. Differences of equal floats are exact, sky's among them. */
 static truth on_line(double a, double b, double c, double tolerance)
 {
@@ -34,69 +56,156 @@ static truth on_line(double a, double b, double c, double tolerance)
     return is_below(bend, error, tolerance);
 }
 
-/* Weights of the two taps on one side, for both ways of what is open; a tap two steps off counts half. */
-typedef struct weights {
-    double near, far;
-} weights;
-
-static weights side(bool center_line, bool outer_line)
+static truth is_near(double a, double b, double limit)
 {
-    return (weights){outer_line || center_line ? 1.0 : 0.0, outer_line ? 0.5 : 0.0};
+    return is_below(fabs(a - b), 4.0 * 0x1p-24 * (fabs(a) + fabs(b)), limit);
 }
 
-void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic, double tolerance, int x, int y,
-                       double *out_low, double *out_high)
+/* Whether the surface does not turn away from the eye on the way (-1, 0 or 1 in x and y) to a tap; `error` is that of a
+ * projected normal. */
+static truth joins(const double center[2], const double tap[2], int way_x, int way_y, double chord, double error)
 {
-    double value[5], linear[5];
-    for (int i = 0; i < 5; ++i) {
-        value[i] = texel(map, horizontal ? x + i - 2 : x, horizontal ? y : y + i - 2, ACCESSIBILITY);
-        linear[i] = texel(map, horizontal ? x + i - 2 : x, horizontal ? y : y + i - 2, LINEAR);
+    const double x = tap[0] - center[0], y = tap[1] - center[1];
+    const double along = x * way_x + y * way_y;
+    const truth alike = is_below(hypot(x, y), 4.0 * error, chord);
+    const truth hollow = is_below(along, along != 0.0 ? 4.0 * error : 0.0, 0.0);
+    return not(both(not(alike), not(hollow)));
+}
+
+/* Calls `result` for each way in which the tests that may come out both ways can. */
+static void each_outcome(truth *tests, int count, double (*result)(const truth *tests, const void *user),
+                         const void *user, double *low, double *high)
+{
+    for (int i = 0; i < count; ++i)
+        if (tests[i] == MAYBE) {
+            tests[i] = NO;
+            each_outcome(tests, count, result, user, low, high);
+            tests[i] = YES;
+            each_outcome(tests, count, result, user, low, high);
+            tests[i] = MAYBE;
+            return;
+        }
+    const double value = result(tests, user);
+    *low = fmin(*low, value);
+    *high = fmax(*high, value);
+}
+
+enum {
+    LINE_BEFORE,
+    LINE,
+    LINE_AFTER,
+    JOINS_BEFORE_2,
+    JOINS_BEFORE,
+    JOINS_AFTER,
+    JOINS_AFTER_2,
+    NEAR_BEFORE,
+    NEAR_AFTER,
+    TESTS
+};
+
+static double blurred(const truth *t, const void *user)
+{
+    const texel *taps = user;
+    double weights[5] = {0.0, 0.0, 1.0, 0.0, 0.0};
+    weights[0] = t[LINE_BEFORE] && t[JOINS_BEFORE_2] ? 0.5 : 0.0; /* half of it lies beyond the tile */
+    weights[1] = t[JOINS_BEFORE] && (t[LINE_BEFORE] || t[LINE]) ? 1.0 : 0.0;
+    weights[3] = t[JOINS_AFTER] && (t[LINE_AFTER] || t[LINE]) ? 1.0 : 0.0;
+    weights[4] = t[LINE_AFTER] && t[JOINS_AFTER_2] ? 0.5 : 0.0;
+    if (weights[1] + weights[3] == 0.0) {
+        weights[1] = t[JOINS_BEFORE] && t[NEAR_BEFORE] ? 1.0 : 0.0;
+        weights[3] = t[JOINS_AFTER] && t[NEAR_AFTER] ? 1.0 : 0.0;
     }
-    const double limit = in_linear(tolerance, linear[2], orthographic);
-    truth lines[3]; /* about the tap before, the pixel, the tap after */
+    double sum = 0.0, total = 0.0;
+    for (int i = 0; i < 5; ++i) {
+        sum += weights[i] * taps[i].value;
+        total += weights[i];
+    }
+    return sum / total;
+}
+
+void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic, const pass_constants *constants,
+                       int x, int y, double *out_low, double *out_high)
+{
+    texel taps[5];
+    for (int i = 0; i < 5; ++i)
+        taps[i] = texel_at(map, horizontal ? x + i - 2 : x, horizontal ? y : y + i - 2);
+    const double tolerance = in_linear(constants->tolerance, taps[2].linear, orthographic);
+    const double near = in_linear(constants->near, taps[2].linear, orthographic);
+    truth tests[TESTS];
     for (int i = 0; i < 3; ++i)
-        lines[i] = on_line(linear[i], linear[i + 1], linear[i + 2], limit);
+        tests[LINE_BEFORE + i] = on_line(taps[i].linear, taps[i + 1].linear, taps[i + 2].linear, tolerance);
+    for (int i = 0, test = JOINS_BEFORE_2; i < 5; ++i)
+        if (i != 2) {
+            const int way = i < 2 ? -1 : 1;
+            tests[test++] = joins(taps[2].normal, taps[i].normal, horizontal ? way : 0, horizontal ? 0 : way,
+                                  constants->chord, 0x1p-24);
+        }
+    tests[NEAR_BEFORE] = is_near(taps[1].linear, taps[2].linear, near);
+    tests[NEAR_AFTER] = is_near(taps[3].linear, taps[2].linear, near);
     *out_low = HUGE_VAL;
     *out_high = -HUGE_VAL;
-    for (int k = 0; k < 8; ++k) {
-        bool line[3], possible = true;
-        for (int i = 0; i < 3; ++i) {
-            line[i] = k >> i & 1;
-            possible = possible && (lines[i] == MAYBE || (lines[i] == YES) == line[i]);
-        }
-        if (!possible)
-            continue;
-        const weights before = side(line[1], line[0]), after = side(line[1], line[2]);
-        const double sum =
-            value[2] + before.near * value[1] + before.far * value[0] + after.near * value[3] + after.far * value[4];
-        const double result = sum / (1.0 + before.near + before.far + after.near + after.far);
-        *out_low = fmin(*out_low, result);
-        *out_high = fmax(*out_high, result);
-    }
+    each_outcome(tests, TESTS, blurred, taps, out_low, out_high);
 }
 
-void upsample_model(const paired_map *half, bool orthographic, double tolerance, double own, int x, int y,
-                    double *out_low, double *out_high)
+/* Joins 0 to 3, near 4 to 7, on the plane of all four 8; then whether each may be the nearest. */
+enum { JOINS_0, NEAR_0 = 4, ON_PLANE = 8, UPSAMPLE_TESTS };
+
+typedef struct four {
+    texel at[4];
+    double apart[4], error, around_crease;
+    bool is_low; /* which end of the interval is wanted where several may be the nearest */
+} four;
+
+static double nearest(const truth *t, const four *f)
+{
+    double off[4], least = HUGE_VAL, value = f->is_low ? HUGE_VAL : -HUGE_VAL;
+    for (int i = 0; i < 4; ++i) {
+        off[i] = f->apart[i] * (t[JOINS_0 + i] ? 1.0 : f->around_crease);
+        least = fmin(least, off[i]);
+    }
+    for (int i = 0; i < 4; ++i)
+        if (off[i] - least <= f->error * ((t[JOINS_0 + i] ? 1.0 : f->around_crease) + 1.0))
+            value = f->is_low ? fmin(value, f->at[i].value) : fmax(value, f->at[i].value);
+    return value;
+}
+
+static double upsampled(const truth *t, const void *user)
+{
+    const four *f = user;
+    double sum = 0.0, total = 0.0;
+    bool all = t[ON_PLANE];
+    for (int i = 0; i < 4; ++i)
+        all = all && t[JOINS_0 + i];
+    for (int i = 0; i < 4; ++i)
+        if (all || (t[JOINS_0 + i] && t[NEAR_0 + i])) {
+            sum += f->at[i].value;
+            total += 1.0;
+        }
+    return total > 0.0 ? sum / total : nearest(t, f);
+}
+
+void upsample_model(const paired_map *half, bool orthographic, const pass_constants *constants, const full_pixel *own,
+                    int x, int y, double *out_low, double *out_high)
 {
     /* A half-size texel stands for the full-size one of twice its index. */
-    double value[4], apart[4], mean_value = 0.0, mean_linear = 0.0, least = HUGE_VAL;
+    four f = {.error = 8.0 * 0x1p-24 * fabs(own->linear), .around_crease = constants->around_crease};
+    truth tests[UPSAMPLE_TESTS];
+    double mean = 0.0, normal[2];
+    project_normal(own->normal, normal);
     for (int i = 0; i < 4; ++i) {
-        const int tx = x / 2 + (i % 2) * (x % 2), ty = y / 2 + (i / 2) * (y % 2);
-        const double linear = texel(half, tx, ty, LINEAR);
-        value[i] = texel(half, tx, ty, ACCESSIBILITY);
-        apart[i] = fabs(linear - own);
-        least = fmin(least, apart[i]);
-        mean_value += 0.25 * value[i];
-        mean_linear += 0.25 * linear;
+        const int way_x = (i % 2 ? 1 : -1) * (x % 2), way_y = (i / 2 ? 1 : -1) * (y % 2);
+        f.at[i] = texel_at(half, x / 2 + (i % 2) * (x % 2), y / 2 + (i / 2) * (y % 2));
+        f.apart[i] = fabs(f.at[i].linear - own->linear);
+        tests[JOINS_0 + i] = joins(normal, f.at[i].normal, way_x, way_y, constants->chord, 1e-5);
+        tests[NEAR_0 + i] = is_below(f.apart[i], f.error, in_linear(constants->near, own->linear, orthographic));
+        mean += 0.25 * (f.at[i].linear - own->linear);
     }
-    const double error = 8.0 * 0x1p-24 * fabs(own);
-    const truth plane = is_below(fabs(mean_linear - own), error + 2.0 * 0x1p-24 * fabs(mean_linear),
-                                 in_linear(tolerance, own, orthographic));
-    *out_low = plane == NO ? HUGE_VAL : mean_value;
-    *out_high = plane == NO ? -HUGE_VAL : mean_value;
-    for (int i = 0; plane != YES && i < 4; ++i)
-        if (apart[i] <= least + 2.0 * error) {
-            *out_low = fmin(*out_low, value[i]);
-            *out_high = fmax(*out_high, value[i]);
-        }
+    tests[ON_PLANE] = is_below(fabs(mean), f.error + 4.0 * 0x1p-24 * fabs(mean),
+                               in_linear(constants->tolerance, own->linear, orthographic));
+    *out_low = HUGE_VAL;
+    *out_high = -HUGE_VAL;
+    for (int i = 0; i < 2; ++i) {
+        f.is_low = i == 0;
+        each_outcome(tests, UPSAMPLE_TESTS, upsampled, &f, out_low, out_high);
+    }
 }

@@ -8,18 +8,33 @@
 
 #include <stdbool.h>
 
-/* Accessibility and the linear quantity of distance (1 / distance in perspective, distance in orthographic views). */
+enum { PAIRED_CHANNELS = 4 };
+
+/* Accessibility, the linear quantity of distance (1 / distance in perspective, distance in orthographic views), and the
+ * normal's equal-area projection. */
 typedef struct paired_map {
-    float *texels; /* three floats a texel, the third unused */
+    float *texels; /* PAIRED_CHANNELS each */
     int width, height;
 } paired_map;
 
-/* `tolerance`: scene units. */
-void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic, double tolerance, int x, int y,
-                       double *out_low, double *out_high);
+typedef struct pass_constants {
+    double tolerance, near; /* scene units */
+    double chord;           /* of two unit normals that belong to different sides of a crease */
+    double around_crease;   /* upsampling alone: how much farther neighbours around a crease count */
+} pass_constants;
 
-/* `own`: the full-size pixel's linear quantity. */
-void upsample_model(const paired_map *half, bool orthographic, double tolerance, double own, int x, int y,
-                    double *out_low, double *out_high);
+void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic, const pass_constants *constants,
+                       int x, int y, double *out_low, double *out_high);
+
+/* The full-size pixel's own linear quantity and unit normal. */
+typedef struct full_pixel {
+    double linear, normal[3];
+} full_pixel;
+
+void upsample_model(const paired_map *half, bool orthographic, const pass_constants *constants, const full_pixel *own,
+                    int x, int y, double *out_low, double *out_high);
+
+/* The equal-area projection of a unit normal. */
+void project_normal(const double normal[3], double out[2]);
 
 #endif
