@@ -3,14 +3,14 @@
 // a 4x4 tile. With EDGE_AWARE 1, a tap counts only where its normal and view distance agree with the centre's, and the
 // weights that are left are scaled to sum to 1.
 // in  v_uv           0..1
-// in  u_ambient_map  accessibility, point sampled
+// in  u_ambient_map  accessibility, with PAIRED 1 the paired map; point sampled
 // in  u_normal_map, u_depth_map  as for the estimate, fetched (EDGE_AWARE 1)
-// out o_ambient      accessibility, and the centre's other channels
+// out o_ambient      the same
 
 in vec2 v_uv;
 uniform sampler2D u_ambient_map;
 uniform bool gHorizontalBlur;
-out vec4 o_ambient;
+out AMBIENT o_ambient;
 
 #if EDGE_AWARE
 ivec2 last;
@@ -32,7 +32,11 @@ void add_tap(int i, float weight, vec2 step_uv, inout float sum, inout float wei
                            abs(distance - center_distance) <= gBlurDepthThreshold);
     weight = keep ? weight : 0.0;
 #endif
+#if PAIRED
+    sum += weight * accessibility_of(texture(u_ambient_map, uv).rg);
+#else
     sum += weight * texture(u_ambient_map, uv).r;
+#endif
     weights += weight;
 }
 
@@ -66,5 +70,6 @@ void main()
     add_tap(4, gBlurWeights[2].y, step_uv, sum, weights);
     add_tap(5, gBlurWeights[2].z, step_uv, sum, weights);
 #endif
-    o_ambient = vec4(sum / weights, texture(u_ambient_map, v_uv).gba);
+    vec2 own = texture(u_ambient_map, v_uv).rg;
+    o_ambient = ambient(sum / weights, own.g, normal_code(own));
 }

@@ -5,13 +5,13 @@
 // in  u_normal_map      view space, fetched
 // in  u_depth_map       stored depth, fetched for the pixel; for occluders linearly sampled, border: sky
 // in  u_random_vector_map  RGBA8, each channel uniform in 0..1, repeated 4 times across the target
-// out o_ambient         accessibility, and what passes after this one may read: paired()
+// out o_ambient         accessibility, with PAIRED 1 what passes after this one read
 // NO_ANGLE_WEIGHT 1: an occluder counts fully at any angle to the normal, which shows the self-occlusion of flat
 // surfaces that the weight prevents.
 
 in vec2 v_uv;
 uniform sampler2D u_random_vector_map;
-out vec4 o_ambient;
+out AMBIENT o_ambient;
 
 // How much an occluder counts that is this much nearer to the camera than the point (scene units).
 float weight_from_distance(float nearer)
@@ -29,7 +29,9 @@ void main()
     vec3 normal_view = normal_view_from_map(texel);
     float depth = fetched_depth(texel);
     float distance = is_sky(depth) ? FAR_AWAY : distance_from_depth(depth);
-    o_ambient = paired(1.0, linear_from_distance(distance), normal_view);
+    float linear = linear_from_distance(distance);
+    uint code = normal_code(normal_view);
+    o_ambient = ambient(1.0, linear, code);
     // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
     if (distance == FAR_AWAY || normal_view == vec3(0.0))
         return;
@@ -60,5 +62,5 @@ void main()
     }
     float accessibility = 1.0 - occlusion / float(gSampleCount);
     // pow() is undefined for a base of 0 with power 0, and for the negative that rounding can leave.
-    o_ambient.x = clamp(pow(max(accessibility, 1e-6), gPower), 0.0, 1.0);
+    o_ambient = ambient(clamp(pow(max(accessibility, 1e-6), gPower), 0.0, 1.0), linear, code);
 }

@@ -4,10 +4,10 @@
 // in  v_uv             0..1
 // in  u_normal_map     view space, fetched
 // in  u_depth_map      stored depth, fetched for the pixel; for occluders linearly sampled, border: sky
-// out o_ambient        accessibility, and what passes after this one may read: paired()
+// out o_ambient        accessibility, with PAIRED 1 what passes after this one read
 
 in vec2 v_uv;
-out vec4 o_ambient;
+out AMBIENT o_ambient;
 
 // Two unit vectors that span the plane across the normal, turned by the pixel's place in the 4x4 tile.
 mat3 view_from_tangent(vec3 normal_view)
@@ -28,7 +28,9 @@ void main()
     vec3 normal_view = normal_view_from_map(texel);
     float depth = fetched_depth(texel);
     float center_distance = is_sky(depth) ? FAR_AWAY : distance_from_depth(depth);
-    o_ambient = paired(1.0, linear_from_distance(center_distance), normal_view);
+    float linear = linear_from_distance(center_distance);
+    uint code = normal_code(normal_view);
+    o_ambient = ambient(1.0, linear, code);
     // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
     if (center_distance == FAR_AWAY || normal_view == vec3(0.0))
         return;
@@ -55,5 +57,5 @@ void main()
     }
     float accessibility = 1.0 - occlusion / max(counted, 1.0);
     // pow() is undefined for a base of 0 with power 0.
-    o_ambient.x = clamp(pow(max(accessibility, 1e-6), gPower), 0.0, 1.0);
+    o_ambient = ambient(clamp(pow(max(accessibility, 1e-6), gPower), 0.0, 1.0), linear, code);
 }

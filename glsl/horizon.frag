@@ -7,7 +7,7 @@
 // in  u_distance_map  view distance at the estimate's size, with LAYERS 1 thickness and second layer too; point sampled,
 //                     clamped
 // in  u_depth_map     bound for its size alone
-// out o_ambient       accessibility, and what passes after this one may read: paired(); with ACCUMULATE 1 the linear
+// out o_ambient       accessibility, with PAIRED 1 what passes after this one read; with ACCUMULATE 1 the linear
 //                     accessibility, to be added to the sum of its replicate
 // STEPS_8, STEPS_12, STEPS_16 1: that many samples on each side of a slice, else 6. SLICES_2 1: two slices, else one.
 //
@@ -16,7 +16,11 @@
 // not unroll them, and a loop of a single turn still costs it a third of this pass.
 
 uniform sampler2D u_distance_map;
-out vec4 o_ambient;
+#if ACCUMULATE
+out vec2 o_ambient;
+#else
+out AMBIENT o_ambient;
+#endif
 
 #if STEPS_16
 #define STEPS 16
@@ -269,9 +273,11 @@ void main()
     vec2 uv = (floor(pixel_center()) * float(gFactor) + 0.5) / full_size;
     vec3 normal_view = normal_view_at_uv(uv);
 #if ACCUMULATE
-    o_ambient = vec4(gAccumulation.xy, 0.0, 0.0);
+    o_ambient = gAccumulation.xy;
 #else
-    o_ambient = paired(1.0, linear_from_distance(distance), normal_view);
+    float linear = linear_from_distance(distance);
+    uint code = normal_code(normal_view);
+    o_ambient = ambient(1.0, linear, code);
 #endif
     // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
     if (distance >= FAR_AWAY || normal_view == vec3(0.0))
@@ -294,8 +300,8 @@ void main()
     // pow() is undefined for a base of 0 with power 0, and for the negative that rounding can leave.
     float open = max(1.0 - occlusion, 1e-6);
 #if ACCUMULATE
-    o_ambient.xy = gAccumulation.xy * pow(open, CALIBRATION);
+    o_ambient = gAccumulation.xy * pow(open, CALIBRATION);
 #else
-    o_ambient.x = clamp(pow(open, CALIBRATION * gPower), 0.0, 1.0);
+    o_ambient = ambient(clamp(pow(open, CALIBRATION * gPower), 0.0, 1.0), linear, code);
 #endif
 }

@@ -22,19 +22,6 @@ vec3 normal_view_from_stored(vec3 normal)
     return normal * inversesqrt(length_squared);
 }
 
-// Lambert's azimuthal equal-area projection: the distance of two pictures is about the chord of the two normals, and the
-// one direction without a picture, away from the eye, comes out far from all others.
-vec2 projected_normal(vec3 normal_view)
-{
-    return normal_view.xy * inversesqrt(max(0.5 + 0.5 * normal_view.z, 1e-4));
-}
-
-// What the passes after the estimate read of a pixel.
-vec4 paired(float accessibility, float linear, vec3 normal_view)
-{
-    return vec4(accessibility, linear, projected_normal(normal_view));
-}
-
 vec3 normal_view_from_map(ivec2 texel)
 {
     return normal_view_from_stored(texelFetch(u_normal_map, texel, 0).xyz);

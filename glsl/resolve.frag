@@ -3,11 +3,11 @@
 // in  u_ambient_map   sums of the linear accessibility of two replicates; point sampled
 // in  u_distance_map  view distance, full size; point sampled
 // in  u_normal_map    view space, full size; point sampled
-// out o_ambient       paired()
+// out o_ambient       accessibility, with PAIRED 1 what the blur reads
 
 uniform sampler2D u_ambient_map;
 uniform sampler2D u_distance_map;
-out vec4 o_ambient;
+out AMBIENT o_ambient;
 
 void main()
 {
@@ -15,6 +15,6 @@ void main()
     vec2 sums = textureLod(u_ambient_map, uv, 0.0).rg;
     float mean = (sums.x + sums.y) / (gAccumulation.z + gAccumulation.w);
     // pow() is undefined for a base of 0 with power 0.
-    o_ambient = paired(pow(max(mean, 1e-6), gPower), linear_from_distance(textureLod(u_distance_map, uv, 0.0).r),
-                       normal_view_at_uv(uv));
+    o_ambient = ambient(pow(max(mean, 1e-6), gPower), linear_from_distance(textureLod(u_distance_map, uv, 0.0).r),
+                        normal_code(normal_view_at_uv(uv)));
 }

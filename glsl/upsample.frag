@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Brings a half-size result to full size: linearly where the pixel lies on the plane of its neighbours, else from those
 // of them that lie near it on the same surface, else from the one that is nearest in distance.
-// in  u_ambient_map    accessibility, the linear quantity of distance, projected normal, half size; point sampled, clamped
+// in  u_ambient_map    paired map, half size; point sampled, clamped
 // in  u_depth_map      stored depth, full size; point sampled
 // in  u_normal_map     view space, full size; point sampled
 // out o_accessibility  0..1, R16, full size
@@ -25,27 +25,36 @@ void main()
     vec2 odd = pixel - 2.0 * half_pixel;
     vec2 uv_a = (half_pixel + 0.5) * gInvRenderTargetSize;
     vec2 uv_d = uv_a + odd * gInvRenderTargetSize;
-    vec4 a = textureLod(u_ambient_map, uv_a, 0.0);
-    vec4 b = textureLod(u_ambient_map, vec2(uv_d.x, uv_a.y), 0.0);
-    vec4 c = textureLod(u_ambient_map, vec2(uv_a.x, uv_d.y), 0.0);
-    vec4 d = textureLod(u_ambient_map, uv_d, 0.0);
+    vec2 a = textureLod(u_ambient_map, uv_a, 0.0).rg;
+    vec2 b = textureLod(u_ambient_map, vec2(uv_d.x, uv_a.y), 0.0).rg;
+    vec2 c = textureLod(u_ambient_map, vec2(uv_a.x, uv_d.y), 0.0).rg;
+    vec2 d = textureLod(u_ambient_map, uv_d, 0.0).rg;
     vec2 full_uv = pixel_center() / vec2(textureSize(u_depth_map, 0));
     float depth = depth_component(textureLod(u_depth_map, full_uv, 0.0));
     float own = linear_from_depth(depth);
-    vec2 normal = projected_normal(normal_view_at_uv(full_uv));
-    vec4 values = vec4(a.x, b.x, c.x, d.x);
+    vec4 values = vec4(accessibility_of(a), accessibility_of(b), accessibility_of(c), accessibility_of(d));
     vec4 apart = vec4(a.y, b.y, c.y, d.y) - own;
     bool on_plane = abs(dot(apart, vec4(0.25))) < linear_error(TOLERANCE * gOcclusionRadius, own);
-    bvec4 turned = bvec4(turns_away(a.zw - normal, -odd), turns_away(b.zw - normal, vec2(odd.x, -odd.y)),
-                         turns_away(c.zw - normal, vec2(-odd.x, odd.y)), turns_away(d.zw - normal, odd));
-    bvec4 near = lessThan(abs(apart), vec4(linear_error(NEAR * gOcclusionRadius, own)));
-    vec4 weights = vec4(!turned.x && near.x, !turned.y && near.y, !turned.z && near.z, !turned.w && near.w);
-    weights = on_plane && !any(turned) ? vec4(1.0) : weights;
-    float total = dot(weights, vec4(1.0));
-    vec4 off = abs(apart) * mix(vec4(1.0), vec4(AROUND_CREASE), turned);
-    vec2 ab = off.x <= off.y ? vec2(a.x, off.x) : vec2(b.x, off.y);
-    vec2 cd = off.w <= off.z ? vec2(d.x, off.w) : vec2(c.x, off.z);
-    float nearest = ab.y <= cd.y ? ab.x : cd.x;
-    float accessibility = total > 0.0 ? dot(weights, values) / total : nearest;
+    uvec4 codes = uvec4(normal_code(a), normal_code(b), normal_code(c), normal_code(d));
+    bvec4 turned = bvec4(false);
+    // Most pixels lie amid neighbours that all face one way: there a GPU is spared the rest.
+    if (any(notEqual(codes.xxx, codes.yzw))) {
+        uint code = normal_code(normal_view_at_uv(full_uv));
+        turned = bvec4(turns_away(normal_change(code, codes.x), -odd),
+                       turns_away(normal_change(code, codes.y), vec2(odd.x, -odd.y)),
+                       turns_away(normal_change(code, codes.z), vec2(-odd.x, odd.y)),
+                       turns_away(normal_change(code, codes.w), odd));
+    }
+    float accessibility = dot(values, vec4(0.25));
+    if (!on_plane || any(turned)) {
+        bvec4 near = lessThan(abs(apart), vec4(linear_error(NEAR * gOcclusionRadius, own)));
+        vec4 weights = vec4(!turned.x && near.x, !turned.y && near.y, !turned.z && near.z, !turned.w && near.w);
+        float total = dot(weights, vec4(1.0));
+        vec4 off = abs(apart) * mix(vec4(1.0), vec4(AROUND_CREASE), turned);
+        vec2 ab = off.x <= off.y ? vec2(values.x, off.x) : vec2(values.y, off.y);
+        vec2 cd = off.w <= off.z ? vec2(values.w, off.w) : vec2(values.z, off.z);
+        float nearest = ab.y <= cd.y ? ab.x : cd.x;
+        accessibility = total > 0.0 ? dot(weights, values) / total : nearest;
+    }
     o_accessibility = is_sky(depth) ? 1.0 : accessibility;
 }

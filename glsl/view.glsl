@@ -114,13 +114,3 @@ vec3 position_view_from_uv(vec2 uv, float distance)
     vec2 direction = uv * gRayDirection.xy + gRayDirection.zw;
     return vec3(origin + distance * direction, -distance);
 }
-
-// Chord of two unit normals that belong to different sides of a crease, 41 degrees; found by experiment.
-const float CHORD = 0.7;
-
-// Whether a surface turns away from the eye toward a neighbour in the picture: by how much its projected normal changes on
-// the way, and where the neighbour lies. In a hollow both sides darken, and smoothing over it does no harm.
-bool turns_away(vec2 change, vec2 way)
-{
-    return dot(change, change) > CHORD * CHORD && dot(change, way) > 0.0;
-}

@@ -75,7 +75,8 @@ enum glssao__variant {
     VARIANT_SLICES_2 = 1024,
     VARIANT_ACCUMULATE = 2048,
     VARIANT_LAYERS = 4096,
-    VARIANT_FLAGS = 13, /* how many there are */
+    VARIANT_PAIRED = 8192,
+    VARIANT_FLAGS = 14, /* how many there are */
     VARIANT_COUNT = 1 << VARIANT_FLAGS
 };
 
@@ -204,7 +205,7 @@ struct glssao_effect {
     bool has_result_map;         /* the last result lies there */
     int margin;                  /* of the last frame */
     glssao__ambient_maps ambient;
-    glssao__ambient_maps paired; /* RGBA32F, see paired() in normal_map.glsl; made when first needed */
+    glssao__ambient_maps paired; /* RG32F, see paired.glsl; made when first needed */
     bool is_paired;              /* the last frame's passes drew into them */
     bool ambient_is_one;         /* both ambient maps hold 1 everywhere: nothing to clear */
     gl_uint random_vector_map;

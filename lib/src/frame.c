@@ -5,7 +5,7 @@
 #include "effect.h"
 
 typedef struct frame_programs {
-    glssao__program_object normals, distance, estimate, resolve, probe, blur, upsample;
+    glssao__program_object normals, distance, estimate, resolve, probe, blur, last_blur, upsample;
 } frame_programs;
 
 /* How the host stores what the passes read. */
@@ -58,13 +58,21 @@ static gl_uint depth_source(const glssao_frame *frame)
     return frame->depth_kind == GLSSAO_DEPTH_NORMAL_ALPHA ? frame->normal_texture : frame->depth_texture;
 }
 
+/* Whether a pass reads distance and normal beside accessibility: then all before the last draw into the paired maps. */
+static bool is_paired(const glssao_settings *settings, const glssao_plan *plan)
+{
+    return plan->passes[GLSSAO_PASS_UPSAMPLE].run ||
+           (plan->passes[GLSSAO_PASS_BLUR].run && settings->blur == GLSSAO_BLUR_PLANAR);
+}
+
 /* Compiles what the plan needs, before anything changes. */
 static glssao_result get_programs(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
                                   const glssao_plan *plan, frame_programs *out)
 {
-    unsigned inputs = input_variant(frame);
-    unsigned blur = inputs | (settings->blur == GLSSAO_BLUR_BILATERAL ? VARIANT_EDGE_AWARE : 0u) |
-                    (settings->blur == GLSSAO_BLUR_BOX ? VARIANT_BOX : 0u);
+    const unsigned inputs = input_variant(frame), paired = is_paired(settings, plan) ? VARIANT_PAIRED : 0u;
+    const unsigned blur = inputs | (settings->blur == GLSSAO_BLUR_BILATERAL ? VARIANT_EDGE_AWARE : 0u) |
+                          (settings->blur == GLSSAO_BLUR_BOX ? VARIANT_BOX : 0u);
+    const enum glssao__shader blur_shader = settings->blur == GLSSAO_BLUR_PLANAR ? SHADER_PLANAR_BLUR : SHADER_BLUR;
     const struct {
         glssao_pass pass;
         enum glssao__shader shader;
@@ -74,11 +82,12 @@ static glssao_result get_programs(glssao_effect *effect, const glssao_frame *fra
         {GLSSAO_PASS_NORMALS, SHADER_NORMALS, inputs, &out->normals},
         {GLSSAO_PASS_DISTANCE, SHADER_DISTANCE, inputs, &out->distance},
         {GLSSAO_PASS_ESTIMATE, estimate_shader(settings),
-         inputs | estimate_variant(settings) | (plan->passes[GLSSAO_PASS_RESOLVE].run ? VARIANT_ACCUMULATE : 0u),
+         inputs | estimate_variant(settings) | (plan->passes[GLSSAO_PASS_RESOLVE].run ? VARIANT_ACCUMULATE : paired),
          &out->estimate},
-        {GLSSAO_PASS_RESOLVE, SHADER_RESOLVE, inputs, &out->resolve},
+        {GLSSAO_PASS_RESOLVE, SHADER_RESOLVE, inputs | paired, &out->resolve},
         {GLSSAO_PASS_RESOLVE, SHADER_PROBE, 0, &out->probe},
-        {GLSSAO_PASS_BLUR, settings->blur == GLSSAO_BLUR_PLANAR ? SHADER_PLANAR_BLUR : SHADER_BLUR, blur, &out->blur},
+        {GLSSAO_PASS_BLUR, blur_shader, blur | paired, &out->blur},
+        {GLSSAO_PASS_BLUR, blur_shader, blur | (plan->passes[GLSSAO_PASS_UPSAMPLE].run ? paired : 0u), &out->last_blur},
         {GLSSAO_PASS_UPSAMPLE, SHADER_UPSAMPLE, inputs, &out->upsample},
     };
     glssao_result result = GLSSAO_OK;
@@ -86,13 +95,6 @@ static glssao_result get_programs(glssao_effect *effect, const glssao_frame *fra
         if (plan->passes[needed[i].pass].run)
             result = glssao__program_get(effect, needed[i].shader, needed[i].variant, needed[i].out);
     return result;
-}
-
-/* Whether a pass reads the linear quantity of distance beside accessibility. */
-static bool is_paired(const glssao_settings *settings, const glssao_plan *plan)
-{
-    return plan->passes[GLSSAO_PASS_UPSAMPLE].run ||
-           (plan->passes[GLSSAO_PASS_BLUR].run && settings->blur == GLSSAO_BLUR_PLANAR);
 }
 
 /* Whether the result goes to a map of its own: the passes draw into maps of the estimate's size. */
@@ -242,11 +244,12 @@ static void resolve(const frame_run *r)
 static void blur(const frame_run *r)
 {
     const int count = 2 * r->settings->blur_rounds;
-    glssao__draw_use(r->effect, &r->programs.blur);
     for (int i = 1; i <= count; ++i) {
+        const glssao__program_object *program = i < count ? &r->programs.blur : &r->programs.last_blur;
+        glssao__draw_use(r->effect, program);
         /* Horizontal 0 to 1, vertical 1 to 0. */
-        r->effect->gl.Uniform1i(r->programs.blur.horizontal_location, i % 2);
-        draw_turn(r, &r->programs.blur, GLSSAO_PASS_BLUR, i, i == count && !runs(r, GLSSAO_PASS_UPSAMPLE));
+        r->effect->gl.Uniform1i(program->horizontal_location, i % 2);
+        draw_turn(r, program, GLSSAO_PASS_BLUR, i, i == count && !runs(r, GLSSAO_PASS_UPSAMPLE));
     }
 }
 

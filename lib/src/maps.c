@@ -151,7 +151,7 @@ glssao_result glssao__maps_fit_paired(glssao_effect *effect, int width, int heig
     if (effect->paired.width == width && effect->paired.height == height)
         return GLSSAO_OK;
     glssao__ambient_maps made;
-    glssao_result result = make_pair(effect, GL_RGBA32F, width, height, "paired ambient", &made);
+    glssao_result result = make_pair(effect, GL_RG32F, width, height, "paired ambient", &made);
     if (result != GLSSAO_OK)
         return result;
     glssao__maps_delete_ambient(&effect->gl, &effect->paired);

@@ -22,6 +22,7 @@ static const char *const macros[VARIANT_FLAGS] = {
     "SLICES_2",
     "ACCUMULATE",
     "LAYERS",
+    "PAIRED",
 };
 
 enum {
@@ -38,24 +39,29 @@ static const struct shader {
 } shaders[SHADER_COUNT] = {
     [SHADER_NORMALS] = {"normals", DEPTH_FLAGS, {shader_view_glsl, shader_normals_frag}},
     [SHADER_CLASSIC] = {"classic",
-                        NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_NO_ANGLE_WEIGHT,
-                        {shader_view_glsl, shader_normal_map_glsl, shader_classic_frag}},
+                        NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_NO_ANGLE_WEIGHT | VARIANT_PAIRED,
+                        {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_classic_frag}},
     [SHADER_HEMISPHERE] = {"hemisphere",
-                           NORMAL_FLAGS | DEPTH_FLAGS,
-                           {shader_view_glsl, shader_normal_map_glsl, shader_hemisphere_frag}},
+                           NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_PAIRED,
+                           {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_hemisphere_frag}},
     [SHADER_DISTANCE] = {"distance", DEPTH_FLAGS | VARIANT_LAYERS, {shader_view_glsl, shader_distance_frag}},
     [SHADER_HORIZON] = {"horizon",
-                        NORMAL_FLAGS | STEP_FLAGS | VARIANT_SLICES_2 | VARIANT_ACCUMULATE | VARIANT_LAYERS,
-                        {shader_view_glsl, shader_normal_map_glsl, shader_horizon_frag}},
-    [SHADER_RESOLVE] = {"resolve", NORMAL_FLAGS, {shader_view_glsl, shader_normal_map_glsl, shader_resolve_frag}},
+                        NORMAL_FLAGS | STEP_FLAGS | VARIANT_SLICES_2 | VARIANT_ACCUMULATE | VARIANT_LAYERS |
+                            VARIANT_PAIRED,
+                        {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_horizon_frag}},
+    [SHADER_RESOLVE] = {"resolve",
+                        NORMAL_FLAGS | VARIANT_PAIRED,
+                        {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_resolve_frag}},
     [SHADER_PROBE] = {"probe", 0, {shader_view_glsl, shader_probe_frag}},
-    [SHADER_PLANAR_BLUR] = {"planar-blur", 0, {shader_view_glsl, shader_planar_blur_frag}},
+    [SHADER_PLANAR_BLUR] = {"planar-blur",
+                            VARIANT_PAIRED,
+                            {shader_view_glsl, shader_paired_glsl, shader_planar_blur_frag}},
     [SHADER_UPSAMPLE] = {"upsample",
                          NORMAL_FLAGS | DEPTH_FLAGS,
-                         {shader_view_glsl, shader_normal_map_glsl, shader_upsample_frag}},
+                         {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_upsample_frag}},
     [SHADER_BLUR] = {"blur",
-                     NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_BOX | VARIANT_EDGE_AWARE,
-                     {shader_view_glsl, shader_normal_map_glsl, shader_blur_frag}},
+                     NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_BOX | VARIANT_EDGE_AWARE | VARIANT_PAIRED,
+                     {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_blur_frag}},
     [SHADER_APPLY] = {"apply", 0, {shader_apply_frag}},
 };
 
@@ -69,9 +75,10 @@ bool glssao__program_exists(enum glssao__shader shader, unsigned variant)
     bool both_encodings = (variant & NORMAL_FLAGS) == NORMAL_FLAGS;
     unsigned steps = variant & STEP_FLAGS;
     bool alpha_alone = (variant & VARIANT_DEPTH_IN_ALPHA) && !(variant & VARIANT_DEPTH_IS_DISTANCE);
+    bool is_sum = (variant & VARIANT_ACCUMULATE) && (variant & VARIANT_PAIRED);
     bool edges_needed = (variant & (NORMAL_FLAGS | DEPTH_FLAGS)) == 0 || (variant & VARIANT_EDGE_AWARE);
-    return (variant & ~shaders[shader].flags) == 0 && !both_encodings && (steps & (steps - 1)) == 0 && !alpha_alone &&
-           (shader != SHADER_BLUR || edges_needed);
+    return (variant & ~shaders[shader].flags) == 0 && !both_encodings && !is_sum && (steps & (steps - 1)) == 0 &&
+           !alpha_alone && (shader != SHADER_BLUR || edges_needed);
 }
 
 int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enum stage,

@@ -21,7 +21,8 @@ static bool read_pass_constants(enum glssao__shader shader, pass_constants *out)
     const char *pieces[GLSSAO__PROGRAM_MAX_SOURCES];
     const int count = glssao__program_sources(shader, 0, GL_FRAGMENT_SHADER, pieces);
     return shader_constant(pieces, count, "TOLERANCE", &out->tolerance) &&
-           shader_constant(pieces, count, "NEAR", &out->near) && shader_constant(pieces, count, "CHORD", &out->chord);
+           shader_constant(pieces, count, "NEAR", &out->near) && shader_constant(pieces, count, "CHORD", &out->chord) &&
+           shader_constant(pieces, count, "NORMAL_STEP", &out->normal_step);
 }
 
 bool horizon_read_pass_constants(pass_constants *out_blur, pass_constants *out_upsample)

@@ -3,26 +3,51 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+/* What a texel's red is made of. */
+enum { NORMAL_BITS = 10, AXIS_BITS = 5 };
 
 typedef struct texel {
-    double value, linear, normal[2];
+    double value, linear;
+    int normal[2]; /* steps of constants.normal_step */
 } texel;
+
+static uint32_t bits_of(float red)
+{
+    uint32_t bits;
+    memcpy(&bits, &red, sizeof bits);
+    return bits;
+}
+
+double paired_accessibility(float red)
+{
+    const uint32_t bits = bits_of(red) >> NORMAL_BITS << NORMAL_BITS;
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return (double)value;
+}
 
 static texel texel_at(const paired_map *map, int x, int y)
 {
     x = x < 0 ? 0 : x >= map->width ? map->width - 1 : x;
     y = y < 0 ? 0 : y >= map->height ? map->height - 1 : y;
-    const float *t = map->texels + PAIRED_CHANNELS * ((size_t)y * (size_t)map->width + (size_t)x);
-    return (texel){(double)t[0], (double)t[1], {(double)t[2], (double)t[3]}};
+    const float *t = map->texels + 3 * ((size_t)y * (size_t)map->width + (size_t)x);
+    const int code = (int)(bits_of(t[0]) % (1u << NORMAL_BITS));
+    return (texel){paired_accessibility(t[0]), (double)t[1], {code >> AXIS_BITS, code % (1 << AXIS_BITS)}};
 }
 
-void project_normal(const double normal[3], double out[2])
+/* Lambert's projection of a unit normal, whose radius is 2 sin(angle / 2), in steps; `out_low` and `out_high` differ
+ * where float arithmetic could decide either way. */
+static void project(const double normal[3], double step, int out_low[2], int out_high[2])
 {
-    /* Lambert's: the plane's radius is 2 sin(angle / 2). */
-    const double angle = acos(fmax(fmin(normal[2], 1.0), -1.0));
-    const double across = hypot(normal[0], normal[1]);
-    for (int i = 0; i < 2; ++i)
-        out[i] = across > 0.0 ? 2.0 * sin(0.5 * angle) * normal[i] / across : 0.0;
+    const double angle = acos(fmax(fmin(normal[2], 1.0), -1.0)), across = hypot(normal[0], normal[1]);
+    for (int i = 0; i < 2; ++i) {
+        const double at = (across > 0.0 ? 2.0 * sin(0.5 * angle) * normal[i] / across : 0.0) / step + 15.5;
+        out_low[i] = (int)fmin(fmax(floor(at - 1e-4), 0.0), 31.0);
+        out_high[i] = (int)fmin(fmax(floor(at + 1e-4), 0.0), 31.0);
+    }
 }
 
 /* What a length about a surface comes to in the linear quantity: d(1 / t) = dt / t^2. */
@@ -38,16 +63,6 @@ static truth is_below(double value, double error, double limit)
     return value + error < limit ? YES : value - error >= limit ? NO : MAYBE;
 }
 
-static truth not(truth t)
-{
-    return t == MAYBE ? MAYBE : t == YES ? NO : YES;
-}
-
-static truth both(truth a, truth b)
-{
-    return a == NO || b == NO ? NO : a == YES && b == YES ? YES : MAYBE;
-}
-
 /* Whether b lies on the line through a and c. Differences of equal floats are exact, sky's among them. */
 static truth on_line(double a, double b, double c, double tolerance)
 {
@@ -61,15 +76,13 @@ static truth is_near(double a, double b, double limit)
     return is_below(fabs(a - b), 4.0 * 0x1p-24 * (fabs(a) + fabs(b)), limit);
 }
 
-/* Whether the surface does not turn away from the eye on the way (-1, 0 or 1 in x and y) to a tap; `error` is that of a
- * projected normal. */
-static truth joins(const double center[2], const double tap[2], int way_x, int way_y, double chord, double error)
+/* Whether the surface does not turn away from the eye on the way (-1, 0 or 1 in x and y) to a tap. */
+static truth joins(const int center[2], const int tap[2], int way_x, int way_y, const pass_constants *constants)
 {
-    const double x = tap[0] - center[0], y = tap[1] - center[1];
-    const double along = x * way_x + y * way_y;
-    const truth alike = is_below(hypot(x, y), 4.0 * error, chord);
-    const truth hollow = is_below(along, along != 0.0 ? 4.0 * error : 0.0, 0.0);
-    return not(both(not(alike), not(hollow)));
+    const int x = tap[0] - center[0], y = tap[1] - center[1];
+    if (x * way_x + y * way_y <= 0)
+        return YES; /* alike, or a hollow */
+    return is_below(hypot(x, y) * constants->normal_step, 1e-6, constants->chord);
 }
 
 /* Calls `result` for each way in which the tests that may come out both ways can. */
@@ -137,8 +150,8 @@ void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic
     for (int i = 0, test = JOINS_BEFORE_2; i < 5; ++i)
         if (i != 2) {
             const int way = i < 2 ? -1 : 1;
-            tests[test++] = joins(taps[2].normal, taps[i].normal, horizontal ? way : 0, horizontal ? 0 : way,
-                                  constants->chord, 0x1p-24);
+            tests[test++] =
+                joins(taps[2].normal, taps[i].normal, horizontal ? way : 0, horizontal ? 0 : way, constants);
         }
     tests[NEAR_BEFORE] = is_near(taps[1].linear, taps[2].linear, near);
     tests[NEAR_AFTER] = is_near(taps[3].linear, taps[2].linear, near);
@@ -184,19 +197,32 @@ static double upsampled(const truth *t, const void *user)
     return total > 0.0 ? sum / total : nearest(t, f);
 }
 
+/* As joins, from a pixel whose steps are not certain. */
+static truth joins_either(const int low[2], const int high[2], const int tap[2], int way_x, int way_y,
+                          const pass_constants *constants)
+{
+    truth all = joins(low, tap, way_x, way_y, constants);
+    for (int i = 1; i < 4; ++i) {
+        const int corner[2] = {i % 2 ? high[0] : low[0], i / 2 ? high[1] : low[1]};
+        all = joins(corner, tap, way_x, way_y, constants) == all ? all : MAYBE;
+    }
+    return all;
+}
+
 void upsample_model(const paired_map *half, bool orthographic, const pass_constants *constants, const full_pixel *own,
                     int x, int y, double *out_low, double *out_high)
 {
     /* A half-size texel stands for the full-size one of twice its index. */
     four f = {.error = 8.0 * 0x1p-24 * fabs(own->linear), .around_crease = constants->around_crease};
     truth tests[UPSAMPLE_TESTS];
-    double mean = 0.0, normal[2];
-    project_normal(own->normal, normal);
+    double mean = 0.0;
+    int low[2], high[2];
+    project(own->normal, constants->normal_step, low, high);
     for (int i = 0; i < 4; ++i) {
         const int way_x = (i % 2 ? 1 : -1) * (x % 2), way_y = (i / 2 ? 1 : -1) * (y % 2);
         f.at[i] = texel_at(half, x / 2 + (i % 2) * (x % 2), y / 2 + (i / 2) * (y % 2));
         f.apart[i] = fabs(f.at[i].linear - own->linear);
-        tests[JOINS_0 + i] = joins(normal, f.at[i].normal, way_x, way_y, constants->chord, 1e-5);
+        tests[JOINS_0 + i] = joins_either(low, high, f.at[i].normal, way_x, way_y, constants);
         tests[NEAR_0 + i] = is_below(f.apart[i], f.error, in_linear(constants->near, own->linear, orthographic));
         mean += 0.25 * (f.at[i].linear - own->linear);
     }

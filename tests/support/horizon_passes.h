@@ -8,19 +8,18 @@
 
 #include <stdbool.h>
 
-enum { PAIRED_CHANNELS = 4 };
-
-/* Accessibility, the linear quantity of distance (1 / distance in perspective, distance in orthographic views), and the
- * normal's equal-area projection. */
+/* Two floats a texel, as the passes hand them on: accessibility, whose ten lowest bits hold the normal's equal-area
+ * projection, and the linear quantity of distance (1 / distance in perspective, distance in orthographic views). */
 typedef struct paired_map {
-    float *texels; /* PAIRED_CHANNELS each */
+    float *texels; /* three a texel, the third unused */
     int width, height;
 } paired_map;
 
 typedef struct pass_constants {
     double tolerance, near; /* scene units */
     double chord;           /* of two unit normals that belong to different sides of a crease */
-    double around_crease;   /* upsampling alone: how much farther neighbours around a crease count */
+    double normal_step;
+    double around_crease; /* upsampling alone: how much farther neighbours around a crease count */
 } pass_constants;
 
 void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic, const pass_constants *constants,
@@ -34,7 +33,7 @@ typedef struct full_pixel {
 void upsample_model(const paired_map *half, bool orthographic, const pass_constants *constants, const full_pixel *own,
                     int x, int y, double *out_low, double *out_high);
 
-/* The equal-area projection of a unit normal. */
-void project_normal(const double normal[3], double out[2]);
+/* Accessibility of a texel without the bits of the normal. */
+double paired_accessibility(float red);
 
 #endif

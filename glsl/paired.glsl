@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// What the passes after the estimate read of a pixel, in two floats: accessibility, whose ten lowest bits hold the normal,
+// and the linear quantity of distance. PAIRED 1: the pass writes it; 0: it writes accessibility alone.
+//
+// The normal is kept in Lambert's azimuthal equal-area projection, in which the distance of two is about their chord; the
+// one direction without a picture, away from the eye, comes out far from all others.
+
+const float NORMAL_STEP = 0.1; // of its two coordinates, -1.5 to 1.6
+
+uint normal_code(vec3 normal_view)
+{
+    vec2 projected = normal_view.xy * inversesqrt(max(0.5 + 0.5 * normal_view.z, 1e-4));
+    uvec2 code = uvec2(clamp(projected / NORMAL_STEP + 15.5, 0.0, 31.0));
+    return code.x << 5 | code.y;
+}
+
+uint normal_code(vec2 paired)
+{
+    return floatBitsToUint(paired.x) & 1023u;
+}
+
+// The change of the projected normal from one code to another.
+vec2 normal_change(uint from, uint to)
+{
+    return NORMAL_STEP * vec2(ivec2(to >> 5, to & 31u) - ivec2(from >> 5, from & 31u));
+}
+
+float accessibility_of(vec2 paired)
+{
+    return uintBitsToFloat(floatBitsToUint(paired.x) & ~1023u);
+}
+
+#if PAIRED
+#define AMBIENT vec2
+// Rounded to the 13 bits left, 4 steps of R16 about 1. The floor, which R16 rounds to 0, keeps the bits from being those
+// of a denormal number, which drivers may flush.
+vec2 ambient(float accessibility, float linear, uint code)
+{
+    uint bits = floatBitsToUint(max(accessibility, 2e-6)) + 512u;
+    return vec2(uintBitsToFloat((bits & ~1023u) | code), linear);
+}
+#else
+#define AMBIENT float
+float ambient(float accessibility, float linear, uint code)
+{
+    return accessibility;
+}
+#endif
+
+// Chord of two unit normals that belong to different sides of a crease, 41 degrees; found by experiment.
+const float CHORD = 0.7;
+
+// Whether a surface turns away from the eye toward a neighbour in the picture: by how much its projected normal changes on
+// the way, and where the neighbour lies. In a hollow both sides darken, and smoothing over it does no harm.
+bool turns_away(vec2 change, vec2 way)
+{
+    return dot(change, change) > CHORD * CHORD && dot(change, way) > 0.0;
+}
