@@ -297,10 +297,11 @@ void main()
 #if SLICES_2
     occlusion = 0.5 * (occlusion + slice_occlusion(f, normal_view, up, px, 0.5 * (noise.x + 1.0), noise.y));
 #endif
-    // pow() is undefined for a base of 0 with power 0, and for the negative that rounding can leave.
+    // pow() is undefined for a base of 0 with power 0, and for the negative that rounding can leave, as it can leave more
+    // than 1.
     float open = max(1.0 - occlusion, 1e-6);
 #if ACCUMULATE
-    o_ambient = gAccumulation.xy * pow(open, CALIBRATION);
+    o_ambient = gAccumulation.xy * min(pow(open, CALIBRATION), 1.0);
 #else
     o_ambient = ambient(clamp(pow(open, CALIBRATION * gPower), 0.0, 1.0), linear, code);
 #endif

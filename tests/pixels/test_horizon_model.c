@@ -75,6 +75,17 @@ static double distance_error(const setup *s, const float *depth, const float *di
     return worst;
 }
 
+/* Thickness and how far behind the next front face lies. */
+static float *read_layers(uint32_t map, int width, int height)
+{
+    float *texels = fixture_read_texture(map, width, height, 3);
+    for (int i = 0; i < width * height; ++i) {
+        texels[2 * i] = texels[3 * i + 1];
+        texels[2 * i + 1] = texels[3 * i + 2];
+    }
+    return texels;
+}
+
 /* `depth`: full size, as its texture holds it. Returns the share of pixels that are occluded. */
 static double check(setup *s, const float *depth, const vagueness *most, const char *what)
 {
@@ -83,6 +94,7 @@ static double check(setup *s, const float *depth, const vagueness *most, const c
     const uint32_t map = horizon_distance_map(s->effect, &map_width, &map_height);
     assert_true(map_width == width && map_height == height);
     float *distance = fixture_read_texture(map, width, height, 1);
+    float *layers = s->frame.back_texture ? read_layers(map, width, height) : NULL;
     float *normals = s->normals;
     if (!normals)
         normals = fixture_read_texture(glssao_map(s->effect, GLSSAO_MAP_NORMAL, &normal_width, &normal_height),
@@ -94,6 +106,7 @@ static double check(setup *s, const float *depth, const vagueness *most, const c
         .width = width,
         .height = height,
         .distance = distance,
+        .layers = layers,
         .normals = normals,
         .radius = (double)s->settings.radius,
         .power = (double)s->settings.power,
@@ -125,6 +138,7 @@ static double check(setup *s, const float *depth, const vagueness *most, const c
     if (normals != s->normals)
         free(normals);
     free(distance);
+    free(layers);
     free(got);
     assert_int_equal(wrong, 0);
     assert_true(off < 4.0);
@@ -237,6 +251,32 @@ static double next_random(uint32_t *state)
     return (*state >> 8) * 0x1p-24;
 }
 
+static GLuint distance_texture(int width, int height, const float *distance)
+{
+    GLuint texture;
+    gl.GenTextures(1, &texture);
+    gl.BindTexture(GL_TEXTURE_2D, texture);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, width, height, 0, GL_RED, GL_FLOAT, distance);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    return texture;
+}
+
+/* Back faces and second front faces: some close, some far, some missing. */
+static void add_layers(setup *s, const float *distance, double radius, uint32_t *random)
+{
+    const int count = s->width * s->height;
+    float *layer = malloc((size_t)count * sizeof *layer);
+    GLuint *out[] = {&s->frame.back_texture, &s->frame.second_texture};
+    for (int k = 0; k < 2; ++k) {
+        for (int i = 0; i < count; ++i)
+            layer[i] = next_random(random) < 0.2
+                           ? INFINITY
+                           : (float)((double)distance[i] + radius * pow(10.0, 3.0 * next_random(random) - 2.0));
+        *out[k] = distance_texture(s->width, s->height, layer);
+    }
+    free(layer);
+}
+
 /* Distances and normals of no scene at all: some sky, some normals that look away, all heights from runs of steps to
  * noise. */
 static void agrees_on_random_frames(void **state)
@@ -273,22 +313,86 @@ static void agrees_on_random_frames(void **state)
                    .width = width,
                    .height = height,
                    .normals = normals};
-        gl.GenTextures(1, &s.frame.depth_texture);
-        gl.BindTexture(GL_TEXTURE_2D, s.frame.depth_texture);
-        gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, width, height, 0, GL_RED, GL_FLOAT, distance);
-        gl.BindTexture(GL_TEXTURE_2D, 0);
+        s.frame.depth_texture = distance_texture(width, height, distance);
+        const bool layers = seed % 3 == 0;
+        if (layers)
+            add_layers(&s, distance, radius, &random);
         memcpy(s.frame.projection, view.projection, sizeof view.projection);
         char what[120];
-        snprintf(what, sizeof what, "seed %u: %dx%d, %d samples, radius %.3f, roughness %.4f%s", seed, width, height,
-                 sample_count, radius, roughness, orthographic ? ", orthographic" : "");
+        snprintf(what, sizeof what, "seed %u: %dx%d, %d samples, radius %.3f, roughness %.4f%s%s", seed, width, height,
+                 sample_count, radius, roughness, orthographic ? ", orthographic" : "", layers ? ", layers" : "");
         const vagueness most = {0.005, 0.01};
         (void)check(&s, distance, &most, what);
         gl.DeleteTextures(1, &s.frame.depth_texture);
         gl.DeleteTextures(1, &s.frame.normal_texture);
+        gl.DeleteTextures(1, &s.frame.back_texture);
+        gl.DeleteTextures(1, &s.frame.second_texture);
         glssao_destroy(s.effect);
         free(distance);
         free(normals);
     }
+}
+
+/* Each estimate that glssao_accumulate adds has other noise, and every second one the tile turned over. */
+static void agrees_for_each_estimate_of_a_still_view(void **state)
+{
+    enum { WIDTH = 80, HEIGHT = 60, ESTIMATES = 5 };
+    analytic_shape shapes[SCENE_SHAPES];
+    const int count = make_posts(shapes);
+    const analytic_view view = analytic_make_view(PERSPECTIVE, (double)WIDTH / HEIGHT, 0.5, 40.0, 1.0);
+    float *depth, *normals;
+    analytic_render(&view, shapes, count, WIDTH, HEIGHT, &depth, &normals);
+    glssao_effect *effect = fixture_effect(*state, WIDTH, HEIGHT);
+    glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, WIDTH, HEIGHT, depth),
+                          .normal_texture = fixture_normal_texture(WIDTH, HEIGHT, normals),
+                          .clip_zero_to_one = view.clip_zero_to_one};
+    memcpy(frame.projection, view.projection, sizeof view.projection);
+    const glssao_settings settings = bare_settings(12, false, 0.8);
+    horizon_input in = {.full_width = WIDTH,
+                        .full_height = HEIGHT,
+                        .factor = 1,
+                        .width = WIDTH,
+                        .height = HEIGHT,
+                        .normals = normals,
+                        .radius = (double)settings.radius,
+                        .power = 1.0};
+    memcpy(in.projection, frame.projection, sizeof in.projection);
+    float *before = calloc(3 * WIDTH * HEIGHT, sizeof *before), *distance = NULL;
+    int turned = 0;
+    double worst = 0.0, offset = -1.0;
+    for (int k = 0; k < ESTIMATES; ++k) {
+        int width, height;
+        assert_int_equal(glssao_accumulate(effect, &frame, &settings), GLSSAO_OK);
+        float *sum = fixture_read_texture(horizon_sum_map(effect), WIDTH, HEIGHT, 3);
+        if (!distance)
+            distance = fixture_read_texture(horizon_distance_map(effect, &width, &height), WIDTH, HEIGHT, 1);
+        in.distance = distance;
+        assert_true(horizon_variant(effect, &in));
+        horizon_read_noise(effect, &in);
+        assert_true(in.noise_offset[0] != offset);
+        offset = in.noise_offset[0];
+        turned += in.turned_over;
+        const int channel = in.turned_over ? 1 : 0;
+        for (int i = 0; i < WIDTH * HEIGHT; ++i) {
+            double low, high;
+            horizon_model(&in, i % WIDTH, i / WIDTH, &low, &high);
+            const double value = (double)sum[3 * i + channel] - (double)before[3 * i + channel];
+            worst = fmax(worst, fmax(low - value, value - high));
+            assert_true(sum[3 * i + 1 - channel] == before[3 * i + 1 - channel]);
+        }
+        free(before);
+        before = sum;
+    }
+    print_message("worst outside interval %.2e\n", worst);
+    assert_true(worst < 6e-6); /* the driver's pow() */
+    assert_true(turned == ESTIMATES / 2);
+    gl.DeleteTextures(1, &frame.depth_texture);
+    gl.DeleteTextures(1, &frame.normal_texture);
+    glssao_destroy(effect);
+    free(before);
+    free(distance);
+    free(depth);
+    free(normals);
 }
 
 /* The polynomial against the integral of cos(t - g) sin(t) over 0 <= t <= acos(c), g to either side. */
@@ -336,6 +440,7 @@ int main(void)
         GL_TEST(agrees_for_every_projection),
         GL_TEST(agrees_at_other_settings),
         GL_TEST(agrees_on_random_frames),
+        GL_TEST(agrees_for_each_estimate_of_a_still_view),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
 }

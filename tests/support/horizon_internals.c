@@ -46,5 +46,17 @@ bool horizon_variant(const glssao_effect *effect, horizon_input *out)
     out->slices = variant & VARIANT_SLICES_2 ? 2 : 1;
     const char *pieces[GLSSAO__PROGRAM_MAX_SOURCES];
     const int count = glssao__program_sources(SHADER_HORIZON, variant, GL_FRAGMENT_SHADER, pieces);
-    return found == 1 && horizon_read_constants(pieces, count, &out->constants);
+    return found == 1 && horizon_read_constants(pieces, count, variant & VARIANT_LAYERS, &out->constants);
+}
+
+uint32_t horizon_sum_map(const glssao_effect *effect)
+{
+    return effect->accumulation.sum.texture;
+}
+
+void horizon_read_noise(const glssao_effect *effect, horizon_input *out)
+{
+    for (int i = 0; i < 2; ++i)
+        out->noise_offset[i] = (double)effect->frame_constants.gNoise[i];
+    out->turned_over = effect->frame_constants.gAccumulation[0] == 0.0f;
 }

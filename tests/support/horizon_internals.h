@@ -16,6 +16,12 @@ uint32_t horizon_distance_map(const glssao_effect *effect, int *out_width, int *
 /* One of the two maps that the passes after the estimate read, by turns; see paired_map. */
 uint32_t horizon_paired_map(const glssao_effect *effect, int number);
 
+/* What accumulation sums up: linear accessibility of two replicates, full size. */
+uint32_t horizon_sum_map(const glssao_effect *effect);
+
+/* Noise of the last estimate that was added to it. */
+void horizon_read_noise(const glssao_effect *effect, horizon_input *out);
+
 /* Constants of the planar blur and of upsampling, lengths in units of the radius; false where one is missing. */
 bool horizon_read_pass_constants(pass_constants *out_blur, pass_constants *out_upsample);
 

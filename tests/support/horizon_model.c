@@ -7,7 +7,7 @@
 static const double SKY = (double)1e15f; /* view distance that stands for none */
 static const double TRIGONOMETRY = 4e-7; /* error of a driver's sine and cosine: GLSL leaves it open */
 
-bool horizon_read_constants(const char *const *pieces, int count, horizon_constants *out)
+bool horizon_read_constants(const char *const *pieces, int count, bool layers, horizon_constants *out)
 {
     const struct {
         const char *name;
@@ -18,8 +18,9 @@ bool horizon_read_constants(const char *const *pieces, int count, horizon_consta
                   {"WIDTH", &out->width},
                   {"VEIL", &out->veil},
                   {"VEIL_WIDTH", &out->veil_width},
-                  {"CALIBRATION", &out->calibration}};
-    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; ++i)
+                  {"CALIBRATION", &out->calibration},
+                  {"SECOND", &out->second}};
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted - !layers; ++i)
         if (!shader_constant(pieces, count, wanted[i].name, wanted[i].out))
             return false;
     return true;
@@ -88,6 +89,11 @@ static void take_sample(const point *p, const slice *s, double along, candidate 
                          exactly(p->orthographic ? 1.0 : p->distance));
         c->step.e += 4.0 * ROUNDING * c->step.v;
         c->sky = distance >= SKY;
+        if (in->layers) {
+            const float *layers = in->layers + 2 * (ty * in->width + tx);
+            c->thickness = clamp_to(multiply(deeper, exactly((double)layers[0])), -HUGE_VAL, 1e6);
+            c->behind = clamp_to(multiply(deeper, exactly((double)layers[1])), -HUGE_VAL, 1e6);
+        }
     }
 }
 
@@ -172,7 +178,8 @@ static void tile_noise(const horizon_input *in, int x, int y, double out[2])
     int mirrored = 0; /* the four bits in reverse */
     for (int bit = 0; bit < 4; ++bit)
         mirrored |= (rank >> bit & 1) << (3 - bit);
-    const double noise[2] = {(rank + 0.5) / 16.0, (mirrored + 0.5) / 16.0};
+    const double parts[2] = {(rank + 0.5) / 16.0, (mirrored + 0.5) / 16.0};
+    const double noise[2] = {parts[in->turned_over], parts[!in->turned_over]};
     for (int i = 0; i < 2; ++i)
         out[i] = noise[i] + in->noise_offset[i] - floor(noise[i] + in->noise_offset[i]);
 }

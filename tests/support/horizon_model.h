@@ -15,20 +15,24 @@
 
 typedef struct horizon_constants {
     double jump, alike, open_end, width, veil, veil_width, calibration;
+    double second; /* with layers alone */
 } horizon_constants;
 
 /* False where a constant is not found in the pieces of the fragment shader's source. */
-bool horizon_read_constants(const char *const *pieces, int count, horizon_constants *out);
+bool horizon_read_constants(const char *const *pieces, int count, bool layers, horizon_constants *out);
 
 typedef struct horizon_input {
     int full_width, full_height, factor; /* factor: full-size texels per texel of the estimate */
     int width, height;                   /* of the estimate */
     const float *distance;               /* view distance at the estimate's size; 1e15 on sky */
-    const float *normals;                /* xyz a pixel, view space, full size */
+    const float *layers;  /* two a pixel: thickness, negative where it is not known, and how far behind the next front
+                             face lies; NULL: none known */
+    const float *normals; /* xyz a pixel, view space, full size */
     float projection[16];
     double radius, power;
     int slices, steps;
     double noise_offset[2]; /* added to the tile's angle and jitter, which wrap at 1 */
+    bool turned_over;       /* the tile's angle and jitter change places */
     horizon_constants constants;
 } horizon_input;
 

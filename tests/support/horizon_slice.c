@@ -49,47 +49,68 @@ static interval cosine_of(interval x, interval y)
     return (interval){c.low - error, c.high + error};
 }
 
-/* Adds what one sample hides, whose run is `width` steps wide. */
-static void add_sample(const point *p, const slice *s, const side *d, const candidate *at, rounded width, hidden *h)
+/* Where a sample lies: outwards, half the chord of the sphere there, and whether it may count for nothing. */
+typedef struct place {
+    interval outward, chord;
+    bool maybe_outside;
+} place;
+
+/* Adds what lies hidden between two heights; returns the cosine of the upper one's horizon, `lowest` where nothing is.
+ */
+static interval hide_between(const slice *s, const side *d, const place *at, interval y_top, interval y_bottom,
+                             hidden *h)
 {
-    const interval x = bounds(at->x), y = bounds(at->y);
-    if (x.high <= 0.0 || x.low >= 1.0 + 4.0 * ROUNDING)
-        return; /* on the point or on the other side of it; beyond the sphere */
-    const bool maybe_outside = x.low <= 0.0 || x.high >= 1.0 - 4.0 * ROUNDING;
-    const interval outward = {fmax(x.low, 0.0), x.high};
-    const rounded thickness = multiply(multiply(once_rounded(p->in->constants.width), width), at->step);
-    const double square_error = 4.0 * ROUNDING;
-    const interval chord = {sqrt(fmax(1.0 - outward.high * outward.high - square_error, 0.0)),
-                            sqrt(fmax(1.0 - outward.low * outward.low + square_error, 0.0))};
-    const interval top = {fmin(y.low, chord.low), fmin(y.high, chord.high)};
-    const interval below = bounds(subtract(at->y, thickness));
-    const interval bottom = {fmax(below.low, -chord.high), fmax(below.high, -chord.low)};
+    const interval top = {fmin(y_top.low, at->chord.low), fmin(y_top.high, at->chord.high)};
+    const interval bottom = {fmax(y_bottom.low, -at->chord.high), fmax(y_bottom.high, -at->chord.low)};
     const interval lowest = bounds(d->lowest);
-    const interval cos_top = cosine_of(outward, top), cos_bottom = cosine_of(outward, bottom);
+    const interval cos_top = cosine_of(at->outward, top), cos_bottom = cosine_of(at->outward, bottom);
     if (cos_top.high <= lowest.low)
-        return;
+        return lowest;
     const interval t = {fmax(cos_top.low, lowest.low), fmax(cos_top.high, lowest.high)};
     const interval b = {fmin(fmax(cos_bottom.low, lowest.low), t.high),
                         fmin(fmax(cos_bottom.high, lowest.high), t.high)};
-
-    const double veil_width = p->in->constants.veil_width;
-    if (thickness.v + thickness.e > veil_width)
-        h->highest.high = fmax(h->highest.high, t.high);
-    if (thickness.v - thickness.e > veil_width && !maybe_outside)
-        h->highest.low = fmax(h->highest.low, t.low);
-
     if (bottom.low >= top.high)
-        return; /* below the sphere */
+        return t; /* below the sphere */
     int top_least, top_most, bottom_least, bottom_most;
     sector(s, d, t, &top_least, &top_most);
     sector(s, d, b, &bottom_least, &bottom_most);
     if (d->minus) {
         h->possibly |= sectors_between(bottom_least, top_most);
-        h->surely |= maybe_outside ? 0 : sectors_between(bottom_most, top_least);
+        h->surely |= at->maybe_outside ? 0 : sectors_between(bottom_most, top_least);
     } else {
         h->possibly |= sectors_between(top_least, bottom_most);
-        h->surely |= maybe_outside ? 0 : sectors_between(top_most, bottom_least);
+        h->surely |= at->maybe_outside ? 0 : sectors_between(top_most, bottom_least);
     }
+    return t;
+}
+
+/* Adds what one sample hides, whose run is `width` steps wide. */
+static void add_sample(const point *p, const slice *s, const side *d, const candidate *at, rounded width, hidden *h)
+{
+    const horizon_constants *c = &p->in->constants;
+    const interval x = bounds(at->x), y = bounds(at->y);
+    if (x.high <= 0.0 || x.low >= 1.0 + 4.0 * ROUNDING)
+        return; /* on the point or on the other side of it; beyond the sphere */
+    const double square_error = 4.0 * ROUNDING;
+    place here = {.outward = {fmax(x.low, 0.0), x.high},
+                  .maybe_outside = x.low <= 0.0 || x.high >= 1.0 - 4.0 * ROUNDING};
+    here.chord = (interval){sqrt(fmax(1.0 - here.outward.high * here.outward.high - square_error, 0.0)),
+                            sqrt(fmax(1.0 - here.outward.low * here.outward.low + square_error, 0.0))};
+    rounded thickness = multiply(multiply(once_rounded(c->width), width), at->step);
+    if (p->in->layers) {
+        interval second = bounds(subtract(at->y, at->behind));
+        second = (interval){fmin(second.low, here.chord.low), fmin(second.high, here.chord.high)};
+        const interval deep = bounds(multiply(once_rounded(c->second), thickness));
+        const double error = 4.0 * ROUNDING * fmax(fabs(second.low), fabs(second.high));
+        (void)hide_between(s, d, &here, second,
+                           (interval){second.low - deep.high - error, second.high - deep.low + error}, h);
+        thickness = at->thickness.v >= 0.0 ? at->thickness : thickness;
+    }
+    const interval t = hide_between(s, d, &here, y, bounds(subtract(at->y, thickness)), h);
+    if (thickness.v + thickness.e > c->veil_width)
+        h->highest.high = fmax(h->highest.high, t.high);
+    if (thickness.v - thickness.e > c->veil_width && !here.maybe_outside)
+        h->highest.low = fmax(h->highest.low, t.low);
 }
 
 /* Both ways of what could not be decided. */

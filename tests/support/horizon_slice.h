@@ -40,6 +40,7 @@ typedef struct slice {
  * width of a step there. */
 typedef struct candidate {
     rounded x, y, step;
+    rounded thickness, behind; /* of the layers, where there are any; thickness is negative where it is not known */
     bool sky;
 } candidate;
 
