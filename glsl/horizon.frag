@@ -202,14 +202,24 @@ uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, polyn
     return mask;
 }
 
-// Ordered tile: 4x4 Bayer for the angle, the same bits reversed for the jitter along the slice.
+// Ordered tile: Bayer's matrix for the angle, the same bits reversed for the jitter along the slice. A single slice of few
+// samples takes the 8x8 matrix, any 4x4 of which are spread alike: with the smaller one, the few places that are looked
+// at show as streaks on a wall behind a large occluder.
 vec2 tile_noise()
 {
-    uvec2 p = uvec2(pixel_center()) & 3u;
+    uvec2 p = uvec2(pixel_center());
     uint x = p.x ^ p.y;
-    uint bayer = ((x & 1u) << 3) | ((p.y & 1u) << 2) | (x & 2u) | (p.y >> 1);
+#if SLICES_2
+    uint bayer = ((x & 1u) << 3) | ((p.y & 1u) << 2) | (x & 2u) | ((p.y & 2u) >> 1);
     uint reversed = ((bayer & 1u) << 3) | ((bayer & 2u) << 1) | ((bayer & 4u) >> 1) | (bayer >> 3);
     vec2 noise = (vec2(bayer, reversed) + 0.5) / 16.0;
+#else
+    uint bayer = ((x & 1u) << 5) | ((p.y & 1u) << 4) | ((x & 2u) << 2) | ((p.y & 2u) << 1) | ((x & 4u) >> 1) |
+                 ((p.y & 4u) >> 2);
+    uint reversed = ((bayer & 1u) << 5) | ((bayer & 2u) << 3) | ((bayer & 4u) << 1) | ((bayer & 8u) >> 1) |
+                    ((bayer & 16u) >> 3) | (bayer >> 5);
+    vec2 noise = (vec2(bayer, reversed) + 0.5) / 64.0;
+#endif
 #if ACCUMULATE
     // The second replicate has the tile turned over, so that the two differ by another offset in each pixel of the tile.
     noise = fract((gAccumulation.x > 0.0 ? noise : noise.yx) + gNoise);

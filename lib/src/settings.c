@@ -30,7 +30,8 @@ static glssao_settings horizon_settings(glssao_settings s, glssao_quality qualit
     s.half_resolution = quality != GLSSAO_ULTRA;
     s.upsample = quality != GLSSAO_LOW;
     s.blur = GLSSAO_BLUR_PLANAR;
-    s.blur_rounds = 1;
+    /* The noise of a single slice is spread over twice the tile that one round smooths. */
+    s.blur_rounds = quality <= GLSSAO_MEDIUM ? 2 : 1;
     return s;
 }
 

@@ -169,16 +169,18 @@ static interval slice_occlusion(const point *p, double angle, double jitter)
                       projected.high * ((1.0 - share) * covered.high + share * veiled.high) + 4.0 * ROUNDING};
 }
 
-/* The ordered tile: Bayer's matrix, as ranks, row by row from the bottom. */
-static const int bayer[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
+/* Bayer's matrix as ranks, row by row from the bottom; each next size is made of four times the one before. */
+static const int bayer[2][2] = {{0, 2}, {3, 1}};
 
 static void tile_noise(const horizon_input *in, int x, int y, double out[2])
 {
-    const int rank = bayer[y % 4][x % 4];
-    int mirrored = 0; /* the four bits in reverse */
-    for (int bit = 0; bit < 4; ++bit)
-        mirrored |= (rank >> bit & 1) << (3 - bit);
-    const double parts[2] = {(rank + 0.5) / 16.0, (mirrored + 0.5) / 16.0};
+    const int doublings = in->slices == 1 ? 3 : 2, count = 1 << 2 * doublings;
+    int rank = 0, mirrored = 0; /* its bits in reverse */
+    for (int i = 0; i < doublings; ++i)
+        rank = 4 * rank + bayer[y >> i & 1][x >> i & 1];
+    for (int bit = 0; bit < 2 * doublings; ++bit)
+        mirrored |= (rank >> bit & 1) << (2 * doublings - 1 - bit);
+    const double parts[2] = {(rank + 0.5) / count, (mirrored + 0.5) / count};
     const double noise[2] = {parts[in->turned_over], parts[!in->turned_over]};
     for (int i = 0; i < 2; ++i)
         out[i] = noise[i] + in->noise_offset[i] - floor(noise[i] + in->noise_offset[i]);
