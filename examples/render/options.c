@@ -22,7 +22,7 @@ static bool parse_option(int argc, char **argv, int *at, options_program program
         return false;
     }
     if (program == OPTIONS_JOB && o->scope != SCOPE_PICTURE) {
-        snprintf(error, error_size, "--%s is for the whole batch: it belongs on the command line", o->name);
+        snprintf(error, error_size, "--%s: of the whole run, not of a job in a list", o->name);
         return false;
     }
     const char *rest = is_long ? argument + 2 + name_length : argument + 2;

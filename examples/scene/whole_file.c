@@ -38,7 +38,7 @@ bool whole_file_open(whole_file *f, const char *path, char *error, size_t error_
 {
     struct stat status;
     const bool exists = stat(path, &status) == 0;
-    *f = (whole_file){.file = NULL};
+    *f = (whole_file){.name = path};
     f->path = exists ? realpath(path, NULL) : NULL;
     if (!f->path) {
         f->path = malloc(strlen(path) + 1);
@@ -70,11 +70,11 @@ bool whole_file_close(whole_file *f, bool written, char *error, size_t error_siz
     struct stat status;
     const bool is_regular = fstat(fileno(f->file), &status) == 0 && S_ISREG(status.st_mode);
     if (fclose(f->file) != 0 && written) {
-        snprintf(error, error_size, "%s: %s", f->path, strerror(errno));
+        snprintf(error, error_size, "%s: %s", f->name, strerror(errno));
         written = false;
     }
     if (written && f->temporary && rename(f->temporary, f->path) != 0) {
-        snprintf(error, error_size, "%s: %s", f->path, strerror(errno));
+        snprintf(error, error_size, "%s: %s", f->name, strerror(errno));
         written = false;
     }
     if (!written && is_regular) {

@@ -11,12 +11,13 @@
 #include <stdio.h>
 
 typedef struct whole_file {
-    FILE *file;      /* to write to */
-    char *path;      /* what it will be; links followed */
-    char *temporary; /* what it is until then; NULL: `path` itself */
+    FILE *file;       /* to write to */
+    const char *name; /* as it was handed over, for messages */
+    char *path;       /* what it will be; links followed */
+    char *temporary;  /* what it is until then; NULL: `path` itself */
 } whole_file;
 
-/* False, with one line in `error`; any thread. */
+/* False, with one line in `error`; any thread. `path` must live until the file is closed. */
 bool whole_file_open(whole_file *f, const char *path, char *error, size_t error_size);
 
 /* Closes it. Where that fails, or `written` is false already (and `error` says why), nothing of it is left and what was
