@@ -37,9 +37,7 @@ static void *load_scene(void *argument)
 {
     loader *l = argument;
     const double start = clock_wall_ms();
-    const options *o = l->options;
-    l->scene = o->scene_path ? scene_load(o->scene_path, l->error, sizeof l->error)
-                             : scene_make(o->scene_name, l->error, sizeof l->error);
+    l->scene = stage_load_scene(l->options, l->error, sizeof l->error);
     l->ms = clock_wall_ms() - start;
     return NULL;
 }

@@ -52,6 +52,8 @@ const option option_table[] = {
      "a number above 0", SCOPE_PICTURE},
     {0, "camera", "N", "the scene's N-th camera (the first, where it has one)", KIND_INT, AT(camera), 1, 1e9,
      "a whole number from 1", SCOPE_PICTURE},
+    {0, "time", "SECONDS", "the file's first animation at this time (the file as it stands)", KIND_NUMBER, AT(time_s),
+     0, 1e9, "a number of seconds, 0 or more", SCOPE_RENDERED},
     {0, "scene", "NAME", "built-in scene: columns, cornell, steps or plane (columns)", KIND_TEXT, AT(scene_name), 0, 0,
      "", SCOPE_PICTURE},
     {0, "context", "KIND", "auto, egl or osmesa (auto)", KIND_WORD, AT(context), 0, 0, "auto|egl|osmesa", SCOPE_RUN},
@@ -87,6 +89,11 @@ const option option_table[] = {
 };
 const int option_count = sizeof option_table / sizeof option_table[0];
 
+bool option_is_viewers(const option *o)
+{
+    return o->scope != SCOPE_RENDERED && o->scope != SCOPE_BATCH;
+}
+
 const option *option_find(const char *name, size_t length)
 {
     for (int i = 0; i < option_count; i++) {
@@ -112,7 +119,7 @@ static void print_options(bool for_viewer)
     for (int i = 0; i < option_count; i++) {
         const option *o = &option_table[i];
         char left[64];
-        if (for_viewer && o->scope == SCOPE_BATCH) {
+        if (for_viewer && !option_is_viewers(o)) {
             continue;
         }
         snprintf(left, sizeof left, "%c%c%c --%s %s", o->letter ? '-' : ' ', o->letter ? o->letter : ' ',

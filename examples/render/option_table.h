@@ -23,9 +23,10 @@ typedef enum option_kind {
 } option_kind;
 
 typedef enum option_scope {
-    SCOPE_PICTURE, /* of one picture: also in a batch's lines */
-    SCOPE_RUN,     /* of the whole run: on the command line alone */
-    SCOPE_BATCH    /* the same, and not the viewer's */
+    SCOPE_PICTURE,  /* of one picture: also in a batch's lines */
+    SCOPE_RENDERED, /* the same, and not the viewer's */
+    SCOPE_RUN,      /* of the whole run: on the command line alone */
+    SCOPE_BATCH     /* the same, and not the viewer's */
 } option_scope;
 
 typedef struct option {
@@ -42,6 +43,8 @@ typedef struct option {
 
 extern const option option_table[];
 extern const int option_count;
+
+bool option_is_viewers(const option *o);
 
 /* NULL: none. */
 const option *option_find(const char *name, size_t length);

@@ -17,11 +17,11 @@ static bool parse_option(int argc, char **argv, int *at, options_program program
     const bool is_long = argument[1] == '-';
     const size_t name_length = is_long ? strcspn(argument + 2, "=") : 1;
     const option *o = is_long ? option_find(argument + 2, name_length) : option_find_letter(argument[1]);
-    if (!o || (program == OPTIONS_VIEWER && o->scope == SCOPE_BATCH)) {
+    if (!o || (program == OPTIONS_VIEWER && !option_is_viewers(o))) {
         snprintf(error, error_size, "unknown option %s", argument);
         return false;
     }
-    if (program == OPTIONS_JOB && o->scope != SCOPE_PICTURE) {
+    if (program == OPTIONS_JOB && o->scope >= SCOPE_RUN) {
         snprintf(error, error_size, "--%s: of the whole run, not of a job in a list", o->name);
         return false;
     }

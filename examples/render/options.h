@@ -26,7 +26,7 @@ typedef struct options {
     const char *output, *ao, *normals, *depth, *stats; /* NULL: not wanted */
     int width, height;
     int quality, technique, context; /* glssao_quality, glssao_technique, context_kind */
-    options_number radius, power, fov_deg, near_plane, far_plane, error, budget_ms;
+    options_number radius, power, fov_deg, near_plane, far_plane, error, budget_ms, time_s;
     options_vector eye, target, up;
     int sample_count;  /* 0: the quality's own */
     int blur_rounds;   /* -1: the quality's own */

@@ -64,6 +64,8 @@ static bool check_together(const options *o, bool is_viewer, char *error, size_t
         snprintf(error, error_size, "--scene %s and the file %s exclude each other", o->scene_name, o->scene_path);
     } else if (o->scene_name && option_find_word("columns|cornell|steps|plane", o->scene_name) < 0) {
         snprintf(error, error_size, "--scene \"%s\": must be one of columns|cornell|steps|plane", o->scene_name);
+    } else if (o->time_s.given && !o->scene_path) {
+        snprintf(error, error_size, "--time %g: a built-in scene has no animation", (double)o->time_s.value);
     } else if (o->no_ao && o->ao) {
         snprintf(error, error_size, "--no-ao and --ao %s exclude each other", o->ao);
     } else if (o->no_shadows && (o->shadow_size || o->debug_map == OPTIONS_MAP_SHADOW)) {

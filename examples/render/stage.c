@@ -4,6 +4,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+scene *stage_load_scene(const options *o, char *error, size_t error_size)
+{
+    if (!o->scene_path) {
+        return scene_make(o->scene_name, error, error_size);
+    }
+    return o->time_s.given ? scene_load_at(o->scene_path, (double)o->time_s.value, error, error_size)
+                           : scene_load(o->scene_path, error, error_size);
+}
+
 bool stage_open(stage *st, const scene *s, const stage *like, char *error, size_t error_size)
 {
     *st = (stage){.scene = s, .lights = malloc((s->light_count + 1u) * sizeof *st->lights)};

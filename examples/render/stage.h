@@ -6,6 +6,7 @@
 #define GLSSAO_EXAMPLES_STAGE_H
 
 #include "draw.h"
+#include "options.h"
 #include "scene.h"
 #include "trace.h"
 
@@ -16,6 +17,9 @@ typedef struct stage {
     scene_lighting lighting;
     trace_scene *traced; /* NULL: not yet */
 } stage;
+
+/* The options' scene: NULL, with one line in `error`, on failure. Any thread. */
+scene *stage_load_scene(const options *o, char *error, size_t error_size);
 
 /* Uploads the scene, which must outlive the stage; its programs are shared with those of `like` (may be NULL). False,
  * with one line in `error`; stage_close is due in either case. */

@@ -12,6 +12,7 @@
 typedef struct key {
     char *name; /* path, or name of a built-in scene */
     bool is_file;
+    options_number time_s;
     struct stat status; /* of the file, where it has one */
 } key;
 
@@ -49,27 +50,35 @@ stage_cache *stage_cache_create(size_t most_bytes)
 /* `name` is NULL where memory is short. */
 static key make_key(const options *o)
 {
-    key k = {.name = strdup(o->scene_path ? o->scene_path : o->scene_name), .is_file = o->scene_path};
+    key k = {
+        .name = strdup(o->scene_path ? o->scene_path : o->scene_name), .is_file = o->scene_path, .time_s = o->time_s};
     if (k.is_file && stat(o->scene_path, &k.status) != 0) {
         memset(&k.status, 0, sizeof k.status); /* loading will say what is wrong */
     }
     return k;
 }
 
+static bool is_same_time(const key *a, const key *b)
+{
+    return a->time_s.given == b->time_s.given && a->time_s.value == b->time_s.value;
+}
+
 static bool is_same(const key *a, const key *b)
 {
     const struct stat *x = &a->status, *y = &b->status;
-    return a->name && b->name && a->is_file == b->is_file && strcmp(a->name, b->name) == 0 && x->st_dev == y->st_dev &&
-           x->st_ino == y->st_ino && x->st_size == y->st_size && x->st_mtim.tv_sec == y->st_mtim.tv_sec &&
-           x->st_mtim.tv_nsec == y->st_mtim.tv_nsec && x->st_ctim.tv_sec == y->st_ctim.tv_sec &&
-           x->st_ctim.tv_nsec == y->st_ctim.tv_nsec;
+    return a->name && b->name && a->is_file == b->is_file && is_same_time(a, b) && strcmp(a->name, b->name) == 0 &&
+           x->st_dev == y->st_dev && x->st_ino == y->st_ino && x->st_size == y->st_size &&
+           x->st_mtim.tv_sec == y->st_mtim.tv_sec && x->st_mtim.tv_nsec == y->st_mtim.tv_nsec &&
+           x->st_ctim.tv_sec == y->st_ctim.tv_sec && x->st_ctim.tv_nsec == y->st_ctim.tv_nsec;
 }
 
 static void *load(void *argument)
 {
     loading *l = argument;
-    l->scene = l->key.is_file ? scene_load(l->key.name, l->error, sizeof l->error)
-                              : scene_make(l->key.name, l->error, sizeof l->error);
+    const options o = {.scene_path = l->key.is_file ? l->key.name : NULL,
+                       .scene_name = l->key.is_file ? NULL : l->key.name,
+                       .time_s = l->key.time_s};
+    l->scene = stage_load_scene(&o, l->error, sizeof l->error);
     return NULL;
 }
 
@@ -122,7 +131,8 @@ bool stage_cache_load_ahead(stage_cache *c, const options *o)
 static scene *load_scene(stage_cache *c, key *k, char *error, size_t error_size)
 {
     loading *ahead = &c->ahead, here = {.key = *k};
-    if (ahead->used && !is_same(&ahead->key, k) && strcmp(ahead->key.name, k->name) == 0) {
+    if (ahead->used && !is_same(&ahead->key, k) && strcmp(ahead->key.name, k->name) == 0 &&
+        is_same_time(&ahead->key, k)) {
         drop_loading(ahead); /* the file has changed since */
     }
     loading *l = ahead->used && is_same(&ahead->key, k) ? ahead : &here;
