@@ -26,14 +26,18 @@ want() {
     [ -z "$words" ] || grep -qF -- "$words" err || fail "$*: stderr does not say \"$words\""
 }
 
-# A file of its own, whose lone triangle another folder's file of the same name turns round.
+# A triangle that moves by 1 along x in the first second.
 triangle() { # file, the camera's height
     cat >"$1" <<GLTF
 {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
  "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0.3, $2, 3]}],
  "cameras": [{"type": "perspective", "perspective": {"yfov": 0.6, "znear": 0.1}}],
  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
- "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+               {"bufferView": 0, "byteOffset": 8, "componentType": 5126, "count": 2, "type": "SCALAR"},
+               {"bufferView": 0, "componentType": 5126, "count": 2, "type": "VEC3"}],
+ "animations": [{"channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
+                 "samplers": [{"input": 1, "output": 2}]}],
  "bufferViews": [{"buffer": 0, "byteLength": 36}],
  "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}
 GLTF
@@ -50,7 +54,7 @@ cat >list <<'LIST'
 
 -o $to/02.png -s 40x30 --margin 8 --layers 2   # larger, with more targets
 -s 56x46 -o '$to/04 #.png' --normals $to/03.png --scene cornell --seed 9 --shadow-size 64 --debug-map normals
--o "$to/05.png" --error 0.02 a\ b.gltf
+-o "$to/05.png" --error 0.02 --time 0.5 a\ b.gltf
 -t classic --ao $to/06.png --frames 2 "a "'b.gltf'
 -t hemisphere -q low -o $to/07.png --mapped-normals c.gltf
 -o $to/08.png --ao $to/08.pfm --depth $to/08-d.pfm

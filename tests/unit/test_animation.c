@@ -135,6 +135,16 @@ static void morphs_follow_their_weights(void **state)
     assert_float_equal(s->bounds_max[0], 1.25f, 1e-6f);
     assert_float_equal(s->bounds_max[2], 1, 1e-6f);
     scene_destroy(s);
+
+    static const uint8_t bytes[6] = {0, 0, 255, 0, 0, 0}; /* of 255, whether or not the accessor says normalized */
+    gltf_writer small = {0};
+    gltf_put_floats(&small, "VEC3", 3, positions);
+    gltf_put_floats(&small, "SCALAR", 3, times);
+    gltf_put_accessor(&small, gltf_put_view(&small, bytes, sizeof bytes, 0), 5121, "SCALAR", 6, "");
+    gltf_put_floats(&small, "VEC3", 3, by);
+    s = load_at(&small, json, 2);
+    assert_float_equal(s->bounds_max[2], 2, 1e-6f);
+    scene_destroy(s);
 }
 
 static void skins_follow_their_joints(void **state)
