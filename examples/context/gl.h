@@ -36,6 +36,7 @@
     X(CLEARBUFFERFV, ClearBufferfv) \
     X(CLEARCOLOR, ClearColor) \
     X(CLEARDEPTH, ClearDepth) \
+    X(CLIENTWAITSYNC, ClientWaitSync) \
     X(COLORMASK, ColorMask) \
     X(COLORMASKI, ColorMaski) \
     X(COMPILESHADER, CompileShader) \
@@ -49,6 +50,7 @@
     X(DELETERENDERBUFFERS, DeleteRenderbuffers) \
     X(DELETESAMPLERS, DeleteSamplers) \
     X(DELETESHADER, DeleteShader) \
+    X(DELETESYNC, DeleteSync) \
     X(DELETETEXTURES, DeleteTextures) \
     X(DELETEVERTEXARRAYS, DeleteVertexArrays) \
     X(DEPTHFUNC, DepthFunc) \
@@ -65,6 +67,7 @@
     X(ENABLE, Enable) \
     X(ENABLEI, Enablei) \
     X(ENABLEVERTEXATTRIBARRAY, EnableVertexAttribArray) \
+    X(FENCESYNC, FenceSync) \
     X(FINISH, Finish) \
     X(FRAMEBUFFERRENDERBUFFER, FramebufferRenderbuffer) \
     X(FRAMEBUFFERTEXTURE2D, FramebufferTexture2D) \
@@ -102,6 +105,7 @@
     X(ISTEXTURE, IsTexture) \
     X(LINKPROGRAM, LinkProgram) \
     X(LOGICOP, LogicOp) \
+    X(MAPBUFFERRANGE, MapBufferRange) \
     X(PIXELSTOREI, PixelStorei) \
     X(POLYGONMODE, PolygonMode) \
     X(POLYGONOFFSET, PolygonOffset) \
@@ -133,6 +137,7 @@
     X(UNIFORMBLOCKBINDING, UniformBlockBinding) \
     X(UNIFORMMATRIX3FV, UniformMatrix3fv) \
     X(UNIFORMMATRIX4FV, UniformMatrix4fv) \
+    X(UNMAPBUFFER, UnmapBuffer) \
     X(USEPROGRAM, UseProgram) \
     X(VERTEXATTRIB4F, VertexAttrib4f) \
     X(VERTEXATTRIBDIVISOR, VertexAttribDivisor) \

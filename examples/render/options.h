@@ -26,7 +26,7 @@ typedef struct options {
     const char *output, *ao, *normals, *depth, *stats; /* NULL: not wanted */
     int width, height;
     int quality, technique, context; /* glssao_quality, glssao_technique, context_kind */
-    options_number radius, power, fov_deg, near_plane, far_plane, error, budget_ms;
+    options_number radius, power, fov_deg, near_plane, far_plane, error, budget_ms, time_s;
     options_vector eye, target, up;
     int sample_count;  /* 0: the quality's own */
     int blur_rounds;   /* -1: the quality's own */
@@ -39,7 +39,13 @@ typedef struct options {
     int shadow_size; /* texels; 0: not given */
     int debug_map;   /* options_map; OPTIONS_MAP_NONE: not given */
     bool plan, no_ao, help, version;
+    const char *batch;            /* list file, "-": standard input; NULL: one picture, or turntable */
+    int shard_index, shard_count; /* of the batch; count 0: not given */
+    int cache_mib;                /* bound on scenes kept for later jobs */
 } options;
+
+/* Who takes options; what each takes differs. */
+typedef enum options_program { OPTIONS_RENDER, OPTIONS_JOB, OPTIONS_VIEWER } options_program;
 
 /* Of options.technique, behind the library's own. */
 enum { OPTIONS_RAYTRACE = GLSSAO_HORIZON + 1 };
@@ -59,6 +65,10 @@ typedef enum options_result { OPTIONS_RUN, OPTIONS_DONE, OPTIONS_WRONG } options
 /* OPTIONS_DONE: help or version was asked for and printed to stdout. OPTIONS_WRONG: one line in `error` names the
  * option and the value. The strings live as long as argv. */
 options_result options_parse(int argc, char **argv, options *out, char *error, size_t error_size);
+
+/* One line of a batch, argv[0] left out, over `defaults`, the command line's: a scene on the line takes the place of
+ * theirs. False, with one line in `error`. */
+bool options_parse_job(const options *defaults, int argc, char **argv, options *out, char *error, size_t error_size);
 
 /* The same command line for glssao-view, which needs no output and takes none of the options that are about files. */
 options_result options_parse_for_viewer(int argc, char **argv, options *out, char *error, size_t error_size);

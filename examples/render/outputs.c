@@ -7,7 +7,6 @@
 
 #include <errno.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -68,37 +67,41 @@ bool outputs_check(const options *o, char *error, size_t error_size)
     return true;
 }
 
-bool outputs_take(const options *o, pipeline *p, const scene_view *view, int number, writer *w, char *error,
-                  size_t error_size)
+bool outputs_take(const options *o, pipeline *p, const scene_view *view, int number, readback *r, writer_slip *slip,
+                  char *error, size_t error_size)
 {
     const pixel_kind ao_kind = o->ao && strcmp(strrchr(o->ao, '.'), ".pfm") == 0 ? PIXELS_FLOAT : PIXELS_GREY8;
     const struct {
         const char *file;
+        pipeline_output output;
         pixel_kind kind;
-    } outputs[] = {{o->output, PIXELS_RGBA8}, {o->ao, ao_kind}, {o->normals, PIXELS_RGBA8}, {o->depth, PIXELS_FLOAT}};
+    } outputs[] = {{o->output, PIPELINE_PICTURE, PIXELS_RGBA8},
+                   {o->ao, PIPELINE_AO, ao_kind},
+                   {o->normals, PIPELINE_NORMALS, PIXELS_RGBA8},
+                   {o->depth, PIPELINE_VIEW_DISTANCE, PIXELS_FLOAT}};
     for (size_t i = 0; i < sizeof outputs / sizeof outputs[0]; i++) {
-        const char *file = outputs[i].file;
-        if (!file) {
+        char path[PATH_LENGTH];
+        if (!outputs[i].file) {
             continue;
         }
-        void *pixels = file == o->output    ? pipeline_read_picture(p)
-                       : file == o->ao      ? pipeline_read_ao(p, ao_kind)
-                       : file == o->normals ? pipeline_read_normals(p)
-                                            : pipeline_read_view_distance(p, view);
-        char path[PATH_LENGTH];
-        if (!pixels) {
-            snprintf(error, error_size, "%s: out of memory for %dx%d pixels", file, o->width, o->height);
+        number_path(outputs[i].file, number, path, sizeof path); /* outputs_check saw that it fits */
+        if (!readback_take(r, p, outputs[i].output, outputs[i].kind, view, path, slip, error, error_size)) {
             return false;
         }
-        const GLenum gl_error = gl.GetError();
-        if (gl_error != GL_NO_ERROR) {
-            free(pixels);
-            snprintf(error, error_size, "%s: not written: OpenGL error 0x%04x while drawing", file, gl_error);
-            return false;
-        }
-        number_path(file, number, path, sizeof path); /* outputs_check saw that it fits */
-        if (!writer_submit(w, path, o->width, o->height, outputs[i].kind, pixels, error, error_size)) {
-            return false;
+    }
+    return true;
+}
+
+bool outputs_each(const options *o, bool (*visit)(const char *path, void *user), void *user)
+{
+    const char *const files[] = {o->output, o->ao, o->normals, o->depth};
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+        const int last = o->frames ? o->frames : 1;
+        for (int frame = 1; files[i] && frame <= last; frame++) {
+            char path[PATH_LENGTH];
+            if (number_path(files[i], o->frames ? frame : 0, path, sizeof path) && !visit(path, user)) {
+                return false;
+            }
         }
     }
     return true;

@@ -9,11 +9,12 @@
 #include "draw.h"
 #include "gl.h"
 #include "options.h"
+#include "pixel_kind.h"
 #include "progressive.h"
 #include "report.h"
 #include "scene.h"
+#include "stage.h"
 #include "truth.h"
-#include "writer.h"
 
 /* What the command line makes necessary. */
 typedef struct pipeline_wants {
@@ -27,27 +28,36 @@ typedef struct pipeline_wants {
 
 typedef struct pipeline {
     pipeline_wants wants;
-    int width, height; /* of the targets, with the margin */
-    int margin;        /* pixels on each side that are drawn but not delivered */
-    scene_renderer *renderer;
-    glssao_effect *effect; /* NULL where neither occlusion passes nor normals are wanted */
-    truth truth;           /* where traced */
+    int width, height;        /* of the targets, with the margin */
+    int margin;               /* pixels on each side that are drawn but not delivered */
+    stage own;                /* pipeline_create's */
+    scene_renderer *renderer; /* of the stage */
+    scene_lighting lighting;
+    glssao_effect *effect; /* NULL where neither occlusion passes nor normals are wanted; else: */
+    glssao_effect *kept;   /* of these, and of the targets' size */
+    bool kept_timers;
+    uint32_t seed;
+    truth truth; /* where traced */
     glssao_settings settings;
     progressive_goal goal; /* zero: one frame as the settings say */
     progressive_report reached;
-    uint32_t seed;
-    scene_lighting lighting;
-    scene_light *lights; /* of lighting */
     scene_draw_options draw_options;
     options_map debug_map;
     GLuint depth, depth_framebuffer, color, color_framebuffer;
     GLuint layers[2], layer_framebuffer; /* back faces and second fronts, where draw_options.layers */
     GLuint scratch, scratch_framebuffer; /* map_view.c's */
+    GLuint maps[PIXEL_KIND_COUNT], map_framebuffers[PIXEL_KIND_COUNT]; /* where maps are drawn to be read back */
 } pipeline;
 
 /* False, with one line in `error`; pipeline_destroy is due in either case. */
 bool pipeline_create(pipeline *p, const scene *s, glssao_load_fn load, void *load_user, const options *o,
                      pipeline_wants wants, char *error, size_t error_size);
+
+/* Makes it draw a stage, which must outlive that, as the options say, from zero or from whatever it drew before: what
+ * fits of the effect, its shaders and the targets stays. False, with one line in `error`; only pipeline_destroy may
+ * follow then. */
+bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_user, const options *o,
+                      pipeline_wants wants, char *error, size_t error_size);
 
 /* The settings that the command line asks for. */
 glssao_settings pipeline_settings(const options *o, const scene *s);
@@ -57,6 +67,8 @@ bool pipeline_resize(pipeline *p, int width, int height, char *error, size_t err
 
 /* The accessibility map of the last frame. */
 GLuint pipeline_ambient_map(const pipeline *p);
+
+/* Leaves zero. */
 void pipeline_destroy(pipeline *p);
 
 /* Draws all that is wanted, and ends the phases of `times` as it goes. `view` has the margin on it. */
@@ -66,13 +78,39 @@ bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, char *
  * the pipeline's size whose depth attachment is the pipeline's `depth`. */
 void pipeline_shade(pipeline *p, const scene_view *view, GLuint ambient_map, GLuint framebuffer);
 
-/* Pixels of malloc, bottom to top, without the margin; NULL where memory is short. */
-void *pipeline_read_picture(pipeline *p);                               /* PIXELS_RGBA8, sRGB */
-void *pipeline_read_ao(pipeline *p, pixel_kind kind);                   /* PIXELS_GREY8 or PIXELS_FLOAT */
-void *pipeline_read_normals(pipeline *p);                               /* PIXELS_RGBA8, n * 0.5 + 0.5 */
-void *pipeline_read_view_distance(pipeline *p, const scene_view *view); /* PIXELS_FLOAT */
+/* What can be read back of the frame last drawn, as: */
+typedef enum pipeline_output {
+    PIPELINE_PICTURE,      /* PIXELS_RGBA8, sRGB */
+    PIPELINE_AO,           /* PIXELS_GREY8 or PIXELS_FLOAT */
+    PIPELINE_NORMALS,      /* PIXELS_RGBA8, n * 0.5 + 0.5 */
+    PIPELINE_VIEW_DISTANCE /* PIXELS_FLOAT */
+} pipeline_output;
+
+/* Bytes of an output without the margin. */
+size_t pipeline_output_size(const pipeline *p, pixel_kind kind);
+
+/* Calls glReadPixels for an output, bottom to top, without the margin and without padding: to `pixels`, or to that
+ * offset in the buffer bound to GL_PIXEL_PACK_BUFFER. Reads what was traced from memory, and then needs `pixels`; see
+ * pipeline_is_in_memory. False where GL has no framebuffer for it. */
+bool pipeline_read(pipeline *p, pipeline_output output, pixel_kind kind, const scene_view *view, void *pixels);
+bool pipeline_is_in_memory(const pipeline *p, pipeline_output output, pixel_kind kind);
+
+/* Accessibility, PIXELS_GREY8 or PIXELS_FLOAT, of malloc; NULL where memory is short. */
+void *pipeline_read_ao(pipeline *p, pixel_kind kind);
 
 /* Prints what a frame runs and skips, as a table, to stdout. */
 void pipeline_print_plan(const pipeline *p, const scene_view *view);
+
+/* ---- Between the pipeline's own files: pipeline_targets.c, pipeline.c */
+
+/* Frees the targets. False, with one line in `error`, where the context has no framebuffers of that size. */
+bool pipeline_change_size(pipeline *p, int width, int height, char *error, size_t error_size);
+/* Makes those that are wanted and not there. */
+bool pipeline_make_targets(pipeline *p, char *error, size_t error_size);
+void pipeline_free_targets(pipeline *p);
+/* Where a map is drawn to be read back; 0 where GL has none. */
+GLuint pipeline_map_framebuffer(pipeline *p, pixel_kind kind);
+/* What the effect takes. */
+glssao_frame pipeline_frame(const pipeline *p, const scene_view *view);
 
 #endif

@@ -6,8 +6,8 @@
 
 #include "clock.h"
 #include "gl.h"
+#include "whole_file.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -231,11 +231,11 @@ bool report_write(const report *r, const char *path, char *error, size_t error_s
 {
     static const char *const phase_names[PHASE_COUNT] = {"load", "context", "setup",    "prepass",
                                                          "ao",   "main",    "readback", "encode"};
-    FILE *f = fopen(path, "w");
-    if (!f) {
-        snprintf(error, error_size, "%s: %s", path, strerror(errno));
+    whole_file file;
+    if (!whole_file_open(&file, path, error, error_size)) {
         return false;
     }
+    FILE *f = file.file;
     const uint32_t v = glssao_version();
     fprintf(f, "{\n  \"program\": \"glssao-render %d.%d.%d\",\n  \"library\": \"%u.%u.%u\",\n", GLSSAO_VERSION_MAJOR,
             GLSSAO_VERSION_MINOR, GLSSAO_VERSION_PATCH, v >> 16, v >> 8 & 255, v & 255);
@@ -266,10 +266,8 @@ bool report_write(const report *r, const char *path, char *error, size_t error_s
     print_ms(f, "cpu", r->cpu_ms);
     fputs("}\n}\n", f);
     const bool written = !ferror(f);
-    if (fclose(f) != 0 || !written) {
+    if (!written) {
         snprintf(error, error_size, "%s: it could not be written in full", path);
-        remove(path);
-        return false;
     }
-    return true;
+    return whole_file_close(&file, written, error, error_size);
 }

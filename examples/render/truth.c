@@ -7,9 +7,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-bool truth_open(truth *t, const scene *s, int width, int height, char *error, size_t error_size)
+bool truth_open(truth *t, const trace_scene *s, int width, int height, char *error, size_t error_size)
 {
-    *t = (truth){.width = width, .height = height};
+    t->scene = s;
+    t->stats = (trace_stats){0};
+    if (t->map && t->width == width && t->height == height) {
+        return true;
+    }
+    truth_close(t);
+    *t = (truth){.scene = s, .width = width, .height = height};
     t->accessibility = malloc((size_t)width * (size_t)height * sizeof *t->accessibility);
     if (!t->accessibility) {
         snprintf(error, error_size, "--size %dx%d: out of memory", width, height);
@@ -20,8 +26,7 @@ bool truth_open(truth *t, const scene *s, int width, int height, char *error, si
     gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, width, height, 0, GL_RED, GL_FLOAT, NULL);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* the default wants mipmaps */
     gl.BindTexture(GL_TEXTURE_2D, 0);
-    t->scene = trace_scene_create(s, error, error_size);
-    return t->scene;
+    return true;
 }
 
 void truth_close(truth *t)
@@ -29,7 +34,6 @@ void truth_close(truth *t)
     if (t->map) {
         gl.DeleteTextures(1, &t->map);
     }
-    trace_scene_destroy(t->scene);
     free(t->accessibility);
     *t = (truth){0};
 }

@@ -11,15 +11,16 @@
 #include <glssao/glssao.h>
 
 typedef struct truth {
-    trace_scene *scene;   /* NULL: another technique */
+    const trace_scene *scene;
     float *accessibility; /* of the last frame, rows bottom to top, contrast applied */
     GLuint map;           /* the same, R32F */
     int width, height;
     trace_stats stats; /* summed over the frames */
 } truth;
 
-/* False, with one line in `error`; truth_close is due in either case. The scene must outlive it. */
-bool truth_open(truth *t, const scene *s, int width, int height, char *error, size_t error_size);
+/* Makes room for frames of that size, where it is not there yet. False, with one line in `error`; truth_close is due in
+ * either case. The scene must outlive it. */
+bool truth_open(truth *t, const trace_scene *s, int width, int height, char *error, size_t error_size);
 void truth_close(truth *t);
 
 /* Traces a frame, with the radius, sample count and power of `settings`; progress to stderr. */

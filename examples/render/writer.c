@@ -1,139 +1,215 @@
 /* SPDX-License-Identifier: MIT
  *
- * One thread a picture and at most JOBS_AT_ONCE of them, so that memory stays bounded on a long turntable.
+ * A queue, bounded in pictures and in bytes, and a thread for each core that this process may use.
  */
-#define _POSIX_C_SOURCE 200809L
+#define _GNU_SOURCE /* sched_getaffinity */
 #include "writer.h"
 
 #include "clock.h"
 #include "picture.h"
 
 #include <pthread.h>
+#include <sched.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { JOBS_AT_ONCE = 4, PATH_LENGTH = 4096, ERROR_LENGTH = PATH_LENGTH + 256 };
+enum { MOST_THREADS = 64, QUEUE_LENGTH = 2 * MOST_THREADS };
+static const size_t most_bytes = (size_t)512 << 20; /* a larger picture waits until it is alone */
 
-typedef struct job {
-    pthread_t thread;
-    bool running; /* to be joined */
-    char path[PATH_LENGTH];
+typedef struct entry {
+    char *path;
     int width, height;
     pixel_kind kind;
     void *pixels;
-    bool ok;
-    double ms;
-    char error[ERROR_LENGTH];
-} job;
+    writer_slip *slip;
+} entry;
 
 struct writer {
-    job jobs[JOBS_AT_ONCE]; /* a ring: the next one is the oldest */
-    int next;
-    double ms;
-    bool failed;
-    char error[ERROR_LENGTH]; /* of the first failure */
+    pthread_mutex_t lock;
+    pthread_cond_t changed; /* of anything below, and of slips */
+    entry queue[QUEUE_LENGTH];
+    int first, length, limit;
+    size_t bytes; /* of the queue and of what the threads work on */
+    bool ending;
+    pthread_t threads[MOST_THREADS];
+    int thread_count;
 };
 
-static void *run_job(void *argument)
+/* Slurm and container runtimes give a job fewer cores than the machine has. */
+static int count_cores(void)
 {
-    job *j = argument;
+    cpu_set_t set;
+    const int count = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 2;
+    return count < 1 ? 1 : count > MOST_THREADS ? MOST_THREADS : count;
+}
+
+static size_t pixel_bytes(const entry *e)
+{
+    return (size_t)e->width * (size_t)e->height * (e->kind == PIXELS_GREY8 ? 1 : 4);
+}
+
+static bool encode(const entry *e, char *error, size_t error_size)
+{
+    if (e->kind == PIXELS_FLOAT) {
+        return picture_write_pfm(e->path, e->width, e->height, 1, e->pixels, error, error_size);
+    }
+    if (e->kind == PIXELS_GREY8) {
+        return picture_write_png(e->path, e->width, e->height, 1, e->pixels, error, error_size);
+    }
+    uint8_t *pixels = e->pixels;
+    const size_t count = (size_t)e->width * (size_t)e->height;
+    for (size_t i = 1; i < count; i++) { /* in place: writing never overtakes reading */
+        pixels[3 * i] = pixels[4 * i];
+        pixels[3 * i + 1] = pixels[4 * i + 1];
+        pixels[3 * i + 2] = pixels[4 * i + 2];
+    }
+    return picture_write_png(e->path, e->width, e->height, 3, pixels, error, error_size);
+}
+
+/* With the lock held. */
+static void note(writer *w, writer_slip *slip, bool ok, const char *error)
+{
+    slip->pending--;
+    slip->written += ok;
+    if (!ok && !slip->failed) {
+        slip->failed = true;
+        snprintf(slip->error, sizeof slip->error, "%s", error);
+    }
+    pthread_cond_broadcast(&w->changed);
+}
+
+/* Called with the lock held, and leaves it so; without it meanwhile. */
+static void work_on(writer *w, entry e)
+{
+    char error[sizeof e.slip->error] = "";
+    pthread_mutex_unlock(&w->lock);
     const double start = clock_wall_ms();
-    if (j->kind == PIXELS_FLOAT) {
-        j->ok = picture_write_pfm(j->path, j->width, j->height, 1, j->pixels, j->error, sizeof j->error);
-    } else if (j->kind == PIXELS_GREY8) {
-        j->ok = picture_write_png(j->path, j->width, j->height, 1, j->pixels, j->error, sizeof j->error);
-    } else {
-        uint8_t *pixels = j->pixels;
-        const size_t count = (size_t)j->width * (size_t)j->height;
-        for (size_t i = 1; i < count; i++) { /* in place: writing never overtakes reading */
-            pixels[3 * i] = pixels[4 * i];
-            pixels[3 * i + 1] = pixels[4 * i + 1];
-            pixels[3 * i + 2] = pixels[4 * i + 2];
+    const bool ok = e.path && encode(&e, error, sizeof error);
+    const double ms = clock_wall_ms() - start;
+    free(e.pixels);
+    free(e.path);
+    pthread_mutex_lock(&w->lock);
+    w->bytes -= pixel_bytes(&e);
+    e.slip->ms += ms;
+    note(w, e.slip, ok, e.path ? error : "out of memory");
+}
+
+static entry take_first(writer *w)
+{
+    const entry e = w->queue[w->first];
+    w->first = (w->first + 1) % QUEUE_LENGTH;
+    w->length--;
+    return e;
+}
+
+static void *run_thread(void *argument)
+{
+    writer *w = argument;
+    pthread_mutex_lock(&w->lock);
+    while (w->length || !w->ending) {
+        if (w->length) {
+            work_on(w, take_first(w));
+        } else {
+            pthread_cond_wait(&w->changed, &w->lock);
         }
-        j->ok = picture_write_png(j->path, j->width, j->height, 3, pixels, j->error, sizeof j->error);
     }
-    free(j->pixels);
-    j->ms = clock_wall_ms() - start;
+    pthread_mutex_unlock(&w->lock);
     return NULL;
-}
-
-static void take_result(writer *w, job *j)
-{
-    w->ms += j->ms;
-    if (!j->ok && !w->failed) {
-        w->failed = true;
-        memcpy(w->error, j->error, sizeof w->error);
-    }
-}
-
-static void join_job(writer *w, job *j)
-{
-    if (j->running) {
-        pthread_join(j->thread, NULL);
-        j->running = false;
-        take_result(w, j);
-    }
-}
-
-static bool result(const writer *w, char *error, size_t error_size)
-{
-    if (w->failed) {
-        snprintf(error, error_size, "%s", w->error);
-    }
-    return !w->failed;
 }
 
 writer *writer_create(void)
 {
-    return calloc(1, sizeof(writer));
-}
-
-bool writer_submit(writer *w, const char *path, int width, int height, pixel_kind kind, void *pixels, char *error,
-                   size_t error_size)
-{
-    job *j = &w->jobs[w->next];
-    join_job(w, j);
-    if (w->failed) {
-        free(pixels);
-        return result(w, error, error_size);
+    writer *w = calloc(1, sizeof *w);
+    if (!w) {
+        return NULL;
     }
-    if (strlen(path) >= sizeof j->path) {
-        free(pixels);
-        snprintf(error, error_size, "%.100s...: the file name is too long", path);
-        return false;
+    pthread_mutex_init(&w->lock, NULL);
+    pthread_cond_init(&w->changed, NULL);
+    const int wanted = count_cores();
+    while (w->thread_count < wanted && pthread_create(&w->threads[w->thread_count], NULL, run_thread, w) == 0) {
+        w->thread_count++;
     }
-    w->next = (w->next + 1) % JOBS_AT_ONCE;
-    memcpy(j->path, path, strlen(path) + 1);
-    j->width = width;
-    j->height = height;
-    j->kind = kind;
-    j->pixels = pixels;
-    j->running = pthread_create(&j->thread, NULL, run_job, j) == 0;
-    if (!j->running) { /* no more threads: then here */
-        run_job(j);
-        take_result(w, j);
-    }
-    return result(w, error, error_size);
-}
-
-bool writer_finish(writer *w, double *out_ms, char *error, size_t error_size)
-{
-    for (int i = 0; i < JOBS_AT_ONCE; i++) {
-        join_job(w, &w->jobs[(w->next + i) % JOBS_AT_ONCE]);
-    }
-    if (out_ms) {
-        *out_ms = w->ms;
-    }
-    return result(w, error, error_size);
+    w->limit = 2 * wanted;
+    return w;
 }
 
 void writer_destroy(writer *w)
 {
-    if (w) {
-        for (int i = 0; i < JOBS_AT_ONCE; i++) {
-            join_job(w, &w->jobs[i]);
-        }
-        free(w);
+    if (!w) {
+        return;
     }
+    pthread_mutex_lock(&w->lock);
+    w->ending = true;
+    pthread_cond_broadcast(&w->changed);
+    pthread_mutex_unlock(&w->lock);
+    for (int i = 0; i < w->thread_count; i++) {
+        pthread_join(w->threads[i], NULL);
+    }
+    pthread_cond_destroy(&w->changed);
+    pthread_mutex_destroy(&w->lock);
+    free(w);
+}
+
+void writer_expect(writer *w, writer_slip *slip)
+{
+    pthread_mutex_lock(&w->lock);
+    slip->pending++;
+    pthread_mutex_unlock(&w->lock);
+}
+
+void writer_submit(writer *w, writer_slip *slip, const char *path, int width, int height, pixel_kind kind, void *pixels)
+{
+    const size_t length = strlen(path) + 1;
+    entry e = {.path = malloc(length), .width = width, .height = height, .kind = kind, .pixels = pixels, .slip = slip};
+    if (e.path) {
+        memcpy(e.path, path, length);
+    }
+    pthread_mutex_lock(&w->lock);
+    while (w->thread_count && w->bytes && (w->length >= w->limit || w->bytes + pixel_bytes(&e) > most_bytes)) {
+        pthread_cond_wait(&w->changed, &w->lock);
+    }
+    w->bytes += pixel_bytes(&e);
+    if (w->thread_count) {
+        w->queue[(w->first + w->length++) % QUEUE_LENGTH] = e;
+        pthread_cond_broadcast(&w->changed);
+    } else { /* no more threads: then here */
+        work_on(w, e);
+    }
+    pthread_mutex_unlock(&w->lock);
+}
+
+void writer_give_up(writer *w, writer_slip *slip, const char *error)
+{
+    pthread_mutex_lock(&w->lock);
+    note(w, slip, false, error);
+    pthread_mutex_unlock(&w->lock);
+}
+
+bool writer_wait(writer *w, writer_slip *slip)
+{
+    pthread_mutex_lock(&w->lock);
+    while (slip->pending) {
+        pthread_cond_wait(&w->changed, &w->lock);
+    }
+    const bool ok = !slip->failed;
+    pthread_mutex_unlock(&w->lock);
+    return ok;
+}
+
+bool writer_is_done(writer *w, writer_slip *slip)
+{
+    pthread_mutex_lock(&w->lock);
+    const bool done = slip->pending == 0;
+    pthread_mutex_unlock(&w->lock);
+    return done;
+}
+
+bool writer_has_failed(writer *w, writer_slip *slip)
+{
+    pthread_mutex_lock(&w->lock);
+    const bool failed = slip->failed;
+    pthread_mutex_unlock(&w->lock);
+    return failed;
 }

@@ -179,7 +179,7 @@ static void use_instances(triangle_pass *pass, uint32_t first)
 
 static void draw_item_now(triangle_pass *pass, const draw_item *item)
 {
-    const draw_variant *variant = &pass->renderer->variants[item->program[pass->kind]];
+    const draw_variant *variant = &pass->renderer->pool->variants[item->program[pass->kind]];
     pass->variant = variant->variant;
     if (pass->program != &variant->program)
         use_program(pass, &variant->program);

@@ -37,7 +37,7 @@ typedef struct draw_item {
     bool colored, blended;
     bool mirrored;               /* triangles change their winding */
     unsigned variant;            /* of the main pass, less what the options decide */
-    int program[DRAW_KIND_COUNT]; /* index into the renderer's, -1: not drawn so */
+    int program[DRAW_KIND_COUNT]; /* index into the pool's variants, -1: not drawn so */
     double bounds_min[3], bounds_max[3]; /* world space, of all instances */
 } draw_item;
 
@@ -51,6 +51,14 @@ typedef struct draw_variant {
     unsigned variant;
     draw_program program;
 } draw_variant;
+
+/* Programs, which renderers of one context share. */
+typedef struct draw_pool {
+    int users;
+    draw_variant *variants; /* built as items need them */
+    int variant_count;
+    draw_program map, view_distance, sky;
+} draw_pool;
 
 typedef struct draw_shadow {
     bool used;
@@ -72,11 +80,10 @@ struct scene_renderer {
     draw_item *items; /* opaque ones first, sorted by program and material; then blended ones as in the file */
     uint32_t opaque_count, item_count;
     draw_order *blended_order; /* scratch, one for each blended item */
-    draw_variant *variants;    /* built as items need them */
-    int variant_count;
+    draw_pool *pool;
     scene_draw_options options;
     bool configured;
-    draw_program map, view_distance, sky;
+    draw_program map, view_distance, sky; /* the pool's */
     draw_shadow shadow;
     scene_draw_counts counts;
 };
@@ -102,8 +109,12 @@ void draw_shadow_free(draw_shadow *s);
 /* The polygon offset of its drawing. */
 void draw_shadow_offset(void);
 
+/* draw_pool.c: joins the pool of `like`, or makes one where that is NULL; leaves it, and frees it with its last user. */
+bool draw_pool_join(scene_renderer *r, const scene_renderer *like, char *error, size_t error_size);
+void draw_pool_leave(scene_renderer *r);
+
 /* draw_maps.c */
-bool draw_build_map_programs(scene_renderer *r, char *error, size_t error_size);
+bool draw_build_map_programs(draw_pool *pool, char *error, size_t error_size);
 
 /* draw.c: GL's defaults; one texture; all items of a kind, with the view's matrices. */
 void draw_set_defaults(void);

@@ -62,10 +62,10 @@ void scene_draw_distance_picture(scene_renderer *r, const scene_view *view, unsi
     end();
 }
 
-bool draw_build_map_programs(scene_renderer *r, char *error, size_t error_size)
+bool draw_build_map_programs(draw_pool *pool, char *error, size_t error_size)
 {
-    return draw_program_build(&r->map, "map pass", shader_fullscreen_vert, "", shader_map_frag, 0, error, error_size) &&
-           draw_program_build(&r->view_distance, "view distance pass", shader_fullscreen_vert, "",
+    return draw_program_build(&pool->map, "map pass", shader_fullscreen_vert, "", shader_map_frag, 0, error, error_size) &&
+           draw_program_build(&pool->view_distance, "view distance pass", shader_fullscreen_vert, "",
                               shader_view_distance_frag, 0, error, error_size) &&
-           draw_program_build(&r->sky, "sky pass", shader_sky_vert, "", shader_sky_frag, 0, error, error_size);
+           draw_program_build(&pool->sky, "sky pass", shader_sky_vert, "", shader_sky_frag, 0, error, error_size);
 }

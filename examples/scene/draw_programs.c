@@ -11,24 +11,24 @@
 #include <stdlib.h>
 
 /* Index of the program, built where it is not there yet; -1 on failure. */
-static int find_program(scene_renderer *r, draw_kind kind, unsigned variant, char *error, size_t error_size)
+static int find_program(draw_pool *pool, draw_kind kind, unsigned variant, char *error, size_t error_size)
 {
     static const char *const what[] = {"scene normals pass", "scene main pass", "shadow pass", "layer pass"};
-    for (int i = 0; i < r->variant_count; i++)
-        if (r->variants[i].kind == kind && r->variants[i].variant == variant)
+    for (int i = 0; i < pool->variant_count; i++)
+        if (pool->variants[i].kind == kind && pool->variants[i].variant == variant)
             return i;
-    draw_variant *grown = realloc(r->variants, ((size_t)r->variant_count + 1) * sizeof *grown);
+    draw_variant *grown = realloc(pool->variants, ((size_t)pool->variant_count + 1) * sizeof *grown);
     if (!grown) {
         snprintf(error, error_size, "out of memory");
         return -1;
     }
-    r->variants = grown;
+    pool->variants = grown;
     draw_variant made = {.kind = kind, .variant = variant};
     if (!draw_program_build(&made.program, what[kind], shader_scene_vert, shader_surface_glsl, kind == DRAW_MAIN ? shader_main_frag : shader_normals_frag, variant,
                             error, error_size))
         return -1;
-    r->variants[r->variant_count] = made;
-    return r->variant_count++;
+    pool->variants[pool->variant_count] = made;
+    return pool->variant_count++;
 }
 
 static unsigned normals_variant(const draw_item *item, const scene_material *m, const scene_draw_options *options,
@@ -74,19 +74,19 @@ bool draw_choose_programs(scene_renderer *r, const scene_lighting *lighting, con
         bool done = true;
         if (!options->no_picture) {
             chosen[DRAW_MAIN] =
-                find_program(r, DRAW_MAIN, main_variant(item, lighting, options, shadowed), error, error_size);
+                find_program(r->pool, DRAW_MAIN, main_variant(item, lighting, options, shadowed), error, error_size);
             done = chosen[DRAW_MAIN] >= 0;
         }
         if (done && !item->blended) {
-            chosen[DRAW_NORMALS] = find_program(r, DRAW_NORMALS, normals, error, error_size);
+            chosen[DRAW_NORMALS] = find_program(r->pool, DRAW_NORMALS, normals, error, error_size);
             done = chosen[DRAW_NORMALS] >= 0;
         }
         if (done && !item->blended && shadowed) {
-            chosen[DRAW_SHADOW] = find_program(r, DRAW_SHADOW, depth_variant(normals), error, error_size);
+            chosen[DRAW_SHADOW] = find_program(r->pool, DRAW_SHADOW, depth_variant(normals), error, error_size);
             done = chosen[DRAW_SHADOW] >= 0;
         }
         if (done && !item->blended && options->layers) {
-            chosen[DRAW_LAYER] = find_program(r, DRAW_LAYER, depth_variant(normals) | VARIANT_BEHIND, error, error_size);
+            chosen[DRAW_LAYER] = find_program(r->pool, DRAW_LAYER, depth_variant(normals) | VARIANT_BEHIND, error, error_size);
             done = chosen[DRAW_LAYER] >= 0;
         }
         if (!done)

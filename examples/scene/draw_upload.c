@@ -175,6 +175,11 @@ static void make_screen_maps(scene_renderer *r)
 
 scene_renderer *scene_renderer_create(const scene *s, char *error, size_t error_size)
 {
+    return scene_renderer_create_like(s, NULL, error, error_size);
+}
+
+scene_renderer *scene_renderer_create_like(const scene *s, const scene_renderer *like, char *error, size_t error_size)
+{
     scene_renderer *r = calloc(1, sizeof *r);
     draw_instance *instances = calloc((size_t)s->instance_count + 1, sizeof *instances);
     bool done = r && instances;
@@ -190,7 +195,7 @@ scene_renderer *scene_renderer_create(const scene *s, char *error, size_t error_
             continue;
         upload_geometry(r, instances);
         make_screen_maps(r);
-        done = upload_textures(r, error, error_size) && draw_build_map_programs(r, error, error_size);
+        done = upload_textures(r, error, error_size) && draw_pool_join(r, like, error, error_size);
         GLenum code = gl.GetError();
         if (done && code != GL_NO_ERROR) {
             snprintf(error, error_size, "uploading the scene failed: %s (GL error 0x%04x)",
@@ -223,13 +228,8 @@ void scene_renderer_destroy(scene_renderer *r)
             gl.DeleteTextures((GLsizei)r->scene->image_count, r->images[k]);
     if (r->samplers)
         gl.DeleteSamplers((GLsizei)r->scene->texture_count, r->samplers);
-    for (int i = 0; i < r->variant_count; i++)
-        gl.DeleteProgram(r->variants[i].program.name);
     draw_shadow_free(&r->shadow);
-    gl.DeleteProgram(r->map.name);
-    gl.DeleteProgram(r->view_distance.name);
-    gl.DeleteProgram(r->sky.name);
-    free(r->variants);
+    draw_pool_leave(r);
     free(r->images[0]);
     free(r->images[1]);
     free(r->samplers);

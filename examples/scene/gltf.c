@@ -61,7 +61,7 @@ void gltf_loader_end(gltf_loader *l)
     free(l->material_map);
 }
 
-scene *scene_load(const char *path, char *error, size_t error_size)
+static scene *load(const char *path, const double *time_s, char *error, size_t error_size)
 {
     scene_fault fault = {.file = path, .text = error, .size = error_size};
     gltf_document document;
@@ -71,12 +71,25 @@ scene *scene_load(const char *path, char *error, size_t error_size)
         return NULL;
     if (gltf_check(&document, &fault) && scene_builder_begin(&builder, gltf_file_name(path), &fault)) {
         gltf_loader loader = {.document = &document, .builder = &builder, .fault = &fault};
-        if (gltf_loader_begin(&loader) && gltf_place_nodes(&loader) && gltf_add_scene(&loader))
+        gltf_pose pose = {0};
+        if (gltf_loader_begin(&loader) && (!time_s || gltf_animate(&loader, &document, *time_s, &pose)) &&
+            gltf_place_nodes(&loader) && gltf_add_scene(&loader))
             made = scene_builder_finish(&builder);
         else
             scene_builder_abandon(&builder);
         gltf_loader_end(&loader);
+        gltf_free_pose(&pose);
     }
     gltf_document_close(&document);
     return made;
+}
+
+scene *scene_load(const char *path, char *error, size_t error_size)
+{
+    return load(path, NULL, error, error_size);
+}
+
+scene *scene_load_at(const char *path, double time_s, char *error, size_t error_size)
+{
+    return load(path, &time_s, error, error_size);
 }

@@ -33,6 +33,8 @@ struct document_owner {
     std::vector<gltf_camera> cameras;
     std::vector<gltf_light> lights;
     std::vector<gltf_scene> scenes;
+    std::vector<gltf_animation_sampler> animation_samplers;
+    std::vector<gltf_animation_channel> animation_channels;
     // A deque does not move its elements when it grows.
     std::deque<std::vector<gltf_attribute>> attributes;
     std::deque<std::vector<gltf_attribute_list>> targets;
@@ -251,6 +253,16 @@ bool translate(const tinygltf::Light &from, size_t number, gltf_light *out, scen
            scene_fail(fault, "light %zu: its color does not have three numbers", number);
 }
 
+void translate(const tinygltf::Animation &from, document_owner *owner, gltf_document *out)
+{
+    for (const tinygltf::AnimationSampler &sampler : from.samplers)
+        owner->animation_samplers.push_back({sampler.input, sampler.output, sampler.interpolation.c_str()});
+    for (const tinygltf::AnimationChannel &channel : from.channels)
+        owner->animation_channels.push_back({channel.sampler, channel.target_node, channel.target_path.c_str()});
+    point_to(owner->animation_samplers, &out->animation_samplers, &out->animation_sampler_count);
+    point_to(owner->animation_channels, &out->animation_channels, &out->animation_channel_count);
+}
+
 bool translate_all(document_owner *owner, gltf_document *out, scene_fault *fault)
 {
     const tinygltf::Model &model = owner->model;
@@ -288,6 +300,10 @@ bool translate_all(document_owner *owner, gltf_document *out, scene_fault *fault
             return false;
     for (const tinygltf::Scene &scene : model.scenes)
         owner->scenes.push_back({scene.nodes.data(), scene.nodes.size()});
+
+    out->animation_count = model.animations.size();
+    if (!model.animations.empty())
+        translate(model.animations[0], owner, out);
 
     out->version = model.asset.version.c_str();
     out->min_version = model.asset.minVersion.c_str();

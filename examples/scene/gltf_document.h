@@ -146,6 +146,16 @@ typedef struct gltf_light { /* KHR_lights_punctual */
     double color[3], intensity, range, inner_cone_rad, outer_cone_rad; /* range 0: infinite */
 } gltf_light;
 
+typedef struct gltf_animation_sampler {
+    int input, output; /* accessors */
+    const char *interpolation;
+} gltf_animation_sampler;
+
+typedef struct gltf_animation_channel {
+    int sampler, node; /* node -1: an extension's target */
+    const char *path;
+} gltf_animation_channel;
+
 typedef struct gltf_scene {
     const int *nodes;
     size_t node_count;
@@ -170,6 +180,10 @@ typedef struct gltf_document {
     const gltf_camera *cameras;
     const gltf_light *lights;
     const gltf_scene *scenes;
+    size_t animation_count; /* of which the first: */
+    const gltf_animation_sampler *animation_samplers;
+    const gltf_animation_channel *animation_channels;
+    size_t animation_sampler_count, animation_channel_count;
     size_t buffer_count, buffer_view_count, accessor_count, mesh_count, node_count, skin_count, material_count,
         texture_count, sampler_count, image_count, camera_count, light_count, scene_count;
 } gltf_document;
@@ -178,7 +192,8 @@ typedef struct gltf_document {
 bool gltf_document_open(gltf_document *out, const char *path, scene_fault *fault);
 void gltf_document_close(gltf_document *document);
 
-/* True where every reference, range and count in the document holds; otherwise the fault says which does not. */
+/* True where every reference, range and count in the document holds, animations aside; otherwise the fault says which
+ * does not. */
 bool gltf_check(const gltf_document *document, scene_fault *fault);
 
 /* The accessor of that name, -1 where the list has none. */

@@ -43,6 +43,17 @@ typedef struct gltf_loader {
 bool gltf_loader_begin(gltf_loader *l);
 void gltf_loader_end(gltf_loader *l);
 
+/* gltf_animation.c: the nodes as the first animation has them at a time, in place of the document's. `pose` holds them,
+ * and is to be freed after the document's last use, in either case. */
+typedef struct gltf_pose {
+    gltf_node *nodes;
+    double **weights; /* of each node that has animated ones */
+    size_t count;
+} gltf_pose;
+
+bool gltf_animate(gltf_loader *l, gltf_document *document, double time_s, gltf_pose *pose);
+void gltf_free_pose(gltf_pose *pose);
+
 /* gltf_read.c: an accessor's elements with `components` numbers each, in new memory that the caller frees. NULL on
  * failure. */
 

@@ -2,8 +2,9 @@
  *
  * PNG through libpng, PFM by hand.
  */
-#define _POSIX_C_SOURCE 200809L /* fileno, fstat */
 #include "picture.h"
+
+#include "whole_file.h"
 
 #include <errno.h>
 #include <math.h>
@@ -13,7 +14,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 /* Larger than any framebuffer; keeps every product of sizes within size_t and libpng's own limits. */
 enum { LARGEST_SIDE = 65536 };
@@ -33,19 +33,6 @@ static bool check_size(const char *path, int width, int height, char *error, siz
         return fail(error, error_size, "%s: a picture of %d x %d is outside 1 to %d", path, width, height,
                     LARGEST_SIDE);
     return true;
-}
-
-/* Closes a file that was written. Where that fails, or `written` is false already, what is there of it is removed;
- * unless it is a device or a pipe, which was there before. */
-static bool close_written(FILE *file, const char *path, bool written, char *error, size_t error_size)
-{
-    struct stat status;
-    bool is_regular = fstat(fileno(file), &status) == 0 && S_ISREG(status.st_mode);
-    if (fclose(file) != 0 && written)
-        written = fail(error, error_size, "%s: %s", path, strerror(errno));
-    if (!written && is_regular)
-        remove(path);
-    return written;
 }
 
 /* ---- PNG ------------------------------------------------------------------------------------------------ */
@@ -105,9 +92,10 @@ bool picture_write_png(const char *path, int width, int height, int channels, co
     if (channels != 1 && channels != 3 && channels != 4)
         return fail(error, error_size, "%s: a PNG of %d channels can't be written", path, channels);
     png_job job = {.width = width, .height = height, .channels = channels, .pixels = pixels};
-    job.file = fopen(path, "wb");
-    if (!job.file)
-        return fail(error, error_size, "%s: %s", path, strerror(errno));
+    whole_file file;
+    if (!whole_file_open(&file, path, error, error_size))
+        return false;
+    job.file = file.file;
 
     bool written = false;
     errno = 0;
@@ -120,7 +108,7 @@ bool picture_write_png(const char *path, int width, int height, int channels, co
     else if (!written)
         fail(error, error_size, "%s: %s", path, ferror(job.file) && errno ? strerror(errno) : job.message);
     png_destroy_write_struct(&job.png, &job.info);
-    return close_written(job.file, path, written, error, error_size);
+    return whole_file_close(&file, written, error, error_size);
 }
 
 uint8_t *picture_read_png(const char *path, int *out_width, int *out_height, char *error, size_t error_size)
@@ -190,11 +178,12 @@ bool picture_write_pfm(const char *path, int width, int height, int channels, co
     uint8_t *bytes = malloc(row * 4);
     if (!bytes)
         return fail(error, error_size, "%s: out of memory", path);
-    FILE *file = fopen(path, "wb");
-    if (!file) {
+    whole_file whole;
+    if (!whole_file_open(&whole, path, error, error_size)) {
         free(bytes);
-        return fail(error, error_size, "%s: %s", path, strerror(errno));
+        return false;
     }
+    FILE *file = whole.file;
     bool written = fprintf(file, "%s\n%d %d\n-1.0\n", channels == 1 ? "Pf" : "PF", width, height) > 0;
     for (int y = 0; written && y < height; y++) {
         to_bytes(pixels + (size_t)y * row, row, bytes);
@@ -203,7 +192,7 @@ bool picture_write_pfm(const char *path, int width, int height, int channels, co
     if (!written)
         fail(error, error_size, "%s: %s", path, strerror(errno));
     free(bytes);
-    return close_written(file, path, written, error, error_size);
+    return whole_file_close(&whole, written, error, error_size);
 }
 
 /* One header field of digits, up to and with the separator. -1 where it is anything else. */

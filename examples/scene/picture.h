@@ -11,7 +11,7 @@
 #include <stdint.h>
 
 /* 8 bits a channel; channels 1 (grey), 3 (RGB) or 4 (RGBA). False, with one line in `error`, on failure; a file
- * that could not be written whole is removed. */
+ * appears whole or not at all (whole_file.h). Any thread. */
 bool picture_write_png(const char *path, int width, int height, int channels, const uint8_t *pixels,
                        char *error, size_t error_size);
 

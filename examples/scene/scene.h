@@ -124,6 +124,10 @@ typedef struct scene {
  * allocate follows from its size, and files that it names must lie in its own folder or below. */
 scene *scene_load(const char *path, char *error, size_t error_size);
 
+/* The same, as the file's first animation has it at a time in seconds: nodes, what hangs on them, skins and morphs. Before
+ * the first key and behind the last it stands still. A file without animation, or with one that is wrong, fails. */
+scene *scene_load_at(const char *path, double time_s, char *error, size_t error_size);
+
 /* Makes a built-in scene: "columns", "cornell", "steps" or "plane". NULL on failure, as above. */
 scene *scene_make(const char *name, char *error, size_t error_size);
 

@@ -215,6 +215,9 @@ GLTF
     cmp t1.png t2.png || fail "the first camera is not the default"
     ! cmp -s t2.png t3.png || fail "--camera changes nothing"
     want 1 "--camera 3: triangle.gltf" $size -o t4.png --camera 3 triangle.gltf
+    want 1 "triangle.gltf: it has no animation" $size -o t4.png --time 1 triangle.gltf
+    want 2 "--time 1: a built-in scene" --time 1 -o t4.png
+    want 2 '--time "-1"' --time -1 -o t4.png triangle.gltf
     want 1 "" -s 16x16 --eye 0,0,0 --target 0,1,0 --up 0,1,0 -o t4.png
 }
 

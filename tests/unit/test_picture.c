@@ -2,9 +2,10 @@
  *
  * Pictures: what is written reads back the same, and neither a bad path nor a hostile file does harm.
  */
-#define _POSIX_C_SOURCE 200809L /* setrlimit */
+#define _XOPEN_SOURCE 700 /* setrlimit, glob */
 #include "picture.h"
 
+#include <glob.h>
 #include <math.h>
 #include <setjmp.h>
 #include <signal.h>
@@ -15,6 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -158,9 +161,27 @@ static void full_disk_is_reported(void **state)
     assert_true(file_exists("/dev/full"));
 }
 
-static void partly_written_file_is_removed(void **state)
+static void write_bytes(const char *bytes, size_t size)
 {
-    (void)state;
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    fclose(file);
+}
+
+/* `path`, and what else starts as it does. */
+static size_t count_files(void)
+{
+    glob_t found;
+    const int code = glob("test_picture.tmp*", 0, NULL, &found);
+    const size_t count = code == 0 ? found.gl_pathc : 0;
+    globfree(&found);
+    return count;
+}
+
+/* Of both kinds; true where one was written all the same. */
+static bool write_beyond_the_limit(void)
+{
     static uint8_t pixels[64 * 64 * 3];
     static float values[64 * 64];
     for (size_t i = 0; i < sizeof pixels; i++)
@@ -172,20 +193,55 @@ static void partly_written_file_is_removed(void **state)
     signal(SIGXFSZ, SIG_IGN);
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
     const bool png_written = picture_write_png(path, 64, 64, 3, pixels, error, sizeof error);
-    const bool png_left = file_exists(path);
     const bool pfm_written = picture_write_pfm(path, 64, 64, 1, values, error, sizeof error);
-    const bool pfm_left = file_exists(path);
     setrlimit(RLIMIT_FSIZE, &limit);
-    assert_false(png_written || png_left || pfm_written || pfm_left);
-    assert_string_equal(error, "test_picture.tmp: File too large");
+    return png_written || pfm_written;
 }
 
-static void write_bytes(const char *bytes, size_t size)
+static void partly_written_file_is_removed(void **state)
 {
-    FILE *file = fopen(path, "wb");
+    (void)state;
+    assert_false(write_beyond_the_limit());
+    assert_string_equal(error, "test_picture.tmp: File too large");
+    assert_int_equal(count_files(), 0);
+}
+
+static void failed_write_leaves_the_old_file(void **state)
+{
+    (void)state;
+    char bytes[8] = "";
+    write_bytes("old", 3);
+    assert_false(write_beyond_the_limit());
+    FILE *file = fopen(path, "rb");
     assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    assert_int_equal(fread(bytes, 1, sizeof bytes, file), 3);
     fclose(file);
+    assert_string_equal(bytes, "old");
+    assert_int_equal(count_files(), 1);
+}
+
+/* A new file takes the old one's place: through a link, and with the same permissions. */
+static void old_file_is_replaced_where_it_is(void **state)
+{
+    (void)state;
+    static const char link_name[] = "test_picture.tmp.link";
+    struct stat status;
+    const uint8_t pixel = 7;
+    int width = 0, height = 0;
+    write_bytes("old", 3);
+    assert_int_equal(chmod(path, 0640), 0);
+    assert_int_equal(symlink(path, link_name), 0);
+    const bool written = picture_write_png(link_name, 1, 1, 1, &pixel, error, sizeof error);
+    const bool is_link = lstat(link_name, &status) == 0 && S_ISLNK(status.st_mode);
+    remove(link_name);
+    assert_true(written && is_link);
+    assert_int_equal(stat(path, &status), 0);
+    assert_int_equal(status.st_mode & 0777, 0640);
+    uint8_t *read = picture_read_png(path, &width, &height, error, sizeof error);
+    assert_non_null(read);
+    assert_int_equal(read[0], 7);
+    free(read);
+    assert_int_equal(count_files(), 1);
 }
 
 static void hostile_pfm_is_refused(void **state)
@@ -259,6 +315,8 @@ int main(void)
         cmocka_unit_test_teardown(arguments_out_of_range_write_nothing, remove_file),
         cmocka_unit_test(full_disk_is_reported),
         cmocka_unit_test_teardown(partly_written_file_is_removed, remove_file),
+        cmocka_unit_test_teardown(failed_write_leaves_the_old_file, remove_file),
+        cmocka_unit_test_teardown(old_file_is_replaced_where_it_is, remove_file),
         cmocka_unit_test_teardown(hostile_pfm_is_refused, remove_file),
         cmocka_unit_test_teardown(broken_png_is_refused, remove_file),
     };

@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Drawing is one after the other; a job then flies on, until its pictures are read back, encoded and written. Jobs
+ * land, and are reported, in the list's order.
+ */
+#include "batch.h"
+
+#include "batch_list.h"
+#include "clock.h"
+#include "outputs.h"
+#include "progress.h"
+#include "session.h"
+#include "stage_cache.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { FLIGHTS = 64, ERROR_LENGTH = 8192, LOOK_AHEAD = 32 };
+
+typedef struct flight {
+    const batch_job *job;
+    writer_slip slip;
+    bool failed;
+    char error[ERROR_LENGTH]; /* where failed */
+} flight;
+
+typedef struct batch {
+    const options *options;
+    batch_list list;
+    session session;
+    stage_cache *stages;
+    flight flights[FLIGHTS]; /* a ring */
+    int first, count;
+    progress shown;
+    size_t mine; /* jobs of the shard */
+    size_t done, failed, pictures;
+} batch;
+
+static bool is_mine(const batch *b, size_t index)
+{
+    const size_t count = b->options->shard_count ? (size_t)b->options->shard_count : 1;
+    return index % count == (size_t)b->options->shard_index;
+}
+
+static const char *list_name(const batch *b)
+{
+    return strcmp(b->options->batch, "-") == 0 ? "standard input" : b->options->batch;
+}
+
+static void land_first(batch *b)
+{
+    flight *f = &b->flights[b->first];
+    if (!writer_wait(b->session.writer, &f->slip) && !f->failed) {
+        f->failed = true;
+        memcpy(f->error, f->slip.error, sizeof f->slip.error);
+    }
+    b->pictures += (size_t)f->slip.written;
+    b->done += !f->failed;
+    b->failed += f->failed;
+    if (f->failed) {
+        progress_wipe(&b->shown);
+        fprintf(stderr, "glssao-render: %s:%d: %s\n", list_name(b), f->job->line, f->error);
+    }
+    b->first = (b->first + 1) % FLIGHTS;
+    b->count--;
+}
+
+static void land_those_done(batch *b)
+{
+    readback_poll(b->session.readback);
+    while (b->count && writer_is_done(b->session.writer, &b->flights[b->first].slip)) {
+        land_first(b);
+    }
+}
+
+static void land_all(batch *b)
+{
+    readback_drain(b->session.readback);
+    while (b->count) {
+        land_first(b);
+    }
+}
+
+static flight *take_off(batch *b, const batch_job *job)
+{
+    if (b->count == FLIGHTS) {
+        readback_drain(b->session.readback);
+        land_first(b);
+    }
+    flight *f = &b->flights[(b->first + b->count++) % FLIGHTS];
+    *f = (flight){.job = job};
+    return f;
+}
+
+/* The scene of the next job that needs another one. */
+static void load_ahead(batch *b, size_t from)
+{
+    bool started = false;
+    for (size_t i = from, looked = 0; i < b->list.count && looked < LOOK_AHEAD && !started; i++) {
+        if (is_mine(b, i) && !b->list.jobs[i].error) {
+            started = stage_cache_load_ahead(b->stages, &b->list.jobs[i].options);
+            looked++;
+        }
+    }
+}
+
+static bool draw_job(batch *b, size_t index, flight *f)
+{
+    session *s = &b->session;
+    const options *o = &b->list.jobs[index].options;
+    const double start_ms = clock_wall_ms(), start_cpu_ms = clock_cpu_ms();
+    s->times = (stopwatch){.last_ms = start_ms};
+    stage *st = stage_cache_get(b->stages, o, f->error, sizeof f->error); /* first: it may have been loaded ahead */
+    if (!st || !outputs_check(o, f->error, sizeof f->error)) {
+        return false;
+    }
+    stopwatch_lap(&s->times, PHASE_LOAD);
+    load_ahead(b, index + 1);
+    if (o->plan) {
+        printf("%s:%d:\n", list_name(b), f->job->line);
+    }
+    if (!session_begin(s, o, st, f->error, sizeof f->error)) {
+        return false;
+    }
+    const bool wants_frame = o->output || o->ao || o->normals || o->depth || o->stats;
+    if (wants_frame && !session_draw(s, false, &f->slip, f->error, sizeof f->error)) {
+        return false;
+    }
+    return !o->stats || (session_finish(s, &f->slip, f->error, sizeof f->error) &&
+                         session_write_stats(s, start_ms, start_cpu_ms, f->error, sizeof f->error));
+}
+
+static void print_summary(const batch *b, double start_ms)
+{
+    const double seconds = (clock_wall_ms() - start_ms) / 1e3;
+    char shard[48] = "";
+    if (b->options->shard_count) {
+        snprintf(shard, sizeof shard, ", shard %d/%d", b->options->shard_index, b->options->shard_count);
+    }
+    progress_wipe(&b->shown);
+    fprintf(stderr, "%s%s: %zu of %zu jobs done, %zu failed; %zu pictures in %.2f s, %.1f a second\n", list_name(b),
+            shard, b->done, b->mine, b->failed, b->pictures, seconds, seconds > 0 ? (double)b->pictures / seconds : 0);
+}
+
+/* False, with one line in `error`, where none can be drawn. */
+static bool run(batch *b, char *error, size_t error_size)
+{
+    if (!batch_list_read(&b->list, b->options, error, error_size)) {
+        return false;
+    }
+    for (size_t i = 0; i < b->list.count; i++) {
+        b->mine += is_mine(b, i);
+    }
+    if (b->mine && !session_open(&b->session, b->options, error, error_size)) {
+        return false;
+    }
+    b->stages = stage_cache_create((size_t)b->options->cache_mib << 20);
+    if (!b->stages) {
+        snprintf(error, error_size, "out of memory");
+        return false;
+    }
+    b->shown = progress_start("job", (int)b->mine);
+    int drawn = 0;
+    for (size_t i = 0; i < b->list.count; i++) {
+        const batch_job *job = &b->list.jobs[i];
+        if (!is_mine(b, i)) {
+            continue;
+        }
+        flight *f = take_off(b, job);
+        if (job->error) {
+            snprintf(f->error, sizeof f->error, "%s", job->error);
+        }
+        f->failed = job->error || !draw_job(b, i, f);
+        land_those_done(b);
+        progress_show(&b->shown, ++drawn);
+    }
+    if (b->mine) {
+        land_all(b);
+    }
+    return true;
+}
+
+bool batch_run(const options *o)
+{
+    const double start_ms = clock_wall_ms();
+    char error[ERROR_LENGTH];
+    static batch b; /* large, and zero */
+    b.options = o;
+    const bool ran = run(&b, error, sizeof error);
+    stage_cache_destroy(b.stages);
+    session_close(&b.session);
+    if (ran) {
+        print_summary(&b, start_ms);
+    } else {
+        fprintf(stderr, "glssao-render: %s\n", error);
+    }
+    batch_list_free(&b.list);
+    return ran && b.failed == 0;
+}

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The table of --plan.
+ */
+#include "pipeline.h"
+
+#include <stdio.h>
+
+static void print_row(const char *name, bool run, int draws, int width, int height, const char *reason)
+{
+    char draw_text[16] = "-", size_text[32] = "-";
+    if (run && draws >= 0) {
+        snprintf(draw_text, sizeof draw_text, "%d", draws);
+    }
+    if (run) {
+        snprintf(size_text, sizeof size_text, "%dx%d", width, height);
+    }
+    printf("%-12s %-5s %5s  %-12s %s\n", name, run ? "run" : "skip", draw_text, size_text, reason);
+}
+
+void pipeline_print_plan(const pipeline *p, const scene_view *view)
+{
+    printf("%-12s %-5s %5s  %-12s %s\n", "pass", "", "draws", "size", "reason");
+    print_row("pre-pass", p->wants.prepass, -1, p->width, p->height,
+              p->effect          ? "depth and view-space normals"
+              : p->wants.prepass ? "depth alone: nothing reads normals"
+                                 : "rays find their surfaces themselves");
+    if (p->wants.traced) {
+        print_row("raytrace", true, 0, p->width, p->height, "rays from each pixel's surface, on the processor");
+    } else if (p->wants.ao) {
+        const glssao_frame frame = pipeline_frame(p, view);
+        const glssao_plan plan = glssao_plan_frame(p->effect, &frame, &p->settings);
+        for (int i = 0; i < GLSSAO_PASS_COUNT; i++) {
+            if (i != GLSSAO_PASS_APPLY) { /* the main pass reads the map itself */
+                print_row(plan.passes[i].name, plan.passes[i].run, plan.passes[i].draw_calls, plan.passes[i].width,
+                          plan.passes[i].height, plan.passes[i].reason);
+            }
+        }
+    } else {
+        print_row("occlusion", false, 0, 0, 0, "no output reads it");
+    }
+    print_row("layers", p->draw_options.layers, -1, p->width, p->height,
+              p->draw_options.layers ? "back faces and the next fronts, for thickness" : "not asked for");
+    print_row("main", p->wants.picture, -1, p->width, p->height,
+              !p->wants.picture ? "no shaded picture is wanted"
+              : p->wants.ao     ? "shades, ambient light scaled by accessibility"
+                                : "shades, ambient light in full");
+    scene_effect effects[SCENE_EFFECT_COUNT];
+    scene_renderer_effects(p->renderer, &p->lighting, effects);
+    for (int i = 0; p->wants.picture && i < SCENE_EFFECT_COUNT; i++) {
+        printf("%-12s %-5s %5s  %-12s %s\n", effects[i].name, effects[i].used ? "use" : "skip", "-", "-",
+               effects[i].reason);
+    }
+}

@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The textures and framebuffers that a frame is drawn into, and its size.
+ */
+#include "map_view.h"
+#include "pipeline.h"
+
+#include <stdio.h>
+
+static GLuint make_texture(GLenum internal_format, GLenum format, GLenum type, int width, int height)
+{
+    GLuint texture;
+    gl.GenTextures(1, &texture);
+    gl.BindTexture(GL_TEXTURE_2D, texture);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)internal_format, width, height, 0, format, type, NULL);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* the default wants mipmaps */
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return texture;
+}
+
+/* Leaves it bound. Either texture may be 0. */
+static bool make_framebuffer(GLuint color, GLuint depth, GLuint *out)
+{
+    gl.GenFramebuffers(1, out);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, *out);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
+    if (!color) {
+        gl.DrawBuffer(GL_NONE);
+        gl.ReadBuffer(GL_NONE);
+    }
+    return gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+}
+
+static bool check_size(int width, int height, char *error, size_t error_size)
+{
+    GLint max_size = 0;
+    GLint max_viewport[2] = {0, 0};
+    gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &max_size);
+    gl.GetIntegerv(GL_MAX_VIEWPORT_DIMS, max_viewport);
+    const int max_width = max_size < max_viewport[0] ? max_size : max_viewport[0];
+    const int max_height = max_size < max_viewport[1] ? max_size : max_viewport[1];
+    if (width > max_width || height > max_height) {
+        snprintf(error, error_size, "--size %dx%d: this context draws up to %dx%d", width, height, max_width,
+                 max_height);
+        return false;
+    }
+    return true;
+}
+
+void pipeline_free_targets(pipeline *p)
+{
+    gl.DeleteFramebuffers(1, &p->depth_framebuffer);
+    gl.DeleteFramebuffers(1, &p->color_framebuffer);
+    gl.DeleteFramebuffers(1, &p->layer_framebuffer);
+    gl.DeleteFramebuffers(PIXEL_KIND_COUNT, p->map_framebuffers);
+    gl.DeleteTextures(1, &p->depth);
+    gl.DeleteTextures(1, &p->color);
+    gl.DeleteTextures(2, p->layers);
+    gl.DeleteTextures(PIXEL_KIND_COUNT, p->maps);
+    p->depth_framebuffer = p->color_framebuffer = p->layer_framebuffer = p->depth = p->color = 0;
+    p->layers[0] = p->layers[1] = 0;
+    for (int i = 0; i < PIXEL_KIND_COUNT; i++) {
+        p->maps[i] = p->map_framebuffers[i] = 0;
+    }
+    map_view_free(p);
+}
+
+bool pipeline_make_targets(pipeline *p, char *error, size_t error_size)
+{
+    bool complete = true;
+    if (!p->depth) {
+        p->depth = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, p->width, p->height);
+    }
+    if (!p->effect && !p->depth_framebuffer) {
+        complete = make_framebuffer(0, p->depth, &p->depth_framebuffer);
+    }
+    if (p->wants.picture && !p->color) {
+        p->color = make_texture(GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, p->width, p->height);
+        complete = make_framebuffer(p->color, p->depth, &p->color_framebuffer) && complete;
+    }
+    if (p->draw_options.layers && !p->layer_framebuffer) {
+        for (int i = 0; i < 2; i++) {
+            p->layers[i] = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, p->width, p->height);
+        }
+        complete = make_framebuffer(0, p->layers[0], &p->layer_framebuffer) && complete;
+    }
+    const GLenum gl_error = gl.GetError();
+    if (!complete || gl_error != GL_NO_ERROR) {
+        snprintf(error, error_size, "--size %dx%d: no framebuffer of that size (OpenGL error 0x%04x)", p->width,
+                 p->height, gl_error);
+        return false;
+    }
+    return true;
+}
+
+GLuint pipeline_map_framebuffer(pipeline *p, pixel_kind kind)
+{
+    static const struct {
+        GLenum internal_format, format, type;
+    } layouts[] = {[PIXELS_RGBA8] = {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE},
+                   [PIXELS_GREY8] = {GL_R8, GL_RED, GL_UNSIGNED_BYTE},
+                   [PIXELS_FLOAT] = {GL_R32F, GL_RED, GL_FLOAT}};
+    if (!p->maps[kind]) {
+        p->maps[kind] =
+            make_texture(layouts[kind].internal_format, layouts[kind].format, layouts[kind].type, p->width, p->height);
+        if (!make_framebuffer(p->maps[kind], 0, &p->map_framebuffers[kind])) {
+            gl.DeleteFramebuffers(1, &p->map_framebuffers[kind]);
+            gl.DeleteTextures(1, &p->maps[kind]);
+            p->maps[kind] = p->map_framebuffers[kind] = 0;
+        }
+    }
+    return p->map_framebuffers[kind];
+}
+
+bool pipeline_change_size(pipeline *p, int width, int height, char *error, size_t error_size)
+{
+    if (!check_size(width, height, error, error_size)) {
+        return false;
+    }
+    const glssao_result result = p->kept ? glssao_resize(p->kept, width, height) : GLSSAO_OK;
+    if (result != GLSSAO_OK) {
+        snprintf(error, error_size, "glssao_resize failed: %s", glssao_result_string(result));
+        return false;
+    }
+    pipeline_free_targets(p);
+    p->width = width;
+    p->height = height;
+    return true;
+}
+
+bool pipeline_resize(pipeline *p, int width, int height, char *error, size_t error_size)
+{
+    return pipeline_change_size(p, width, height, error, error_size) && pipeline_make_targets(p, error, error_size);
+}

@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: MIT */
+#include "session.h"
+
+#include "clock.h"
+#include "gl.h"
+#include "outputs.h"
+#include "progress.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { WARM_UP_FRAMES = 3 };
+
+bool session_open(session *s, const options *o, char *error, size_t error_size)
+{
+    s->context = context_create(&(context_options){.kind = (context_kind)o->context}, error, error_size);
+    if (!s->context || !gl_load(context_load, s->context, error, error_size)) {
+        return false;
+    }
+    s->writer = writer_create();
+    s->readback = s->writer ? readback_create(s->writer) : NULL;
+    if (!s->readback) {
+        snprintf(error, error_size, "out of memory");
+        return false;
+    }
+    fprintf(stderr, "context: %s\n", context_description(s->context));
+    return true;
+}
+
+void session_close(session *s)
+{
+    readback_destroy(s->readback);
+    writer_destroy(s->writer);
+    bench_destroy(&s->bench);
+    if (s->readback) { /* then GL is there */
+        pipeline_destroy(&s->pipeline);
+    }
+    context_destroy(s->context);
+    *s = (session){.context = NULL};
+}
+
+static pipeline_wants choose_wants(const options *o)
+{
+    const bool maps_alone = !o->output && (o->ao || o->normals || o->depth);
+    pipeline_wants wants = {.picture = o->bench || !maps_alone};
+    wants.ao = !o->no_ao && (wants.picture || o->ao);
+    wants.traced = wants.ao && o->technique == OPTIONS_RAYTRACE;
+    wants.normals = (wants.ao && !wants.traced) || o->normals || o->debug_map == OPTIONS_MAP_NORMALS ||
+                    o->debug_map == OPTIONS_MAP_RANDOM;
+    wants.timers = o->stats || o->bench;
+    wants.prepass = wants.picture || wants.normals || o->depth;
+    return wants;
+}
+
+/* With the margin on it. */
+static bool find_view(session *s, float angle_rad, scene_view *out_view, char *error, size_t error_size)
+{
+    const options *o = s->options;
+    if (!viewpoint_view(&s->viewpoint, s->scene, angle_rad, o->width, o->height, out_view, error, error_size)) {
+        return false;
+    }
+    *out_view = camera_widened_view(out_view, o->margin);
+    return true;
+}
+
+bool session_begin(session *s, const options *o, stage *st, char *error, size_t error_size)
+{
+    s->options = o;
+    s->scene = st->scene;
+    s->frames_drawn = 0;
+    s->times.finish = o->stats || o->bench;
+    for (int i = 0; i < 16 && gl.GetError() != GL_NO_ERROR;
+         i++) { /* of a job before; a lost context has no end of them */
+    }
+    scene_view view;
+    stopwatch_start(&s->times);
+    if (!viewpoint_choose(o, s->scene, &s->viewpoint, error, error_size) ||
+        !find_view(s, 0, &view, error, error_size)) {
+        return false;
+    }
+    if (!pipeline_prepare(&s->pipeline, st, context_load, s->context, o, choose_wants(o), error, error_size)) {
+        pipeline_destroy(&s->pipeline);
+        return false;
+    }
+    stopwatch_lap(&s->times, PHASE_SETUP);
+    if (o->plan) {
+        pipeline_print_plan(&s->pipeline, &view);
+    }
+    return true;
+}
+
+static bool draw(session *s, float angle_rad, scene_view *out_view, char *error, size_t error_size)
+{
+    if (!find_view(s, angle_rad, out_view, error, error_size)) {
+        return false;
+    }
+    if (!pipeline_draw(&s->pipeline, out_view, &s->times, error, error_size)) {
+        pipeline_destroy(&s->pipeline);
+        return false;
+    }
+    return true;
+}
+
+bool session_bench(session *s, char *error, size_t error_size)
+{
+    const int frames = s->options->bench;
+    if (!bench_create(&s->bench, frames)) {
+        snprintf(error, error_size, "--bench %d: out of memory", frames);
+        return false;
+    }
+    stopwatch *times = &s->times;
+    const stopwatch before = *times;
+    glssao_stats stats = {0};
+    times->finish = false; /* a frame flows as it would in a program: no wait between its passes */
+    for (int i = -WARM_UP_FRAMES; i < frames; i++) {
+        scene_view view;
+        const double wall = clock_wall_ms(), cpu = clock_cpu_ms();
+        if (!draw(s, 0, &view, error, error_size)) {
+            return false;
+        }
+        gl.Finish();
+        const double wall_ms = clock_wall_ms() - wall, cpu_ms = clock_cpu_ms() - cpu;
+        stats = glssao_get_stats(s->pipeline.effect);
+        if (i >= 0) {
+            bench_record(&s->bench, wall_ms, cpu_ms, &stats);
+        }
+    }
+    *times = before;
+    bench_print(&s->bench, &stats, context_is_software(s->context));
+    return true;
+}
+
+bool session_draw(session *s, bool shows_progress, writer_slip *slip, char *error, size_t error_size)
+{
+    const float full_turn = 6.283185307f;
+    const options *o = s->options;
+    const int count = o->frames ? o->frames : 1;
+    progress shown = progress_start("frame", count);
+    for (int i = 0; i < count; i++) {
+        scene_view view;
+        stopwatch_start(&s->times);
+        if (!draw(s, full_turn * (float)i / (float)count, &view, error, error_size) ||
+            !outputs_take(o, &s->pipeline, &view, o->frames ? i + 1 : 0, s->readback, slip, error, error_size)) {
+            return false;
+        }
+        if (s->times.finish) { /* the phase is to hold all of it */
+            readback_drain(s->readback);
+        } else {
+            readback_poll(s->readback);
+        }
+        stopwatch_lap(&s->times, PHASE_READBACK);
+        s->frames_drawn++;
+        if (writer_has_failed(s->writer, slip)) { /* the rest would fail too */
+            return session_finish(s, slip, error, error_size);
+        }
+        if (shows_progress && o->frames) {
+            progress_show(&shown, i + 1);
+        }
+    }
+    return true;
+}
+
+bool session_finish(session *s, writer_slip *slip, char *error, size_t error_size)
+{
+    readback_drain(s->readback);
+    const bool done = writer_wait(s->writer, slip);
+    s->times.ms[PHASE_ENCODE] = slip->ms;
+    if (!done) {
+        snprintf(error, error_size, "%s", slip->error);
+    }
+    return done;
+}
+
+bool session_write_stats(session *s, double start_ms, double start_cpu_ms, char *error, size_t error_size)
+{
+    const pipeline *p = &s->pipeline;
+    const report facts = {.options = s->options,
+                          .scene = s->scene,
+                          .context = context_description(s->context),
+                          .settings = p->wants.ao ? &p->settings : NULL,
+                          .passes = glssao_get_stats(p->effect),
+                          .reached = p->reached.estimates ? &p->reached : NULL,
+                          .times = &s->times,
+                          .traced = p->wants.traced ? &p->truth.stats : NULL,
+                          .bench = s->bench.recorded ? &s->bench : NULL,
+                          .frames = s->frames_drawn,
+                          .wall_ms = clock_wall_ms() - start_ms,
+                          .cpu_ms = clock_cpu_ms() - start_cpu_ms};
+    return report_write(&facts, s->options->stats, error, error_size);
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * A scene ready to be drawn: in memory, in the context, and, once rays are traced, in Embree.
+ */
+#ifndef GLSSAO_EXAMPLES_STAGE_H
+#define GLSSAO_EXAMPLES_STAGE_H
+
+#include "draw.h"
+#include "options.h"
+#include "scene.h"
+#include "trace.h"
+
+typedef struct stage {
+    const scene *scene;
+    scene_renderer *renderer;
+    scene_light *lights; /* of lighting */
+    scene_lighting lighting;
+    trace_scene *traced; /* NULL: not yet */
+} stage;
+
+/* The options' scene: NULL, with one line in `error`, on failure. Any thread. */
+scene *stage_load_scene(const options *o, char *error, size_t error_size);
+
+/* Uploads the scene, which must outlive the stage; its programs are shared with those of `like` (may be NULL). False,
+ * with one line in `error`; stage_close is due in either case. */
+bool stage_open(stage *st, const scene *s, const stage *like, char *error, size_t error_size);
+void stage_close(stage *st);
+
+/* Builds Embree's side where it is not there yet. */
+bool stage_trace(stage *st, char *error, size_t error_size);
+
+#endif

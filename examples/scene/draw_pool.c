@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Programs are of a context, not of a scene: renderers that share a pool build each variant once among them.
+ */
+#include "draw_internal.h"
+#include "gl.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+bool draw_pool_join(scene_renderer *r, const scene_renderer *like, char *error, size_t error_size)
+{
+    draw_pool *pool = like ? like->pool : calloc(1, sizeof *pool);
+    if (!pool) {
+        snprintf(error, error_size, "out of memory");
+        return false;
+    }
+    pool->users++;
+    r->pool = pool;
+    if (!like && !draw_build_map_programs(pool, error, error_size))
+        return false; /* scene_renderer_destroy leaves the pool */
+    r->map = pool->map;
+    r->view_distance = pool->view_distance;
+    r->sky = pool->sky;
+    return true;
+}
+
+void draw_pool_leave(scene_renderer *r)
+{
+    draw_pool *pool = r->pool;
+    r->pool = NULL;
+    if (!pool || --pool->users > 0)
+        return;
+    for (int i = 0; i < pool->variant_count; i++)
+        gl.DeleteProgram(pool->variants[i].program.name);
+    gl.DeleteProgram(pool->map.name);
+    gl.DeleteProgram(pool->view_distance.name);
+    gl.DeleteProgram(pool->sky.name);
+    free(pool->variants);
+    free(pool);
+}
