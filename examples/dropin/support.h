@@ -22,7 +22,7 @@
 
 typedef struct dropin_options {
     int frames, samples; /* --frames N: as many, then ends; --samples N of the window */
-    bool no_ao, egl;     /* --no-ao, --egl */
+    bool with_ao, egl;   /* not --no-ao; --egl */
     bool ended, failed;  /* the last frame was shown; its picture can't be written, or OpenGL had an error */
     const char *picture; /* --picture FILE.ppm: the last frame */
 } dropin_options;
