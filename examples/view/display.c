@@ -84,6 +84,7 @@ static bool draw_frame(viewer *v)
 {
     stopwatch times = {.finish = true};
     v->pipeline.settings = frame_settings(v);
+    v->pipeline.wants.ao = v->updates > 0; /* its programs may take a second to compile: a picture first */
     stopwatch_start(&times);
     if (!viewpoint_view(&v->viewpoint, v->scene, 0, v->width, v->height, &v->view, v->error, sizeof v->error) ||
         !pipeline_draw(&v->pipeline, &v->view, &times, v->error, sizeof v->error)) {
@@ -161,7 +162,7 @@ void viewer_display(viewer *v)
         gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
         return;
     }
-    v->frame_due = false;
+    v->frame_due = !v->pipeline.wants.ao;
     if (needs_off(v) && (due || !v->off_color))
         draw_off(v);
     if (v->shown != SHOWN_PICTURE)

@@ -49,13 +49,18 @@ static bool open_window(viewer *v)
     return gl_load(load_function, NULL, v->error, sizeof v->error);
 }
 
-/* False while the window is minimised. */
+/* It keeps its size on X11, and has none on Windows. */
+static bool is_minimised(const viewer *v)
+{
+    int width, height;
+    glfwGetFramebufferSize(v->window, &width, &height);
+    return width < 1 || height < 1 || glfwGetWindowAttrib(v->window, GLFW_ICONIFIED);
+}
+
 static bool follow_size(viewer *v)
 {
     int width, height;
     glfwGetFramebufferSize(v->window, &width, &height);
-    if (width < 1 || height < 1)
-        return false;
     return (width == v->width && height == v->height) || viewer_resize(v, width, height);
 }
 
@@ -76,25 +81,29 @@ static void update(viewer *v)
 /* How long nothing can change by itself, in seconds. */
 static double quiet_time(const viewer *v, bool walking)
 {
+    if (is_minimised(v))
+        return 3600; /* until an event */
     double quiet = v->notice[0] && v->notice_until > glfwGetTime() ? v->notice_until - glfwGetTime() + 0.01 : 3600;
     if (v->mode == MODE_BLINK && v->shown == SHOWN_PICTURE)
         quiet = fmin(quiet, blink_seconds - fmod(glfwGetTime(), blink_seconds) + 0.01);
     return walking ? 0.001 : quiet;
 }
 
-static void run(viewer *v, double start)
+static void run(viewer *v)
 {
     bool walking = false;
     int due = UPDATES_AFTER_EVENT;
-    double last = glfwGetTime(), first_shown = -1;
+    double last = glfwGetTime(), shown[2] = {0}; /* the first picture; the first with occlusion */
     while (!glfwWindowShouldClose(v->window)) {
         const double now = glfwGetTime();
         walking = input_walk(v, fmin(now - last, 0.1));
         last = now;
-        if (follow_size(v))
+        if (!is_minimised(v) && follow_size(v))
             update(v);
-        if (first_shown < 0)
-            first_shown = glfwGetTime() - start;
+        if (v->updates >= 1 && v->updates <= 2)
+            shown[v->updates - 1] = glfwGetTime();
+        if (v->updates == 2)
+            glfwSetWindowTitle(v->window, v->scene->name); /* who waits for it finds the picture whole */
         if (--due > 0) {
             glfwPollEvents();
             continue;
@@ -104,8 +113,9 @@ static void run(viewer *v, double start)
             last = glfwGetTime(); /* waiting is no time to walk in */
         due = UPDATES_AFTER_EVENT;
     }
-    fprintf(stderr, "glssao-view: shown after %.0f ms; %u frames drawn, %u screen updates\n", 1e3 * first_shown,
-            v->frames, v->updates);
+    fprintf(stderr,
+            "glssao-view: shown after %.0f ms, with occlusion after %.0f ms; %u frames drawn, %u screen updates\n",
+            1e3 * shown[0], 1e3 * shown[1], v->frames, v->updates);
 }
 
 int main(int argc, char **argv)
@@ -141,7 +151,7 @@ int main(int argc, char **argv)
         input_start(&v);
         /* Where screen coordinates are larger than pixels, as on macOS, they are scaled already. */
         gui_start(v.window, v.width > window_width ? 1 : scale);
-        run(&v, 0);
+        run(&v);
         gui_stop();
     }
     viewer_close(&v);
