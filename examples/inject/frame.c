@@ -156,6 +156,13 @@ static void say_on(const target *t, const inject_projection *projection)
                far_plane > 0.0f ? (double)far_plane : HUGE_VAL, (double)t->radius, is_reversed ? ", reversed" : "");
 }
 
+/* The first frames, of which some programs draw no more, then now and then. */
+static bool is_radius_due(const target *t)
+{
+    const bool known = t->radius > 0.0f;
+    return t->frame % (known ? FRAMES_PER_RADIUS : FRAMES_PER_LOOK) == 1 || (!known && t->frame < FRAMES_PER_LOOK);
+}
+
 /* Into the window, 0, or a framebuffer of the program's own; false where nothing was drawn. */
 static bool draw_effect(target *t, GLuint framebuffer)
 {
@@ -172,7 +179,7 @@ static bool draw_effect(target *t, GLuint framebuffer)
     }
     if (o->radius > 0.0f)
         t->radius = o->radius;
-    else if (t->frame % (t->radius > 0.0f ? FRAMES_PER_RADIUS : FRAMES_PER_LOOK) == 1) {
+    else if (is_radius_due(t)) {
         const float radius = inject_fitting_radius(depth, t->width, t->height, &projection);
         t->radius = radius > 0.0f ? radius : t->radius;
     }

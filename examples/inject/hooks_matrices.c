@@ -8,6 +8,8 @@
 #define GL_MATRIX_MODE 0x0BA0
 #define GL_PROJECTION 0x1701
 #define GL_PROJECTION_MATRIX 0x0BA7
+#define GL_RENDER_MODE 0x0C40
+#define GL_RENDER 0x1C00
 
 HOOK void glUniformMatrix4fv(int location, int count, unsigned char transpose, const float *values);
 HOOK void glProgramUniformMatrix4fv(unsigned program, int location, int count, unsigned char transpose,
@@ -65,11 +67,13 @@ static void note_stack(void)
 {
     REAL(PFNGLGETINTEGERVPROC, glGetIntegerv);
     REAL(PFNGLGETFLOATVPROC, glGetFloatv);
-    GLint mode = 0;
+    GLint mode = 0, render_mode = GL_RENDER;
     if (!glGetIntegerv_real || !glGetFloatv_real)
         return;
     glGetIntegerv_real(GL_MATRIX_MODE, &mode);
-    if (mode != GL_PROJECTION)
+    glGetIntegerv_real(GL_RENDER_MODE, &render_mode);
+    if (mode != GL_PROJECTION ||
+        render_mode != GL_RENDER) /* to find what is under the pointer, a few pixels are drawn */
         return;
     float m[16];
     glGetFloatv_real(GL_PROJECTION_MATRIX, m);
