@@ -7,10 +7,10 @@
 #include "support.h"
 
 #include <cglm/cglm.h>
-#include <string.h>
 
 /* glssao, snippet: loader */
 #include <glssao/glssao.h>
+#include <string.h>
 
 static void *find_function(const char *name, void *user)
 {

@@ -7,11 +7,11 @@
 #include "support.h"
 
 #include <cglm/cglm.h>
-#include <string.h>
 
 /* glssao, snippet: legacy loader */
 #include "window_depth.h"
 #include <glssao/glssao.h>
+#include <string.h>
 
 static void *find_function(const char *name, void *user)
 {
