@@ -77,6 +77,7 @@ static void record_times(viewer *v, const stopwatch *times)
         v->graph[i][v->graph_next] = stats.passes[i].gpu_ms > 0 ? (float)stats.passes[i].gpu_ms : 0;
     v->graph[GRAPH_PREPASS][v->graph_next] = (float)times->ms[PHASE_PREPASS];
     v->graph[GRAPH_MAIN][v->graph_next] = (float)times->ms[PHASE_MAIN];
+    v->frame_ms[v->graph_next] = (float)(times->ms[PHASE_PREPASS] + times->ms[PHASE_AO] + times->ms[PHASE_MAIN]);
     v->graph_next = (v->graph_next + 1) % GRAPH_LENGTH;
 }
 

@@ -9,6 +9,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { EXIT_DONE = 0, EXIT_NOT_SHOWN = 1, EXIT_USAGE = 2 };
@@ -89,6 +90,22 @@ static double quiet_time(const viewer *v, bool walking)
     return walking ? 0.001 : quiet;
 }
 
+static int compare_floats(const void *a, const void *b)
+{
+    const float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+/* Of the frames that the graph remembers. */
+static double median_frame_ms(const viewer *v)
+{
+    float sorted[GRAPH_LENGTH];
+    memcpy(sorted, v->frame_ms, sizeof sorted);
+    qsort(sorted, GRAPH_LENGTH, sizeof *sorted, compare_floats);
+    const unsigned count = v->frames < GRAPH_LENGTH ? v->frames : GRAPH_LENGTH; /* what was not drawn is 0, in front */
+    return (double)sorted[GRAPH_LENGTH - 1 - count / 2];
+}
+
 static void run(viewer *v)
 {
     bool walking = false;
@@ -114,8 +131,9 @@ static void run(viewer *v)
         due = UPDATES_AFTER_EVENT;
     }
     fprintf(stderr,
-            "glssao-view: shown after %.0f ms, with occlusion after %.0f ms; %u frames drawn, %u screen updates\n",
-            1e3 * shown[0], 1e3 * shown[1], v->frames, v->updates);
+            "glssao-view: shown after %.0f ms, with occlusion after %.0f ms; %u frames drawn, %u screen updates, "
+            "a frame takes %.1f ms\n",
+            1e3 * shown[0], 1e3 * shown[1], v->frames, v->updates, median_frame_ms(v));
 }
 
 int main(int argc, char **argv)

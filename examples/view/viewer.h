@@ -65,6 +65,7 @@ typedef struct viewer {
     bool notice_is_error;
     double notice_until;                    /* seconds of glfwGetTime; 0: stays until the next */
     float graph[GRAPH_COUNT][GRAPH_LENGTH]; /* milliseconds */
+    float frame_ms[GRAPH_LENGTH];           /* pre-pass, occlusion and main together */
     int graph_next;
     unsigned frames, updates; /* frames drawn; times the screen was updated */
     char error[1024];
