@@ -54,5 +54,5 @@ for name in columns cornell steps plane; do # once without being counted, so tha
     row "$name (built in)" --scene $name
 done
 while read -r file; do
-    row "$(basename "$(dirname "$file")")" "$file"
+    row "${file#"$scenes"/}" "$file"
 done < <(find "$scenes" -mindepth 2 -maxdepth 2 \( -name '*.glb' -o -name '*.gltf' \) -not -path '*/invalid/*' | sort)
