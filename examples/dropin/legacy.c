@@ -1,20 +1,17 @@
 /* SPDX-License-Identifier: MIT
  *
  * A program of the old kind: fixed-function drawing straight into the window, multisampled if asked. Ambient
- * occlusion is added to it between "glssao" and "end" marks; window_depth.h fetches the window's depth.
+ * occlusion is added to it where "glssao" marks it; window_depth.h fetches the window's depth.
  *   dropin-legacy [--frames N] [--picture FILE.ppm] [--no-ao] [--samples N] [--egl]
  */
-#include <GL/gl.h>
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-#include <cglm/cglm.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "support.h"
 
-/* snippet: legacy loader */
-#include "window_depth.h" /* glssao */
+#include <cglm/cglm.h>
+
+/* glssao, snippet: legacy loader */
+#include "window_depth.h"
 #include <glssao/glssao.h>
+#include <string.h>
 
 static void *find_function(const char *name, void *user)
 {
@@ -23,8 +20,8 @@ static void *find_function(const char *name, void *user)
     void *address;
     memcpy(&address, &function, sizeof address);
     return address;
-} /* end */
-/* end of snippet */
+}
+/* end */
 
 static void draw_box(float x, float y, float z, float half_x, float half_y, float half_z)
 {
@@ -75,86 +72,46 @@ static void draw_scene(int width, int height)
     draw_box(0.3f, 0.9f, -1.2f, 0.9f, 0.9f, 0.3f);
 }
 
-static bool save_picture(const char *path, int width, int height)
-{
-    size_t row = (size_t)width * 3;
-    unsigned char *rgb = malloc(row * (size_t)height);
-    FILE *file = fopen(path, "wb");
-    bool ok = rgb && file;
-    if (ok) {
-        glPixelStorei(GL_PACK_ALIGNMENT, 1);
-        glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, rgb);
-        fprintf(file, "P6 %d %d 255\n", width, height);
-        for (int y = height; ok && y-- > 0;)
-            ok = fwrite(rgb + row * (size_t)y, row, 1, file) == 1;
-    }
-    free(rgb);
-    return file && fclose(file) == 0 && ok;
-}
-
 int main(int argc, char **argv)
 {
-    int frames = -1, samples = 0, width = 640, height = 480;
-    bool with_ao = true, egl = false, ok = true;
-    const char *picture = NULL;
-    for (int i = 1; i < argc; ++i) {
-        if (strcmp(argv[i], "--frames") == 0 && i + 1 < argc)
-            frames = atoi(argv[++i]);
-        else if (strcmp(argv[i], "--samples") == 0 && i + 1 < argc)
-            samples = atoi(argv[++i]);
-        else if (strcmp(argv[i], "--picture") == 0 && i + 1 < argc)
-            picture = argv[++i];
-        else if (strcmp(argv[i], "--no-ao") == 0)
-            with_ao = false;
-        else if (strcmp(argv[i], "--egl") == 0)
-            egl = true;
-    }
-    if (!glfwInit())
-        return 1;
-    glfwWindowHint(GLFW_SAMPLES, samples);
-    glfwWindowHint(GLFW_CONTEXT_CREATION_API, egl ? GLFW_EGL_CONTEXT_API : GLFW_NATIVE_CONTEXT_API);
-    GLFWwindow *window = glfwCreateWindow(width, height, "glssao dropin-legacy", NULL, NULL);
-    if (!window)
-        return 1;
-    glfwMakeContextCurrent(window);
+    dropin_options o = dropin_read_options(argc, argv);
+    GLFWwindow *window = dropin_open_window("glssao dropin-legacy", &o);
+    int width = 640, height = 480;
 
-    /* snippet: legacy create */
-    glssao_effect *effect = NULL; /* glssao */
+    /* glssao, snippet: legacy create */
+    glssao_effect *effect = NULL;
     glssao_config config = {.load = find_function, .log = glssao_log_to_stderr, .width = width, .height = height};
     window_depth *depth_copy = window_depth_create(find_function, NULL);
     if (!depth_copy || glssao_create(&config, &effect) != GLSSAO_OK)
         return 1;
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
-    settings.radius = 0.5f; /* end */
-    /* end of snippet */
+    settings.radius = 0.5f;
+    /* end */
 
-    while (ok && frames != 0 && !glfwWindowShouldClose(window)) {
-        int w, h;
-        glfwGetFramebufferSize(window, &w, &h);
-        if ((w != width || h != height) && w > 0 && h > 0) {
-            width = w;
-            height = h;
-            glssao_resize(effect, width, height); /* glssao */ /* end */
+    while (!o.ended && !glfwWindowShouldClose(window)) {
+        if (dropin_take_size(window, &width, &height)) {
+            /* glssao */
+            glssao_resize(effect, width, height);
+            /* end */
         }
         draw_scene(width, height);
 
-        /* snippet: legacy frame */
-        if (with_ao) { /* glssao */
+        if (o.with_ao) {
+            /* glssao, snippet: legacy frame */
             const char *why;
             glssao_frame frame = {.depth_texture = window_depth_copy(depth_copy, 0, width, height, &why)};
             glGetFloatv(GL_PROJECTION_MATRIX, frame.projection);
             if (frame.depth_texture && glssao_compute(effect, &frame, &settings) == GLSSAO_OK)
                 glssao_apply(effect, 0);
-        } /* end */
-        /* end of snippet */
+            /* end */
+        }
 
-        if (frames > 0 && --frames == 0 && picture)
-            ok = save_picture(picture, width, height) && glGetError() == GL_NO_ERROR;
-        glfwSwapBuffers(window);
-        glfwPollEvents();
+        dropin_show(window, &o, width, height);
     }
-    window_depth_destroy(depth_copy); /* glssao */
-    glssao_destroy(effect);           /* end */
+    /* glssao */
+    window_depth_destroy(depth_copy);
+    glssao_destroy(effect);
+    /* end */
     glfwTerminate();
-    return ok ? 0 : 1;
+    return o.failed;
 }

@@ -17,14 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    CONTEXTS = 16,
-    FRAMES_TO_FIND_A_PROJECTION = 60,
-    FRAMES_PER_RADIUS = 60,
-    FRAMES_PER_LOOK = 10,
-    SAMPLES = 4096,
-    REASONS = 16
-};
+enum { CONTEXTS = 16, FRAMES_TO_FIND_A_PROJECTION = 60, FRAMES_PER_RADIUS = 60, FRAMES_PER_LOOK = 10, REASONS = 16 };
 
 typedef struct target {
     void *context;
@@ -88,13 +81,6 @@ static target *find_target(void *context)
     return NULL;
 }
 
-#define REAL(type, name)                                                                                               \
-    type name;                                                                                                         \
-    do {                                                                                                               \
-        void *address_ = inject_real("gl" #name, NULL);                                                                \
-        memcpy(&name, &address_, sizeof address_);                                                                     \
-    } while (0)
-
 static bool prepare(target *t, int width, int height)
 {
     if (!t->effect) {
@@ -103,7 +89,7 @@ static bool prepare(target *t, int width, int height)
         glssao_result result = glssao_create(&config, &t->effect);
         t->depth = result == GLSSAO_OK ? window_depth_create(inject_real, NULL) : NULL;
         if (!t->depth) {
-            REAL(PFNGLGETSTRINGPROC, GetString);
+            INJECT_REAL(PFNGLGETSTRINGPROC, GetString);
             const char *version = GetString ? (const char *)GetString(GL_VERSION) : NULL;
             inject_say("no effect in this context (%s): %s", version ? version : "version unknown",
                        glssao_result_string(result));
@@ -123,106 +109,68 @@ static bool prepare(target *t, int width, int height)
     return true;
 }
 
-static int compare_floats(const void *a, const void *b)
-{
-    const float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
-/* Reads the depth texture back, whatever the program set for packing. The caller frees. */
-static float *read_depth(GLuint texture, int width, int height)
-{
-    REAL(PFNGLGETINTEGERVPROC, GetIntegerv);
-    REAL(PFNGLPIXELSTOREIPROC, PixelStorei);
-    REAL(PFNGLBINDBUFFERPROC, BindBuffer);
-    REAL(PFNGLBINDTEXTUREPROC, BindTexture);
-    REAL(PFNGLGETTEXIMAGEPROC, GetTexImage);
-    static const GLenum names[] = {GL_PACK_SWAP_BYTES, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS,
-                                   GL_PACK_ALIGNMENT};
-    float *depth = malloc((size_t)width * (size_t)height * sizeof *depth);
-    if (!depth)
-        return NULL;
-    GLint packing[5], buffer, bound;
-    for (int i = 0; i < 5; ++i) {
-        GetIntegerv(names[i], &packing[i]);
-        PixelStorei(names[i], i == 4 ? 4 : 0);
-    }
-    GetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &buffer);
-    GetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
-    BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-    BindTexture(GL_TEXTURE_2D, texture);
-    GetTexImage(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, GL_FLOAT, depth);
-    BindTexture(GL_TEXTURE_2D, (GLuint)bound);
-    BindBuffer(GL_PIXEL_PACK_BUFFER, (GLuint)buffer);
-    for (int i = 0; i < 5; ++i)
-        PixelStorei(names[i], packing[i]);
-    return depth;
-}
-
-/* A twelfth of the height that is in view at the median distance of what is seen; 0 where nothing is. */
-static float fitting_radius(GLuint texture, int width, int height, const float p[16])
-{
-    float *depth = read_depth(texture, width, height);
-    size_t count = 0, all = (size_t)width * (size_t)height;
-    const size_t step = all > SAMPLES ? all / SAMPLES : 1;
-    for (size_t i = 0; depth && i < all; i += step) {
-        const float distance = p[14] / (2.0f * depth[i] - 1.0f + p[10]);
-        if (depth[i] > 0.0f && depth[i] < 1.0f && isfinite(distance) && distance > 0.0f) /* 0: never cleared */
-            depth[count++] = distance;
-    }
-    float radius = 0.0f;
-    if (count > all / step / 200) {
-        qsort(depth, count, sizeof *depth, compare_floats);
-        radius = depth[count / 2] * 2.0f / p[5] / 12.0f;
-    }
-    free(depth);
-    return radius;
-}
-
-static bool get_projection(const target *t, GLuint framebuffer, float projection[16])
+static bool get_projection(const target *t, GLuint framebuffer, inject_projection *out)
 {
     const inject_options *o = inject_get_options();
-    const bool found = inject_get_projection(framebuffer, projection);
+    const bool found = inject_get_projection(framebuffer, out);
     if (o->fov > 0.0f) {
         const float focal = 1.0f / tanf(o->fov * 3.14159265f / 360.0f), n = o->near_plane, f = o->far_plane;
-        memset(projection, 0, 16 * sizeof *projection);
-        projection[0] = focal * (float)t->height / (float)t->width;
-        projection[5] = focal;
-        projection[10] = (f + n) / (n - f);
-        projection[11] = -1.0f;
-        projection[14] = 2.0f * f * n / (n - f);
+        *out = (inject_projection){{0}, false};
+        out->matrix[0] = focal * (float)t->height / (float)t->width;
+        out->matrix[5] = focal;
+        out->matrix[10] = (f + n) / (n - f);
+        out->matrix[11] = -1.0f;
+        out->matrix[14] = 2.0f * f * n / (n - f);
         return true;
     }
     if (!found && t->frame >= FRAMES_TO_FIND_A_PROJECTION)
-        say_once("no perspective projection was seen; GLSSAO_INJECT_FOV, _NEAR and _FAR can tell it");
+        say_once("no projection was seen; GLSSAO_INJECT_FOV, _NEAR and _FAR can tell a perspective one");
     return found;
 }
 
-static void show_map_alone(GLuint framebuffer)
+/* glDepthRange(1, 0) turns depth about after the projection. */
+static void follow_depth_range(inject_projection *p)
 {
-    REAL(PFNGLGETFLOATVPROC, GetFloatv);
-    REAL(PFNGLCLEARCOLORPROC, ClearColor);
-    REAL(PFNGLCLEARPROC, Clear);
-    REAL(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer);
-    REAL(PFNGLGETINTEGERVPROC, GetIntegerv);
-    GLfloat color[4];
-    GLint bound;
-    GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
-    GetFloatv(GL_COLOR_CLEAR_VALUE, color);
-    BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-    ClearColor(1.0f, 1.0f, 1.0f, 1.0f);
-    Clear(GL_COLOR_BUFFER_BIT);
-    ClearColor(color[0], color[1], color[2], color[3]);
-    BindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)bound);
+    INJECT_REAL(PFNGLGETFLOATVPROC, GetFloatv);
+    GLfloat range[2] = {0.0f, 1.0f};
+    GetFloatv(GL_DEPTH_RANGE, range);
+    if (range[0] != 1.0f || range[1] != 0.0f || p->zero_to_one)
+        return;
+    p->matrix[10] = -p->matrix[10];
+    p->matrix[14] = -p->matrix[14];
+}
+
+static void say_on(const target *t, const inject_projection *projection)
+{
+    const float *p = projection->matrix, low = projection->zero_to_one ? 0.0f : -1.0f;
+    if (p[11] == 0.0f) {
+        inject_say("on: %d x %d, orthographic, %g high, %g deep, radius %g", t->width, t->height, (double)(2.0f / p[5]),
+                   (double)fabsf((1.0f - low) / p[10]), (double)t->radius);
+        return;
+    }
+    const float at_low = p[14] / (low + p[10]), at_high = p[14] / (1.0f + p[10]);
+    const bool is_reversed = fabsf(low + p[10]) < fabsf(1.0f + p[10]); /* the far end is where this is least */
+    const float far_plane = is_reversed ? at_low : at_high;
+    inject_say("on: %d x %d, field of view %.1f degrees, near %g, far %g, radius %g%s", t->width, t->height,
+               (double)(atanf(1.0f / p[5]) * 114.591559f), (double)(is_reversed ? at_high : at_low),
+               far_plane > 0.0f ? (double)far_plane : HUGE_VAL, (double)t->radius, is_reversed ? ", reversed" : "");
+}
+
+/* The first frames, of which some programs draw no more, then now and then. */
+static bool is_radius_due(const target *t)
+{
+    const bool known = t->radius > 0.0f;
+    return t->frame % (known ? FRAMES_PER_RADIUS : FRAMES_PER_LOOK) == 1 || (!known && t->frame < FRAMES_PER_LOOK);
 }
 
 /* Into the window, 0, or a framebuffer of the program's own; false where nothing was drawn. */
 static bool draw_effect(target *t, GLuint framebuffer)
 {
     const inject_options *o = inject_get_options();
-    float projection[16];
-    if (!get_projection(t, framebuffer, projection) || !is_on)
+    inject_projection projection;
+    if (!get_projection(t, framebuffer, &projection) || !is_on)
         return false;
+    follow_depth_range(&projection);
     const char *why = NULL;
     const GLuint depth = window_depth_copy(t->depth, framebuffer, t->width, t->height, &why);
     if (!depth) {
@@ -231,8 +179,8 @@ static bool draw_effect(target *t, GLuint framebuffer)
     }
     if (o->radius > 0.0f)
         t->radius = o->radius;
-    else if (t->frame % (t->radius > 0.0f ? FRAMES_PER_RADIUS : FRAMES_PER_LOOK) == 1) {
-        const float radius = fitting_radius(depth, t->width, t->height, projection);
+    else if (is_radius_due(t)) {
+        const float radius = inject_fitting_radius(depth, t->width, t->height, &projection);
         t->radius = radius > 0.0f ? radius : t->radius;
     }
     if (!(t->radius > 0.0f)) {
@@ -245,51 +193,19 @@ static bool draw_effect(target *t, GLuint framebuffer)
     settings.radius = t->radius;
     if (o->power > 0.0f)
         settings.power = o->power;
-    glssao_frame frame = {.depth_texture = depth};
-    memcpy(frame.projection, projection, sizeof frame.projection);
+    glssao_frame frame = {.depth_texture = depth, .clip_zero_to_one = projection.zero_to_one};
+    memcpy(frame.projection, projection.matrix, sizeof frame.projection);
     if (glssao_compute(t->effect, &frame, &settings) != GLSSAO_OK)
         return false;
     if (o->map)
-        show_map_alone(framebuffer);
+        inject_clear_to_white(framebuffer);
     if (glssao_apply(t->effect, framebuffer) != GLSSAO_OK)
         return false;
     if (!t->works) {
         t->works = true;
-        const float far_plane = projection[14] / (projection[10] + 1.0f);
-        inject_say("on: %d x %d, field of view %.1f degrees, near %g, far %g, radius %g", t->width, t->height,
-                   (double)(atanf(1.0f / projection[5]) * 114.591559f),
-                   (double)(projection[14] / (projection[10] - 1.0f)), far_plane > 0.0f ? (double)far_plane : HUGE_VAL,
-                   (double)t->radius);
+        say_on(t, &projection);
     }
     return true;
-}
-
-/* The window's back buffer as a PPM, for tests and documents. What it sets stays set: the program ends after it. */
-static bool write_picture(const char *path, int width, int height)
-{
-    REAL(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer);
-    REAL(PFNGLPIXELSTOREIPROC, PixelStorei);
-    REAL(PFNGLREADPIXELSPROC, ReadPixels);
-    REAL(PFNGLREADBUFFERPROC, ReadBuffer);
-    const size_t count = (size_t)width * (size_t)height, row = (size_t)width * 3;
-    unsigned char *rgb = malloc(4 * count); /* read as RGBA, which embedded contexts insist on */
-    FILE *file = fopen(path, "wb");
-    if (rgb && file) {
-        BindFramebuffer(GL_FRAMEBUFFER, 0);
-        ReadBuffer(GL_BACK);
-        PixelStorei(GL_PACK_ALIGNMENT, 1);
-        ReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgb);
-        for (size_t i = 0; i < count; ++i)
-            memmove(rgb + 3 * i, rgb + 4 * i, 3);
-        fprintf(file, "P6 %d %d 255\n", width, height);
-        for (int y = height; y-- > 0;)
-            fwrite(rgb + row * (size_t)y, row, 1, file);
-    }
-    const bool ok = rgb && file && fclose(file) == 0;
-    free(rgb);
-    if (!ok)
-        inject_say("%s can't be written", path);
-    return ok;
 }
 
 /* Locked until release; NULL, and not locked, where there is no effect to be had. */
@@ -316,8 +232,8 @@ void inject_blit(void *context, unsigned framebuffer, int width, int height)
     target *t = acquire(context);
     if (!t)
         return;
-    float unused[16]; /* a framebuffer that was not drawn anew must not be darkened once more */
-    if (!t->is_drawn && inject_get_projection(framebuffer, unused) && is_ready(t, width, height))
+    inject_projection unused; /* a framebuffer that was not drawn anew must not be darkened once more */
+    if (!t->is_drawn && inject_get_projection(framebuffer, &unused) && is_ready(t, width, height))
         t->is_drawn = draw_effect(t, framebuffer);
     pthread_mutex_unlock(&lock);
 }
@@ -329,12 +245,12 @@ void inject_swap(void *context, int width, int height)
         return;
     const inject_options *o = inject_get_options();
     const bool is_last = ++t->frame == o->picture_frame && o->picture;
-    const bool ok = !is_last || !o->before || write_picture(o->before, width, height);
+    const bool ok = !is_last || !o->before || inject_write_picture(o->before, width, height);
     if (!t->is_drawn && is_ready(t, width, height))
         draw_effect(t, 0);
     t->is_drawn = false;
     inject_end_frame();
     if (is_last)
-        _Exit(write_picture(o->picture, width, height) && ok ? 0 : 1);
+        _Exit(inject_write_picture(o->picture, width, height) && ok ? 0 : 1);
     pthread_mutex_unlock(&lock);
 }

@@ -1,17 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * The functions that a program calls here instead of in libGL, libEGL and, to look those up, in libc. Each does what
- * was asked, and notes or draws what glssao-inject wants besides. lookup.c lists their names.
+ * The functions that a program calls here instead of in libGL, libEGL and, to look those up, in libc: lookups, swaps
+ * and blits. Each does what was asked, and draws what glssao-inject wants besides. lookup.c lists their names.
  */
-#include "inject.h"
+#include "hooks.h"
 
-#include <GL/glcorearb.h>
-#include <string.h>
-
-#define HOOK __attribute__((visibility("default")))
-#define GL_MATRIX_MODE 0x0BA0
-#define GL_PROJECTION 0x1701
-#define GL_PROJECTION_MATRIX 0x0BA7
 #define GLX_WIDTH 0x801D
 #define GLX_HEIGHT 0x801E
 #define EGL_WIDTH 0x3057
@@ -28,16 +21,8 @@ HOOK void glXSwapBuffers(void *display, unsigned long drawable);
 HOOK unsigned eglSwapBuffers(void *display, void *surface);
 HOOK unsigned eglSwapBuffersWithDamageEXT(void *display, void *surface, const int *rectangles, int count);
 HOOK unsigned eglSwapBuffersWithDamageKHR(void *display, void *surface, const int *rectangles, int count);
-HOOK void glUniformMatrix4fv(int location, int count, unsigned char transpose, const float *values);
-HOOK void glProgramUniformMatrix4fv(unsigned program, int location, int count, unsigned char transpose,
-                                    const float *values);
-HOOK void glLoadMatrixf(const float *m);
-HOOK void glLoadMatrixd(const double *m);
-HOOK void glMultMatrixf(const float *m);
-HOOK void glMultMatrixd(const double *m);
 HOOK void glBlitFramebuffer(int x0, int y0, int x1, int y1, int to_x0, int to_y0, int to_x1, int to_y1, unsigned mask,
                             unsigned filter);
-HOOK void glFrustum(double left, double right, double bottom, double top, double near_plane, double far_plane);
 
 /* ---- looking functions up ---- */
 
@@ -74,14 +59,6 @@ function eglGetProcAddress(const char *name)
 {
     return lookup_through("eglGetProcAddress", name);
 }
-
-/* REAL(type, name): a local pointer of that type to the real function; NULL where there is none. */
-#define REAL(type, name)                                                                                               \
-    type name##_real;                                                                                                  \
-    do {                                                                                                               \
-        void *address_ = inject_real(#name, NULL);                                                                     \
-        memcpy(&name##_real, &address_, sizeof address_);                                                              \
-    } while (0)
 
 /* ---- swaps ---- */
 
@@ -157,82 +134,6 @@ unsigned eglSwapBuffersWithDamageKHR(void *display, void *surface, const int *re
     return ok;
 }
 
-/* ---- matrices ---- */
-
-static unsigned framebuffer_of(GLenum binding)
-{
-    REAL(PFNGLGETINTEGERVPROC, glGetIntegerv);
-    GLint framebuffer = 0;
-    if (glGetIntegerv_real)
-        glGetIntegerv_real(binding, &framebuffer);
-    return (unsigned)framebuffer;
-}
-
-static void note_uniform(int count, unsigned char transpose, const float *values)
-{
-    if (count != 1 || !values)
-        return;
-    float m[16];
-    for (int i = 0; i < 16; ++i)
-        m[i] = values[transpose ? 4 * (i % 4) + i / 4 : i];
-    inject_note_matrix(m, framebuffer_of(GL_DRAW_FRAMEBUFFER_BINDING));
-}
-
-void glUniformMatrix4fv(int location, int count, unsigned char transpose, const float *values)
-{
-    REAL(PFNGLUNIFORMMATRIX4FVPROC, glUniformMatrix4fv);
-    if (glUniformMatrix4fv_real)
-        glUniformMatrix4fv_real(location, count, transpose, values);
-    note_uniform(count, transpose, values);
-}
-
-void glProgramUniformMatrix4fv(unsigned program, int location, int count, unsigned char transpose, const float *values)
-{
-    REAL(PFNGLPROGRAMUNIFORMMATRIX4FVPROC, glProgramUniformMatrix4fv);
-    if (glProgramUniformMatrix4fv_real)
-        glProgramUniformMatrix4fv_real(program, location, count, transpose, values);
-    note_uniform(count, transpose, values);
-}
-
-/* The fixed-function stack does the arithmetic; its top is looked at after each change. */
-static void note_stack(void)
-{
-    REAL(PFNGLGETINTEGERVPROC, glGetIntegerv);
-    REAL(PFNGLGETFLOATVPROC, glGetFloatv);
-    GLint mode = 0;
-    if (!glGetIntegerv_real || !glGetFloatv_real)
-        return;
-    glGetIntegerv_real(GL_MATRIX_MODE, &mode);
-    if (mode != GL_PROJECTION)
-        return;
-    float m[16];
-    glGetFloatv_real(GL_PROJECTION_MATRIX, m);
-    inject_note_matrix(m, framebuffer_of(GL_DRAW_FRAMEBUFFER_BINDING));
-}
-
-#define STACK_HOOK(name, type)                                                                                         \
-    void name(const type *m)                                                                                           \
-    {                                                                                                                  \
-        typedef void (*load_fn)(const type *);                                                                         \
-        REAL(load_fn, name);                                                                                           \
-        if (name##_real)                                                                                               \
-            name##_real(m);                                                                                            \
-        note_stack();                                                                                                  \
-    }
-STACK_HOOK(glLoadMatrixf, float)
-STACK_HOOK(glLoadMatrixd, double)
-STACK_HOOK(glMultMatrixf, float)
-STACK_HOOK(glMultMatrixd, double)
-
-void glFrustum(double left, double right, double bottom, double top, double near_plane, double far_plane)
-{
-    typedef void (*frustum_fn)(double, double, double, double, double, double);
-    REAL(frustum_fn, glFrustum);
-    if (glFrustum_real)
-        glFrustum_real(left, right, bottom, top, near_plane, far_plane);
-    note_stack();
-}
-
 /* ---- pictures drawn elsewhere ---- */
 
 static void *current_context(void)
@@ -248,7 +149,7 @@ void glBlitFramebuffer(int x0, int y0, int x1, int y1, int to_x0, int to_y0, int
                        unsigned filter)
 {
     REAL(PFNGLBLITFRAMEBUFFERPROC, glBlitFramebuffer);
-    const unsigned framebuffer = framebuffer_of(GL_READ_FRAMEBUFFER_BINDING);
+    const unsigned framebuffer = hooks_framebuffer(GL_READ_FRAMEBUFFER_BINDING);
     if (++depth_of_calls == 1 && (mask & GL_COLOR_BUFFER_BIT) && framebuffer != 0 && x0 == 0 && y0 == 0 && x1 > 0 &&
         y1 > 0)
         inject_blit(current_context(), framebuffer, x1, y1);

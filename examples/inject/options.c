@@ -56,7 +56,6 @@ static void read_environment(void)
         .quality = GLSSAO_HIGH,
         .off = flag("GLSSAO_INJECT_OFF"),
         .map = flag("GLSSAO_INJECT_MAP"),
-        .verbose = flag("GLSSAO_INJECT_VERBOSE"),
         .picture = getenv("GLSSAO_INJECT_PICTURE"),
         .before = getenv("GLSSAO_INJECT_BEFORE"),
         .picture_frame = (int)number("GLSSAO_INJECT_FRAME", 1.0f),

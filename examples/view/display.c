@@ -77,6 +77,7 @@ static void record_times(viewer *v, const stopwatch *times)
         v->graph[i][v->graph_next] = stats.passes[i].gpu_ms > 0 ? (float)stats.passes[i].gpu_ms : 0;
     v->graph[GRAPH_PREPASS][v->graph_next] = (float)times->ms[PHASE_PREPASS];
     v->graph[GRAPH_MAIN][v->graph_next] = (float)times->ms[PHASE_MAIN];
+    v->frame_ms[v->graph_next] = (float)(times->ms[PHASE_PREPASS] + times->ms[PHASE_AO] + times->ms[PHASE_MAIN]);
     v->graph_next = (v->graph_next + 1) % GRAPH_LENGTH;
 }
 
@@ -84,6 +85,7 @@ static bool draw_frame(viewer *v)
 {
     stopwatch times = {.finish = true};
     v->pipeline.settings = frame_settings(v);
+    v->pipeline.wants.ao = v->updates > 0; /* its programs may take a second to compile: a picture first */
     stopwatch_start(&times);
     if (!viewpoint_view(&v->viewpoint, v->scene, 0, v->width, v->height, &v->view, v->error, sizeof v->error) ||
         !pipeline_draw(&v->pipeline, &v->view, &times, v->error, sizeof v->error)) {
@@ -161,7 +163,7 @@ void viewer_display(viewer *v)
         gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
         return;
     }
-    v->frame_due = false;
+    v->frame_due = !v->pipeline.wants.ao;
     if (needs_off(v) && (due || !v->off_color))
         draw_off(v);
     if (v->shown != SHOWN_PICTURE)

@@ -1,49 +1,19 @@
 /* SPDX-License-Identifier: MIT
  *
- * Keys, mouse, dropped files. What the panel wants it gets; the rest moves the camera or changes what is shown.
+ * Events of the window: mouse, dropped files, keys that are held. What the panel wants it gets; the rest moves the
+ * camera. keys.c has what a key does.
  */
 #include "gui.h"
 #include "navigate.h"
-#include "setting_table.h"
 #include "viewer.h"
 
 #include <GLFW/glfw3.h>
 
 #include <math.h>
-#include <string.h>
 
 static const float turn_rad_per_height = 3.0f; /* of the window */
 static const double zoom_per_step = 0.9;
 static const float split_reach = 8; /* how near to the line the pointer takes hold of it, in screen coordinates */
-
-const char *const input_help[][2] = {
-    {"left drag", "turn round the target"},
-    {"right drag", "look about"},
-    {"middle drag, Shift + left drag", "move across"},
-    {"wheel, + -", "nearer, farther"},
-    {"W A S D, Q E", "walk; down, up (Shift: faster)"},
-    {"arrows", "turn; in split view with Ctrl: move the line"},
-    {"F", "frame the scene"},
-    {"1 2 3 4, Space", "occlusion on, off, split by a line, blink; on or off"},
-    {"M, Shift+M", "next map, the one before"},
-    {"P O U N V X H", "picture, accessibility, raw estimate, normals, view distance, random vectors, shadow map"},
-    {"T, Y", "difference to the ray-traced accessibility, that itself"},
-    {"Tab, Shift+Tab", "technique; quality"},
-    {"[ ]", "radius smaller, larger"},
-    {", .", "contrast less, more"},
-    {"R", "the radius that suits the scene"},
-    {"Backspace", "settings as the technique and quality come"},
-    {"J K L B I", "shadows, mapped normals, specular occlusion, multi-bounce, the map in the corner"},
-    {"Ctrl+O, drop a file", "open a glTF file"},
-    {"Page Up, Page Down", "built-in scenes"},
-    {"Ctrl+S", "save the picture as shown"},
-    {"Ctrl+C", "copy and print the glssao-render command line"},
-    {"G", "panel"},
-    {"F2", "keys to the panel, Esc back"},
-    {"F1", "this"},
-    {"Ctrl+Q", "quit"},
-    {NULL, NULL},
-};
 
 typedef struct drag {
     int button; /* -1: none */
@@ -57,213 +27,12 @@ static viewer *of_window(GLFWwindow *window)
     return glfwGetWindowUserPointer(window);
 }
 
-static void camera_moved(viewer *v)
-{
-    v->moved = true;
-    v->viewpoint.half_height = 0; /* an orthographic view of the file's becomes a perspective one */
-    v->viewpoint.clip_near = v->viewpoint.clip_far = 0;
-    viewer_change(v);
-}
-
-static void step_technique(viewer *v)
-{
-    viewer_set_technique(v, (v->options.technique + 1) % OPTIONS_RAYTRACE, v->options.quality);
-}
-
-static void step_quality(viewer *v)
-{
-    viewer_set_technique(v, v->options.technique, (v->options.quality + 1) % (GLSSAO_ULTRA + 1));
-}
-
-static void set_radius(viewer *v, float radius)
-{
-    setting_scale_radius(&v->settings, radius);
-    v->options.radius = (options_number){true, radius};
-    viewer_change(v);
-}
-
-static void show(viewer *v, viewer_shown what)
-{
-    const bool was_raw = v->shown == SHOWN_RAW;
-    v->shown = v->shown == what ? SHOWN_PICTURE : what;
-    if (was_raw != (v->shown == SHOWN_RAW))
-        v->frame_due = true;
-    if (!viewer_shows_truth(v))
-        viewer_drop_truth(v);
-}
-
-static void step_shown(viewer *v, int by)
-{
-    show(v, (viewer_shown)(((int)v->shown + by + SHOWN_COUNT) % SHOWN_COUNT));
-}
-
-static void step_scene(viewer *v, int by)
-{
-    static const char *const names[] = {"columns", "cornell", "steps", "plane"};
-    int at = by > 0 ? -1 : 0;
-    for (int i = 0; i < 4; i++)
-        if (!v->scene_path[0] && !strcmp(v->scene->name, names[i]))
-            at = i;
-    viewer_open(v, NULL, names[(at + by + 4) % 4]);
-}
-
-static void toggle(viewer *v, bool *option)
-{
-    *option = !*option;
-    viewer_configure(v);
-}
-
-static bool key_with_control(viewer *v, int key)
-{
-    switch (key) {
-    case GLFW_KEY_Q:
-        glfwSetWindowShouldClose(v->window, GLFW_TRUE);
-        return true;
-    case GLFW_KEY_O:
-        v->about_to_open = v->opening = true;
-        return true;
-    case GLFW_KEY_S:
-        viewer_save_picture(v);
-        return true;
-    case GLFW_KEY_C:
-        viewer_copy_command_line(v);
-        return true;
-    case GLFW_KEY_LEFT:
-    case GLFW_KEY_RIGHT:
-        v->split = fminf(fmaxf(v->split + (key == GLFW_KEY_LEFT ? -0.02f : 0.02f), 0), 1);
-        return true;
-    default:
-        return false;
-    }
-}
-
-static bool key_of_view(viewer *v, int key)
-{
-    const float step = 0.1f;
-    switch (key) {
-    case GLFW_KEY_F:
-        v->moved = true; /* the whole scene, not the file's or the command line's view */
-        viewer_frame_scene(v);
-        return true;
-    case GLFW_KEY_LEFT:
-    case GLFW_KEY_RIGHT:
-        navigate_orbit(&v->viewpoint.base, key == GLFW_KEY_LEFT ? -step : step, 0);
-        break;
-    case GLFW_KEY_UP:
-    case GLFW_KEY_DOWN:
-        navigate_orbit(&v->viewpoint.base, 0, key == GLFW_KEY_DOWN ? -step : step);
-        break;
-    case GLFW_KEY_EQUAL:
-    case GLFW_KEY_KP_ADD:
-    case GLFW_KEY_MINUS:
-    case GLFW_KEY_KP_SUBTRACT:
-        navigate_zoom(&v->viewpoint.base, key == GLFW_KEY_EQUAL || key == GLFW_KEY_KP_ADD ? 0.9f : 1 / 0.9f);
-        break;
-    default:
-        return false;
-    }
-    camera_moved(v);
-    return true;
-}
-
-static bool key_of_show(viewer *v, int key, bool shift)
-{
-    static const struct {
-        int key;
-        viewer_shown shown;
-    } maps[] = {{GLFW_KEY_O, SHOWN_AO},         {GLFW_KEY_U, SHOWN_RAW},    {GLFW_KEY_N, SHOWN_NORMALS},
-                {GLFW_KEY_V, SHOWN_DISTANCE},   {GLFW_KEY_X, SHOWN_RANDOM}, {GLFW_KEY_H, SHOWN_SHADOW},
-                {GLFW_KEY_T, SHOWN_DIFFERENCE}, {GLFW_KEY_Y, SHOWN_TRUTH},  {GLFW_KEY_P, SHOWN_PICTURE}};
-    for (size_t i = 0; i < sizeof maps / sizeof maps[0]; i++)
-        if (maps[i].key == key) {
-            show(v, maps[i].shown);
-            return true;
-        }
-    if (key >= GLFW_KEY_1 && key <= GLFW_KEY_4) {
-        v->mode = (viewer_mode)(key - GLFW_KEY_1);
-        show(v, SHOWN_PICTURE);
-        v->shown = SHOWN_PICTURE;
-    } else if (key == GLFW_KEY_SPACE) {
-        v->mode = v->mode == MODE_ON ? MODE_OFF : MODE_ON;
-    } else if (key == GLFW_KEY_M) {
-        step_shown(v, shift ? -1 : 1);
-    } else {
-        return false;
-    }
-    return true;
-}
-
-static bool key_of_settings(viewer *v, int key, bool shift)
-{
-    switch (key) {
-    case GLFW_KEY_TAB:
-        (shift ? step_quality : step_technique)(v);
-        return true;
-    case GLFW_KEY_LEFT_BRACKET:
-        set_radius(v, v->settings.radius / 1.25f);
-        return true;
-    case GLFW_KEY_RIGHT_BRACKET:
-        set_radius(v, v->settings.radius * 1.25f);
-        return true;
-    case GLFW_KEY_R:
-        set_radius(v, camera_suggest_radius(v->scene));
-        return true;
-    case GLFW_KEY_COMMA:
-    case GLFW_KEY_PERIOD:
-        v->settings.power = fminf(fmaxf(v->settings.power + (key == GLFW_KEY_COMMA ? -0.25f : 0.25f), 0), 64);
-        viewer_change(v);
-        return true;
-    case GLFW_KEY_BACKSPACE:
-        v->settings = viewer_standard(v);
-        viewer_change(v);
-        return true;
-    case GLFW_KEY_J:
-        toggle(v, &v->options.no_shadows);
-        return true;
-    case GLFW_KEY_K:
-        toggle(v, &v->options.mapped_normals);
-        return true;
-    case GLFW_KEY_L:
-        toggle(v, &v->options.specular_occlusion);
-        return true;
-    case GLFW_KEY_B:
-        toggle(v, &v->options.multi_bounce);
-        return true;
-    case GLFW_KEY_I:
-        v->options.debug_map = v->options.debug_map ? OPTIONS_MAP_NONE : OPTIONS_MAP_AO;
-        viewer_configure(v);
-        return true;
-    default:
-        return false;
-    }
-}
-
 static void on_key(GLFWwindow *window, int key, int scancode, int action, int modifiers)
 {
     (void)scancode;
     viewer *v = of_window(window);
-    const bool shift = modifiers & GLFW_MOD_SHIFT;
-    if (action == GLFW_RELEASE || !v->scene)
-        return;
-    if (key == GLFW_KEY_F1) {
-        v->help_open = !v->help_open;
-    } else if (key == GLFW_KEY_F2) {
-        v->panel_open = v->panel_focus_due = true;
-    } else if (key == GLFW_KEY_ESCAPE) {
-        v->help_open = v->opening = false;
-        gui_leave();
-    } else if (modifiers & GLFW_MOD_CONTROL) {
-        if (!gui_wants_keyboard() || key != GLFW_KEY_C) /* there it copies text */
-            key_with_control(v, key);
-    } else if (gui_wants_keyboard()) {
-        return;
-    } else if (key == GLFW_KEY_G) {
-        v->panel_open = !v->panel_open;
-    } else if (key == GLFW_KEY_PAGE_UP || key == GLFW_KEY_PAGE_DOWN) {
-        step_scene(v, key == GLFW_KEY_PAGE_UP ? -1 : 1);
-    } else if (!key_of_view(v, key) && !key_of_show(v, key, shift)) {
-        key_of_settings(v, key, shift);
-    }
+    if (action != GLFW_RELEASE && v->scene)
+        keys_press(v, key, modifiers);
 }
 
 static void on_button(GLFWwindow *window, int button, int action, int modifiers)
@@ -304,7 +73,7 @@ static void on_pointer(GLFWwindow *window, double x, double y)
         navigate_orbit(&v->viewpoint.base, -turn_rad_per_height * right, -turn_rad_per_height * up);
     else
         navigate_look(&v->viewpoint.base, turn_rad_per_height * right, turn_rad_per_height * up);
-    camera_moved(v);
+    viewer_camera_moved(v);
 }
 
 static void on_scroll(GLFWwindow *window, double x, double y)
@@ -314,7 +83,7 @@ static void on_scroll(GLFWwindow *window, double x, double y)
     if (gui_wants_mouse() || !v->scene)
         return;
     navigate_zoom(&v->viewpoint.base, (float)pow(zoom_per_step, y));
-    camera_moved(v);
+    viewer_camera_moved(v);
 }
 
 static void on_drop(GLFWwindow *window, int count, const char **paths)
@@ -350,6 +119,6 @@ bool input_walk(viewer *v, double seconds)
     const float faster = glfwGetKey(v->window, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS ? 4 : 1;
     const float step = 5 * camera_suggest_radius(v->scene) * faster * (float)seconds;
     navigate_walk(&v->viewpoint.base, step * ahead, step * right, step * up);
-    camera_moved(v);
+    viewer_camera_moved(v);
     return true;
 }

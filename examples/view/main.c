@@ -9,6 +9,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { EXIT_DONE = 0, EXIT_NOT_SHOWN = 1, EXIT_USAGE = 2 };
@@ -49,13 +50,18 @@ static bool open_window(viewer *v)
     return gl_load(load_function, NULL, v->error, sizeof v->error);
 }
 
-/* False while the window is minimised. */
+/* It keeps its size on X11, and has none on Windows. */
+static bool is_minimised(const viewer *v)
+{
+    int width, height;
+    glfwGetFramebufferSize(v->window, &width, &height);
+    return width < 1 || height < 1 || glfwGetWindowAttrib(v->window, GLFW_ICONIFIED);
+}
+
 static bool follow_size(viewer *v)
 {
     int width, height;
     glfwGetFramebufferSize(v->window, &width, &height);
-    if (width < 1 || height < 1)
-        return false;
     return (width == v->width && height == v->height) || viewer_resize(v, width, height);
 }
 
@@ -76,25 +82,45 @@ static void update(viewer *v)
 /* How long nothing can change by itself, in seconds. */
 static double quiet_time(const viewer *v, bool walking)
 {
+    if (is_minimised(v))
+        return 3600; /* until an event */
     double quiet = v->notice[0] && v->notice_until > glfwGetTime() ? v->notice_until - glfwGetTime() + 0.01 : 3600;
     if (v->mode == MODE_BLINK && v->shown == SHOWN_PICTURE)
         quiet = fmin(quiet, blink_seconds - fmod(glfwGetTime(), blink_seconds) + 0.01);
     return walking ? 0.001 : quiet;
 }
 
-static void run(viewer *v, double start)
+static int compare_floats(const void *a, const void *b)
+{
+    const float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+/* Of the frames that the graph remembers. */
+static double median_frame_ms(const viewer *v)
+{
+    float sorted[GRAPH_LENGTH];
+    memcpy(sorted, v->frame_ms, sizeof sorted);
+    qsort(sorted, GRAPH_LENGTH, sizeof *sorted, compare_floats);
+    const unsigned count = v->frames < GRAPH_LENGTH ? v->frames : GRAPH_LENGTH; /* what was not drawn is 0, in front */
+    return (double)sorted[GRAPH_LENGTH - 1 - count / 2];
+}
+
+static void run(viewer *v)
 {
     bool walking = false;
     int due = UPDATES_AFTER_EVENT;
-    double last = glfwGetTime(), first_shown = -1;
+    double last = glfwGetTime(), shown[2] = {0}; /* the first picture; the first with occlusion */
     while (!glfwWindowShouldClose(v->window)) {
         const double now = glfwGetTime();
         walking = input_walk(v, fmin(now - last, 0.1));
         last = now;
-        if (follow_size(v))
+        if (!is_minimised(v) && follow_size(v))
             update(v);
-        if (first_shown < 0)
-            first_shown = glfwGetTime() - start;
+        if (v->updates >= 1 && v->updates <= 2)
+            shown[v->updates - 1] = glfwGetTime();
+        if (v->updates == 2)
+            glfwSetWindowTitle(v->window, v->scene->name); /* who waits for it finds the picture whole */
         if (--due > 0) {
             glfwPollEvents();
             continue;
@@ -104,8 +130,10 @@ static void run(viewer *v, double start)
             last = glfwGetTime(); /* waiting is no time to walk in */
         due = UPDATES_AFTER_EVENT;
     }
-    fprintf(stderr, "glssao-view: shown after %.0f ms; %u frames drawn, %u screen updates\n", 1e3 * first_shown,
-            v->frames, v->updates);
+    fprintf(stderr,
+            "glssao-view: shown after %.0f ms, with occlusion after %.0f ms; %u frames drawn, %u screen updates, "
+            "a frame takes %.1f ms\n",
+            1e3 * shown[0], 1e3 * shown[1], v->frames, v->updates, median_frame_ms(v));
 }
 
 int main(int argc, char **argv)
@@ -141,7 +169,7 @@ int main(int argc, char **argv)
         input_start(&v);
         /* Where screen coordinates are larger than pixels, as on macOS, they are scaled already. */
         gui_start(v.window, v.width > window_width ? 1 : scale);
-        run(&v, 0);
+        run(&v);
         gui_stop();
     }
     viewer_close(&v);

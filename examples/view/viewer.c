@@ -40,6 +40,14 @@ void viewer_change(viewer *v)
     viewer_drop_truth(v);
 }
 
+void viewer_camera_moved(viewer *v)
+{
+    v->moved = true;
+    v->viewpoint.half_height = 0; /* an orthographic view of the file's becomes a perspective one */
+    v->viewpoint.clip_near = v->viewpoint.clip_far = 0;
+    viewer_change(v);
+}
+
 void viewer_frame_scene(viewer *v)
 {
     options o = v->options;
@@ -101,9 +109,9 @@ bool viewer_open(viewer *v, const char *path, const char *name)
         setting_scale_radius(&v->settings, path ? camera_suggest_radius(s) : viewer_standard(v).radius);
         viewer_say(v, false, "%s: %u triangles stored, opened in %.0f ms", s->name, s->index_count / 3,
                    1e3 * (glfwGetTime() - start));
+        glfwSetWindowTitle(v->window, s->name);
     }
     viewer_frame_scene(v);
-    glfwSetWindowTitle(v->window, s->name);
     return true;
 }
 

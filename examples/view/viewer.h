@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * The viewer's state, and what its parts do with it: a scene and a frame pipeline (viewer.c), what is on the screen
- * (display.c), keys and mouse (input.c), the panel (panel.c), files and command lines (save.c).
+ * (display.c), mouse (input.c) and keys (keys.c), the panel (panel.c, panel_settings.c), files and command lines
+ * (save.c).
  */
 #ifndef GLSSAO_EXAMPLES_VIEWER_H
 #define GLSSAO_EXAMPLES_VIEWER_H
@@ -64,6 +65,7 @@ typedef struct viewer {
     bool notice_is_error;
     double notice_until;                    /* seconds of glfwGetTime; 0: stays until the next */
     float graph[GRAPH_COUNT][GRAPH_LENGTH]; /* milliseconds */
+    float frame_ms[GRAPH_LENGTH];           /* pre-pass, occlusion and main together */
     int graph_next;
     unsigned frames, updates; /* frames drawn; times the screen was updated */
     char error[1024];
@@ -85,6 +87,8 @@ void viewer_set_technique(viewer *v, int technique, int quality);
 void viewer_configure(viewer *v);
 /* Something changed that the frame shows. */
 void viewer_change(viewer *v);
+/* The camera is no longer the command line's or the file's. */
+void viewer_camera_moved(viewer *v);
 
 /* ---- display.c ---- */
 
@@ -107,11 +111,18 @@ void viewer_drop_truth(viewer *v);
 void input_start(viewer *v);
 /* Keys that are held: walking. True where the camera moved. */
 bool input_walk(viewer *v, double seconds);
-extern const char *const input_help[][2]; /* key, what it does; ends with NULL */
 
-/* ---- panel.c ---- */
+/* ---- keys.c ---- */
+
+/* A key that was pressed, or repeats, in GLFW's numbers. */
+void keys_press(viewer *v, int key, int modifiers);
+extern const char *const keys_help[][2]; /* key, what it does; ends with NULL */
+
+/* ---- panel.c, panel_settings.c ---- */
 
 void panel_draw(viewer *v);
+/* The section with every setting of the technique. */
+void panel_draw_settings(viewer *v);
 
 /* ---- save.c ---- */
 

@@ -11,7 +11,7 @@ float accessibility()
 {
     return texture(u_ambient_map, gl_FragCoord.xy * u_inv_size).r;
 }
-// end of snippet
+// end
 
 void main()
 {

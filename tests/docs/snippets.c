@@ -44,7 +44,7 @@ void forward_normals(glssao_effect *effect, GLuint depth, const float *projectio
     glssao_frame frame = {.depth_texture = depth, .normal_texture = glssao_map(effect, GLSSAO_MAP_NORMAL, NULL, NULL)};
     memcpy(frame.projection, projection, sizeof frame.projection);
     glssao_compute(effect, &frame, settings);
-    /* end of snippet */
+    /* end */
 }
 
 void deferred(glssao_effect *effect, GLuint depth, GLuint normals, const float *projection,
@@ -59,7 +59,7 @@ void deferred(glssao_effect *effect, GLuint depth, GLuint normals, const float *
     glActiveTexture(GL_TEXTURE0 + 5);
     glBindTexture(GL_TEXTURE_2D, glssao_map(effect, GLSSAO_MAP_AMBIENT, NULL, NULL));
     draw_lights(); /* its shader scales ambient light alone */
-    /* end of snippet */
+    /* end */
 }
 
 void linear_depth(glssao_effect *effect, GLuint view_distance, const float *projection, const glssao_settings *settings)
@@ -69,7 +69,7 @@ void linear_depth(glssao_effect *effect, GLuint view_distance, const float *proj
                           .depth_kind = GLSSAO_DEPTH_VIEW_DISTANCE};
     memcpy(frame.projection, projection, sizeof frame.projection);
     glssao_compute(effect, &frame, settings);
-    /* end of snippet */
+    /* end */
 }
 
 void multisampled(glssao_effect *effect, GLuint multisampled_framebuffer, GLuint resolved_framebuffer, GLuint depth,
@@ -85,7 +85,7 @@ void multisampled(glssao_effect *effect, GLuint multisampled_framebuffer, GLuint
     memcpy(frame.projection, projection, sizeof frame.projection);
     glssao_compute(effect, &frame, settings);
     glssao_apply(effect, resolved_framebuffer);
-    /* end of snippet */
+    /* end */
 }
 
 void reversed(glssao_effect *effect, GLuint depth, float aspect, float focal, float near_plane,
@@ -99,7 +99,7 @@ void reversed(glssao_effect *effect, GLuint depth, float aspect, float focal, fl
     frame.projection[11] = -1.0f;
     frame.projection[14] = near_plane;
     glssao_compute(effect, &frame, settings);
-    /* end of snippet */
+    /* end */
 }
 
 void two_eyes(glssao_effect *effect, const eye eyes[2], const glssao_settings *settings)
@@ -111,7 +111,7 @@ void two_eyes(glssao_effect *effect, const eye eyes[2], const glssao_settings *s
         if (glssao_compute(effect, &frame, settings) == GLSSAO_OK)
             glssao_apply(effect, eyes[i].framebuffer);
     }
-    /* end of snippet */
+    /* end */
 }
 
 void large_frames(glssao_settings *settings)
@@ -120,5 +120,5 @@ void large_frames(glssao_settings *settings)
     *settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     settings->half_resolution = true; /* a quarter of the pixels */
     settings->upsample = false;       /* and the half-size map for your own shader to filter */
-    /* end of snippet */
+    /* end */
 }

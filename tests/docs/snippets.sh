@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # snippets.sh [--update] PAGE SOURCE...: every code block of PAGE is a snippet that a compiled SOURCE holds between
-# "snippet: NAME" and "end of snippet" comments, word for word; with --update the page is made so.
+# "snippet: NAME" and "end" comments, word for word; with --update the page is made so.
 set -euo pipefail
 update=
 if [ "$1" = --update ]; then
@@ -14,7 +14,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
 awk -v folder="$scratch" '
-    /end of snippet/ { name = ""; next }
+    /^ *(\/\*|#|\/\/) end( \*\/)?$/ { name = ""; next }
     /snippet: / {
         match($0, /snippet: [a-z0-9 -]+[a-z0-9]/)
         name = substr($0, RSTART + 9, RLENGTH - 9)
@@ -25,8 +25,6 @@ awk -v folder="$scratch" '
         next
     }
     name != "" {
-        sub(/ *\/\* end \*\/$/, "")
-        sub(/ *\/\* glssao \*\/$/, "")
         print (substr($0, 1, indent) ~ /^ *$/ ? substr($0, indent + 1) : $0) > (folder "/" name)
     }' "$@"
 

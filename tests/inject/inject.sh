@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# inject.sh LIBRARY CHECK FOLDER: the preload library in the dropin programs with their own effect off, under Xvfb: in the
+# inject.sh LIBRARY CHECK FOLDER FOREIGN: the preload library in the dropin programs with their own effect off, under Xvfb: in the
 # fixed-function one, which draws into its window, and in the one that draws into a framebuffer of its own and blits it;
-# switched off by the environment and by a signal; where no depth is to be had. Then in Debian's gears, and in an OpenGL ES
+# switched off by the environment and by a signal; in one that has its matrix in a uniform buffer, an orthographic view or
+# reversed depth, where the picture must be the one of a program that hands over its matrix itself; where no depth is to be had. Then in Debian's gears, and in an OpenGL ES
 # program, which must run on and be told why nothing happens.
 set -euo pipefail
-library=$1 check=$2 folder=$3
+library=$1 check=$2 folder=$3 foreign=$4
 if ! command -v xvfb-run >/dev/null; then
     echo "inject.sh: skipped: no xvfb-run (Debian and Ubuntu: apt install xvfb xauth)"
     exit 77
@@ -51,6 +52,14 @@ inject core "$folder/dropin" --no-ao --frames 5
 mv core-after.ppm core-with.ppm
 GLSSAO_INJECT_OFF=1 inject core "$folder/dropin" --no-ao --frames 5
 "$check" core-with.ppm core-after.ppm || fail "core: wrong picture"
+for modes in "ubo ortho" "mapped reversed" range; do
+    # shellcheck disable=SC2086
+    {
+        inject modes "$foreign" $modes --frames 5
+        "$foreign" $modes own --frames 2 --picture modes-own.ppm
+    }
+    "$check" --alike modes-after.ppm modes-before.ppm modes-own.ppm || fail "$modes: wrong picture"
+done
 unset GLSSAO_INJECT_RADIUS
 
 for gears in glxgears eglgears_x11; do

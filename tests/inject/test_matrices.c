@@ -61,10 +61,10 @@ static void a_projection_is_its_own(void **state)
     (void)state;
     matrix p, found;
     frustum(0.0f, 0.1f, 100.0f, p);
-    assert_true(inject_perspective_of(p, found));
+    assert_true(inject_perspective_of(p, false, found));
     assert_alike(p, found);
     frustum(0.3f, 0.5f, INFINITY, p);
-    assert_true(inject_perspective_of(p, found));
+    assert_true(inject_perspective_of(p, false, found));
     assert_alike(p, found);
 }
 
@@ -77,7 +77,7 @@ static void a_projection_is_found_in_a_product(void **state)
         frustum(0.2f, 0.1f, 60.0f, p);
         model_view(scales[i], scales[i], scales[i], v);
         multiply(p, v, product);
-        assert_true(inject_perspective_of(product, found));
+        assert_true(inject_perspective_of(product, false, found));
         assert_alike(p, found);
     }
 }
@@ -88,25 +88,131 @@ static void other_matrices_are_refused(void **state)
     const matrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     const matrix orthographic = {0.1f, 0, 0, 0, 0, 0.1f, 0, 0, 0, 0, -0.02f, 0, 0, 0, -1.0f, 1};
     matrix p, v, product, found;
-    assert_false(inject_perspective_of(identity, found));
-    assert_false(inject_perspective_of(orthographic, found));
+    assert_false(inject_perspective_of(identity, false, found));
+    assert_false(inject_perspective_of(orthographic, false, found));
     model_view(1.0f, 1.0f, 1.0f, v);
-    assert_false(inject_perspective_of(v, found));
+    assert_false(inject_perspective_of(v, false, found));
     frustum(0.0f, 0.1f, 60.0f, p);
     model_view(1.0f, 3.0f, 0.5f, v); /* would give a wrong field of view */
     multiply(p, v, product);
-    assert_false(inject_perspective_of(product, found));
-    frustum(0.0f, 60.0f, 0.1f, p); /* reversed depth, which a window of old has not */
-    assert_false(inject_perspective_of(p, found));
+    assert_false(inject_perspective_of(product, false, found));
+    frustum(0.0f, 60.0f, 0.1f, p);
     p[5] = NAN;
-    assert_false(inject_perspective_of(p, found));
+    assert_false(inject_perspective_of(p, false, found));
+}
+
+static void reversed_depth_is_told(void **state)
+{
+    (void)state;
+    matrix p, v, product, found;
+    frustum(0.1f, 60.0f, 0.1f, p); /* near and far exchanged */
+    model_view(2.0f, 2.0f, 2.0f, v);
+    multiply(p, v, product);
+    assert_true(inject_perspective_of(product, false, found));
+    assert_alike(p, found);
+    p[10] = 0.0f; /* infinite, depth from 0 to 1: near over distance */
+    p[14] = 0.1f;
+    multiply(p, v, product);
+    assert_true(inject_perspective_of(product, true, found));
+    assert_alike(p, found);
+    assert_false(inject_perspective_of(product, false, found)); /* near would lie behind the eye */
+}
+
+static void orthographic(float half_width, float half_height, float depth, bool zero_to_one, bool reversed, matrix out)
+{
+    memset(out, 0, sizeof(matrix));
+    out[0] = 1.0f / half_width;
+    out[5] = 1.0f / half_height;
+    out[10] = (zero_to_one ? -1.0f : -2.0f) / depth * (reversed ? -1.0f : 1.0f);
+    out[14] = reversed ? 1.0f : zero_to_one ? 0.0f : -1.0f;
+    out[15] = 1.0f;
+}
+
+static void orthographic_projections_are_told(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; ++i) {
+        const bool zero_to_one = i & 1, reversed = i == 3;
+        matrix p, v, product, found;
+        orthographic(4.0f, 3.0f, 20.0f, zero_to_one, reversed, p);
+        model_view(1.0f, 1.0f, 1.0f, v);
+        multiply(p, v, product);
+        assert_true(inject_orthographic_of(product, zero_to_one, found));
+        assert_alike(p, found); /* centred, though v moves it */
+        assert_false(inject_perspective_of(product, zero_to_one, found));
+    }
+}
+
+static void interfaces_and_models_are_no_orthographic_scene(void **state)
+{
+    (void)state;
+    const matrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    matrix flat, v, found;
+    assert_false(inject_orthographic_of(identity, false, found));
+    assert_false(inject_orthographic_of(identity, true, found));
+    model_view(2.0f, 2.0f, 2.0f, v);
+    assert_false(inject_orthographic_of(v, false, found));
+    assert_false(inject_orthographic_of(v, true, found));
+    orthographic(320.0f, 240.0f, 2.0f, false, false, flat); /* glOrtho(0, 640, 0, 480, -1, 1) */
+    assert_false(inject_orthographic_of(flat, false, found));
+    orthographic(4.0f, -3.0f, 20.0f, false, false, flat); /* y downwards */
+    assert_false(inject_orthographic_of(flat, false, found));
+    frustum(0.0f, 0.1f, 60.0f, v);
+    assert_false(inject_orthographic_of(v, false, found));
+}
+
+static void matrices_in_a_uniform_buffer_are_found(void **state)
+{
+    (void)state;
+    struct {
+        float color[4], light[4];
+        matrix view, row_major;
+        float rest[8];
+    } block = {.color = {1, 0.5f, 0.25f, 1}, .light = {0.3f, 0.8f, 0.5f, 0}};
+    matrix p, v, product;
+    inject_projection found;
+    frustum(0.0f, 0.7f, 90.0f, p);
+    model_view(1.0f, 1.0f, 1.0f, v);
+    multiply(p, v, product);
+    memcpy(block.view, v, sizeof v);
+    for (int i = 0; i < 16; ++i)
+        block.row_major[i] = product[4 * (i % 4) + i / 4];
+    inject_end_frame();
+    inject_note_buffer(&block, sizeof block);
+    assert_true(inject_get_projection(0, &found));
+    assert_alike(p, found.matrix);
+    assert_true(inject_get_projection(7, &found)); /* whichever framebuffer is drawn with it */
+    inject_end_frame();
+}
+
+static void perspective_goes_before_orthographic(void **state)
+{
+    (void)state;
+    matrix p, box;
+    inject_projection found;
+    frustum(0.0f, 0.5f, 60.0f, p);
+    orthographic(4.0f, 3.0f, 20.0f, false, false, box);
+    inject_end_frame();
+    for (int i = 0; i < 3; ++i)
+        inject_note_matrix(box, 0);
+    inject_note_matrix(p, 0);
+    assert_true(inject_get_projection(0, &found));
+    assert_alike(p, found.matrix);
+    for (int frame = 0; frame < 70; ++frame) { /* the scene's matrices stay, the interface's are set: for a second */
+        inject_end_frame();
+        inject_note_matrix(box, 0);
+        assert_true(inject_get_projection(0, &found));
+        assert_alike(frame < 60 ? p : box, found.matrix);
+    }
+    inject_end_frame();
 }
 
 static void the_projection_of_most_matrices_is_taken_and_kept(void **state)
 {
     (void)state;
-    matrix rare, usual, found;
-    assert_false(inject_get_projection(0, found));
+    matrix rare, usual;
+    inject_projection found;
+    assert_false(inject_get_projection(0, &found));
     frustum(0.0f, 0.1f, 10.0f, rare);
     frustum(0.0f, 0.5f, 60.0f, usual);
     inject_note_matrix(rare, 0);
@@ -116,31 +222,32 @@ static void the_projection_of_most_matrices_is_taken_and_kept(void **state)
         multiply(usual, v, product);
         inject_note_matrix(product, 0);
     }
-    assert_true(inject_get_projection(0, found));
-    assert_alike(usual, found);
+    assert_true(inject_get_projection(0, &found));
+    assert_alike(usual, found.matrix);
     inject_end_frame();
-    memset(found, 0, sizeof found);
-    assert_true(inject_get_projection(0, found)); /* a frame that sets none */
-    assert_alike(usual, found);
+    memset(&found, 0, sizeof found);
+    assert_true(inject_get_projection(0, &found)); /* a frame that sets none */
+    assert_alike(usual, found.matrix);
 }
 
 static void each_framebuffer_has_its_own(void **state)
 {
     (void)state;
-    matrix in_7, in_window, found;
+    matrix in_7, in_window;
+    inject_projection found;
     frustum(0.0f, 0.1f, 10.0f, in_7);
     frustum(0.0f, 0.5f, 60.0f, in_window);
     inject_end_frame();
     inject_note_matrix(in_7, 7);
     inject_note_matrix(in_7, 7);
-    assert_false(inject_get_projection(0, found)); /* the window's of old would be a guess here */
+    assert_false(inject_get_projection(0, &found)); /* the window's of old would be a guess here */
     inject_note_matrix(in_window, 0);
-    assert_true(inject_get_projection(0, found));
-    assert_alike(in_window, found);
-    assert_true(inject_get_projection(7, found));
-    assert_alike(in_7, found);
+    assert_true(inject_get_projection(0, &found));
+    assert_alike(in_window, found.matrix);
+    assert_true(inject_get_projection(7, &found));
+    assert_alike(in_7, found.matrix);
     inject_end_frame();
-    assert_false(inject_get_projection(7, found)); /* nothing of old, where nothing was drawn anew */
+    assert_false(inject_get_projection(7, &found)); /* nothing of old, where nothing was drawn anew */
 }
 
 int main(void)
@@ -149,8 +256,13 @@ int main(void)
         cmocka_unit_test(a_projection_is_its_own),
         cmocka_unit_test(a_projection_is_found_in_a_product),
         cmocka_unit_test(other_matrices_are_refused),
+        cmocka_unit_test(reversed_depth_is_told),
+        cmocka_unit_test(orthographic_projections_are_told),
+        cmocka_unit_test(interfaces_and_models_are_no_orthographic_scene),
         cmocka_unit_test(the_projection_of_most_matrices_is_taken_and_kept),
         cmocka_unit_test(each_framebuffer_has_its_own),
+        cmocka_unit_test(matrices_in_a_uniform_buffer_are_found),
+        cmocka_unit_test(perspective_goes_before_orthographic),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

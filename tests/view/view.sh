@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# view.sh GLSSAO_VIEW GLSSAO_RENDER EYES: the viewer as a person uses it: real keys and mouse on a virtual screen, and
-# screenshots. Starts an X server of its own. Pictures stay in GLSSAO_VIEW_SHOTS where that names a folder.
+# view.sh GLSSAO_VIEW GLSSAO_RENDER EYES HANDS: the viewer as a person uses it: real keys and mouse on a virtual screen,
+# a file dropped, the window minimised, and screenshots. Starts an X server of its own. Pictures stay in GLSSAO_VIEW_SHOTS where that names a folder.
 set -uo pipefail
 view=$1
 render=$2
 eyes=$3
+hands=$4
 work=${GLSSAO_VIEW_SHOTS:-$(mktemp -d)}
 server=
 viewer=
@@ -84,12 +85,13 @@ save() {
     eval "draw ${command#glssao-render }"
     same "the command line: $command" saved.png picture.png
 }
+work_us() { awk '{printf "%d", $1 / 1000}' /proc/$viewer/schedstat; } # the main thread's, on the processor
 draw() { "$render" "$@" 2>/dev/null || fail "glssao-render $*"; }
 start() {
     "$view" "$@" >view.out 2>view.err &
     viewer=$!
     local try
-    for try in $(seq 100); do
+    for try in $(seq 200); do # it has the scene's name once the picture is whole
         window=$(xdotool search --onlyvisible --name '^(columns|plane|steps|cornell)$' 2>/dev/null | head -n 1)
         [ -n "$window" ] && break
         kill -0 $viewer 2>/dev/null || break
@@ -97,15 +99,17 @@ start() {
     done
     [ -n "$window" ] || { cat view.err; fail "no window"; exit 1; }
     xdotool mousemove 400 200 windowfocus "$window"
-    last=
-    for try in $(seq 100); do # black until the first frame
-        "$eyes" shot "$window" started.png
-        [ "$("$eyes" colors started.png)" -gt 20 ] && break
-    done
+    "$eyes" shot "$window" started.png
     last=started.png
 }
 stop() {
     press ctrl+q
+    local try
+    for try in $(seq 100); do
+        kill -0 $viewer 2>/dev/null || break
+        sleep 0.1
+    done
+    [ "$try" -lt 100 ] || { fail "the viewer does not leave" && kill $viewer; }
     wait $viewer || fail "the viewer left with $?"
     viewer=
     grep -i 'opengl error\|glssao: error\|Sanitizer' view.err && fail "errors on stderr"
@@ -115,9 +119,26 @@ stop() {
 start -s 320x200 --scene plane
 sleep 0.8
 stop
-read -r frames updates < <(sed -n 's/.*; \([0-9]*\) frames drawn, \([0-9]*\) screen updates/\1 \2/p' view.err)
+read -r frames updates < <(sed -n 's/.*; \([0-9]*\) frames drawn, \([0-9]*\) screen updates.*/\1 \2/p' view.err)
 [ "${frames:-99}" -le 2 ] || fail "$frames frames for a picture that stands still"
 [ "${updates:-99}" -le 25 ] || fail "$updates screen updates while nothing happens"
+
+# Minimised, it does not even blink, and comes back as it was.
+start -s 320x200 --scene plane
+press g 4
+"$hands" minimise "$window" || fail "not minimised"
+sleep 0.3
+before=$(work_us)
+sleep 2
+work=$(($(work_us) - before))
+[ "$work" -le 2000 ] || fail "minimised it works for $work microseconds in 2 seconds"
+"$hands" restore "$window" || fail "not restored"
+xdotool windowfocus "$window"
+press 1
+shot restored
+draw -s 320x200 --scene plane -o render-restored.png
+same "restored" restored.png render-restored.png
+stop
 
 start -s 640x400 -o saved.png
 press g # the panel away
@@ -202,19 +223,30 @@ cat >triangle.gltf <<'GLTF'
 GLTF
 echo '{"asset":' >broken.gltf
 press ctrl+o
+shot opening
 xdotool type --delay 5 triangle.gltf
 press Return
 await has_title triangle.gltf
 shot triangle
 different "the opened file" 50000 cornell.png triangle.png
 press ctrl+o
-sleep 0.1
+shot opening
 press ctrl+a
 xdotool type --delay 5 broken.gltf
 press Return
 await grep -q 'glssao-view: .*broken.gltf' view.err
 has_title triangle.gltf || fail "a broken file took the scene away"
 press Escape
+shot closed
+sed 's/"scale": \[4, 1, 1\]/"scale": [1, 4, 1]/' triangle.gltf >'dropped one.gltf'
+"$hands" drop "$window" "$PWD/dropped one.gltf" || fail "the dropped file is refused"
+await has_title 'dropped one.gltf'
+shot dropped
+different "the dropped file" 20000 triangle.png dropped.png
+cp broken.gltf 'broken too.gltf'
+"$hands" drop "$window" "$PWD/broken too.gltf" || fail "the dropped file is refused"
+await grep -q 'glssao-view: .*broken too.gltf' view.err
+has_title 'dropped one.gltf' || fail "a broken file that was dropped took the scene away"
 
 # Resized: the camera that frames the scene follows.
 xdotool windowsize "$window" 300 400

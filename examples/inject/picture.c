@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Pictures for tests and documents: the window's into a file, and white under the map.
+ */
+#include "inject.h"
+
+#include <GL/glcorearb.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void inject_clear_to_white(unsigned framebuffer)
+{
+    INJECT_REAL(PFNGLGETFLOATVPROC, GetFloatv);
+    INJECT_REAL(PFNGLCLEARCOLORPROC, ClearColor);
+    INJECT_REAL(PFNGLCLEARPROC, Clear);
+    INJECT_REAL(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer);
+    INJECT_REAL(PFNGLGETINTEGERVPROC, GetIntegerv);
+    GLfloat color[4];
+    GLint bound;
+    GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
+    GetFloatv(GL_COLOR_CLEAR_VALUE, color);
+    BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    ClearColor(1.0f, 1.0f, 1.0f, 1.0f);
+    Clear(GL_COLOR_BUFFER_BIT);
+    ClearColor(color[0], color[1], color[2], color[3]);
+    BindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)bound);
+}
+
+bool inject_write_picture(const char *path, int width, int height)
+{
+    INJECT_REAL(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer);
+    INJECT_REAL(PFNGLPIXELSTOREIPROC, PixelStorei);
+    INJECT_REAL(PFNGLREADPIXELSPROC, ReadPixels);
+    INJECT_REAL(PFNGLREADBUFFERPROC, ReadBuffer);
+    const size_t count = (size_t)width * (size_t)height, row = (size_t)width * 3;
+    unsigned char *rgb = malloc(4 * count); /* read as RGBA, which embedded contexts insist on */
+    FILE *file = fopen(path, "wb");
+    if (rgb && file) {
+        BindFramebuffer(GL_FRAMEBUFFER, 0);
+        ReadBuffer(GL_BACK);
+        PixelStorei(GL_PACK_ALIGNMENT, 1);
+        ReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgb);
+        for (size_t i = 0; i < count; ++i)
+            memmove(rgb + 3 * i, rgb + 4 * i, 3);
+        fprintf(file, "P6 %d %d 255\n", width, height);
+        for (int y = height; y-- > 0;)
+            fwrite(rgb + row * (size_t)y, row, 1, file);
+    }
+    const bool ok = rgb && file && fclose(file) == 0;
+    free(rgb);
+    if (!ok)
+        inject_say("%s can't be written", path);
+    return ok;
+}

@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The panel's section of settings: a slider or choice with unit and reset for each that the technique has.
+ */
+#include "gui.h"
+#include "setting_table.h"
+#include "viewer.h"
+
+#include <float.h>
+#include <math.h>
+
+/* Sliders have ends: for a length, ten times what comes with the radius that suits the scene. */
+static float slider_end(const setting *s, const viewer *v, float standard)
+{
+    if (s->high < FLT_MAX)
+        return s->high;
+    const float suggested = camera_suggest_radius(v->scene);
+    return s->offset == offsetof(glssao_settings, radius) ? 10 * suggested : fmaxf(10 * standard, suggested);
+}
+
+static int most_samples(const viewer *v)
+{
+    return v->settings.technique == GLSSAO_CLASSIC ? 14 : 64;
+}
+
+static bool draw_samples(viewer *v, int standard)
+{
+    static const int counts[] = {12, 16, 24, 32, 48, 64};
+    if (v->settings.technique != GLSSAO_HORIZON)
+        return gui_slider_whole("samples", "a pixel", &v->settings.sample_count, 1, most_samples(v), standard);
+    int at = 0;
+    for (int i = 0; i < 6; i++)
+        if (counts[i] == v->settings.sample_count)
+            at = i;
+    const bool changed = gui_choice("samples, a pixel", &at, "12|16|24|32|48|64");
+    v->settings.sample_count = counts[at];
+    if (gui_reset("samples", counts[at] != standard)) {
+        v->settings.sample_count = standard;
+        return true;
+    }
+    return changed;
+}
+
+static bool draw_setting(viewer *v, const setting *s, const glssao_settings *standard)
+{
+    void *at = (char *)&v->settings + s->offset;
+    const void *from = (const char *)standard + s->offset;
+    bool changed = false;
+    switch (s->kind) {
+    case SETTING_NUMBER: {
+        float value = *(float *)at;
+        const float usual =
+            s->offset == offsetof(glssao_settings, radius) ? camera_suggest_radius(v->scene) : *(const float *)from;
+        changed = gui_slider(s->name, s->unit, &value, s->low, slider_end(s, v, usual), s->length, usual);
+        if (changed && s->offset == offsetof(glssao_settings, radius))
+            setting_scale_radius(&v->settings, value);
+        else if (changed)
+            *(float *)at = value;
+        break;
+    }
+    case SETTING_WHOLE:
+        changed = s->offset == offsetof(glssao_settings, sample_count)
+                      ? draw_samples(v, *(const int *)from)
+                      : gui_slider_whole(s->name, s->unit, at, (int)s->low, (int)s->high, *(const int *)from);
+        break;
+    case SETTING_SWITCH:
+        changed = gui_check(s->name, at);
+        if (gui_reset(s->name, *(bool *)at != *(const bool *)from)) {
+            *(bool *)at = *(const bool *)from;
+            changed = true;
+        }
+        break;
+    case SETTING_WORD: {
+        int value = *(int *)at;
+        changed = gui_choice(s->name, &value, s->words);
+        if (gui_reset(s->name, value != *(const int *)from)) {
+            value = *(const int *)from;
+            changed = true;
+        }
+        *(int *)at = value;
+        break;
+    }
+    }
+    gui_tip(s->help);
+    return changed;
+}
+
+void panel_draw_settings(viewer *v)
+{
+    if (!gui_section("Occlusion", true))
+        return;
+    int technique = v->options.technique, quality = v->options.quality;
+    const bool chosen = gui_choice("technique (Tab)", &technique, "classic|hemisphere|horizon");
+    if (gui_choice("quality (Shift+Tab)", &quality, "low|medium|high|ultra") || chosen)
+        viewer_set_technique(v, technique, quality);
+    const glssao_settings standard = viewer_standard(v);
+    bool changed = false;
+    for (int i = 0; i < setting_count; i++)
+        if (setting_table[i].techniques & 1u << v->settings.technique)
+            changed = draw_setting(v, &setting_table[i], &standard) || changed;
+    if (gui_button("All as they come")) {
+        v->settings = standard;
+        changed = true;
+    }
+    gui_same_line();
+    if (gui_button("Suggested radius (R)")) {
+        setting_scale_radius(&v->settings, camera_suggest_radius(v->scene));
+        changed = true;
+    }
+    if (changed) {
+        v->options.radius = (options_number){true, v->settings.radius};
+        viewer_change(v);
+    }
+}

@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * glssao-state-share: what saving and restoring the host's GL state takes of a frame: the pair of calls alone, many
+ * times over, beside glssao_compute and glssao_apply (which save and restore once each) with everything finished.
+ *   glssao-state-share [WIDTH HEIGHT]
+ */
+#define _POSIX_C_SOURCE 200809L
+#include "analytic.h"
+#include "effect.h"
+#include "fixture.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { FRAMES = 30, PAIRS = 2000, ROUNDS = 5 };
+
+static double now_ms(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
+}
+
+static double frame_ms(glssao_effect *effect, const glssao_frame *frame, GLuint framebuffer)
+{
+    const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
+    const double start = now_ms();
+    for (int i = 0; i < FRAMES; ++i) {
+        if (glssao_compute(effect, frame, &settings) != GLSSAO_OK || glssao_apply(effect, framebuffer) != GLSSAO_OK)
+            exit(1);
+        gl.Finish();
+    }
+    return (now_ms() - start) / FRAMES;
+}
+
+static double pair_ms(const glssao_effect *effect)
+{
+    const double start = now_ms();
+    for (int i = 0; i < PAIRS; ++i) {
+        glssao__host_state state;
+        glssao__state_save(&effect->gl, &state);
+        glssao__state_restore(&effect->gl, &state);
+    }
+    gl.Finish();
+    return (now_ms() - start) / PAIRS;
+}
+
+int main(int argc, char **argv)
+{
+    const int width = argc == 3 ? atoi(argv[1]) : 1280, height = argc == 3 ? atoi(argv[2]) : 720;
+    void *state = NULL;
+    if (width < 1 || height < 1 || fixture_setup(&state) != 0)
+        return 2;
+    const analytic_view view = analytic_make_view(PERSPECTIVE, (double)width / height, 0.5, 40.0, 1.0);
+    analytic_shape room[ANALYTIC_ROOM_SHAPES];
+    float *depth, *normals;
+    analytic_room(room, 1.0);
+    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, width, height, &depth, &normals);
+    glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT24, width, height, depth),
+                          .normal_texture = fixture_normal_texture(width, height, normals)};
+    memcpy(frame.projection, view.projection, sizeof frame.projection);
+    GLuint color, framebuffer;
+    gl.GenTextures(1, &color);
+    gl.BindTexture(GL_TEXTURE_2D, color);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    gl.GenFramebuffers(1, &framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
+    glssao_effect *effect = fixture_effect(state, width, height);
+    frame_ms(effect, &frame, framebuffer); /* compiles */
+    double least_frame = 1e9, least_pair = 1e9;
+    for (int i = 0; i < ROUNDS; ++i) {
+        const double frame_time = frame_ms(effect, &frame, framebuffer), pair_time = pair_ms(effect);
+        least_frame = frame_time < least_frame ? frame_time : least_frame;
+        least_pair = pair_time < least_pair ? pair_time : least_pair;
+    }
+    printf("%d x %d, horizon-high and apply: %.2f ms; saving and restoring twice: %.4f ms, %.3f %% (%s)\n", width,
+           height, least_frame, 2.0 * least_pair, 200.0 * least_pair / least_frame,
+           (const char *)gl.GetString(GL_RENDERER));
+    glssao_destroy(effect);
+    gl.DeleteFramebuffers(1, &framebuffer);
+    gl.DeleteTextures(1, &color);
+    free(depth);
+    free(normals);
+    fixture_teardown(&state);
+    return 0;
+}
