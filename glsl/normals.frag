@@ -41,11 +41,19 @@ vec3 step_view(ivec2 pixel, ivec2 axis, ivec2 size, vec3 position_view)
     bool has_before = low.x >= 0 && low.y >= 0;
     bool has_after = high.x < size.x && high.y < size.y;
     bool use_before = has_before && (!has_after || before < after);
-    // In maps of 1 or 2 pixels neither side has two depths: take one that exists.
+    // In maps of few pixels neither side has two depths: take one that exists.
     if (!has_before && !has_after)
         use_before = pixel.x - axis.x >= 0 && pixel.y - axis.y >= 0;
     return use_before ? position_view - position_view_at(pixel - axis, size)
                       : position_view_at(pixel + axis, size) - position_view;
+}
+
+// Where the depth format is coarser than the pixels are wide, neighbours make terraces: so many pixels make a slope that is
+// right to a quarter.
+ivec2 stride(float distance, ivec2 size)
+{
+    vec2 width = abs(gRayOrigin.xy + distance * gRayDirection.xy) / vec2(size);
+    return ivec2(clamp(ceil(4.0 * depth_step(distance) / max(width, vec2(1e-30))), 1.0, 16.0));
 }
 
 // Only the direction matters: at length 1 or so the cross product neither overflows nor underflows at any scene scale.
@@ -61,11 +69,15 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float depth = depth_at(pixel, size);
     vec3 position_view = position_view_at(pixel, size);
-    vec3 across = step_view(pixel, ivec2(1, 0), size, position_view);
-    vec3 up = step_view(pixel, ivec2(0, 1), size, position_view);
+    ivec2 by = stride(-position_view.z, size);
+    vec3 across = step_view(pixel, ivec2(by.x, 0), size, position_view);
+    vec3 up = step_view(pixel, ivec2(0, by.y), size, position_view);
     vec3 normal = cross(scaled_to_one(across), scaled_to_one(up));
     float length_squared = dot(normal, normal);
     // Where a map is one pixel wide there is no second direction; the view's own axis is the one neutral answer.
     bool known = !is_sky(depth) && length_squared > 0.0;
+    // A projection that mirrors the picture turns the steps' order about.
+    vec4 gain = orthographic() ? gRayOrigin : gRayDirection;
+    normal = gain.x * gain.y < 0.0 ? -normal : normal;
     o_normal = vec4(known ? normal * inversesqrt(length_squared) : vec3(0.0, 0.0, 1.0), 0.0);
 }

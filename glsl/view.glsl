@@ -46,6 +46,12 @@ float distance_from_depth(float depth)
     return abs(distance) < FAR_AWAY ? distance : FAR_AWAY;
 }
 
+// What a step of the depth format comes to in view distance (scene units), and what single precision loses anyway.
+float depth_step(float distance)
+{
+    return gDepthStep.x + distance * (gDepthStep.y + distance * gDepthStep.z);
+}
+
 // A quantity that is linear across the picture of a plane: 1 / distance in perspective, distance itself where the
 // projection is orthographic.
 bool orthographic()
@@ -105,6 +111,15 @@ vec2 uv_from_texel(ivec2 texel)
 float fetched_depth(ivec2 texel)
 {
     return depth_component(texelFetch(u_depth_map, texel, 0));
+}
+
+// How far off (scene units) the distance of a linearly filtered depth may be on a surface with this unit normal: filters
+// weigh in steps of 1/256 of a texel, and a surface seen at a grazing angle changes much from texel to texel.
+float filter_error(vec2 uv, float distance, vec3 normal_view)
+{
+    vec2 texel = (gRayOrigin.xy + distance * gRayDirection.xy) / vec2(textureSize(u_depth_map, 0));
+    vec3 ray = vec3(uv * gRayDirection.xy + gRayDirection.zw, -1.0);
+    return dot(abs(normal_view.xy), abs(texel)) / max(256.0 * abs(dot(normal_view, ray)), 1e-3);
 }
 
 // The point that is seen at uv at a view distance (scene units).

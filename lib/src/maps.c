@@ -88,6 +88,11 @@ static glssao_result fit_target(glssao_effect *effect, gl_enum format, int width
     return GLSSAO_OK;
 }
 
+glssao_result glssao__maps_fit_input(glssao_effect *effect, bool has_normals, glssao__target *map)
+{
+    return fit_target(effect, has_normals ? GL_RGBA32F : GL_R32F, effect->width, effect->height, "input", map);
+}
+
 glssao_result glssao__maps_fit_distance(glssao_effect *effect, int width, int height, bool has_layers)
 {
     return fit_target(effect, has_layers ? GL_RGBA32F : GL_R32F, width, height, "distance", &effect->distance_map);
