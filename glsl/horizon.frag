@@ -284,7 +284,7 @@ void main()
     f.size = map_size;
     f.center = pixel_center();
     // Heights are lowered by what the depth format can't tell from the point's own surface.
-    f.center_distance = distance - depth_step(distance + gOcclusionRadius);
+    f.center_distance = distance - 0.5 * depth_step(distance + gOcclusionRadius);
     f.per_scale = STEP / (orthographic() ? 1.0 : distance);
     f.y_per_distance = ray_length / gOcclusionRadius;
     vec2 noise = tile_noise();

@@ -121,7 +121,11 @@ double glssao__projection_log_constant(const glssao_frame *frame)
 void glssao__projection_depth_step(const glssao_frame *frame, const glssao__projection *projection,
                                    const glssao__precision *precision, float out_step[4])
 {
-    const double step = precision->step;
+    /* Floats just below 1 lie as far apart as half their step there, and no farther anywhere nearer. */
+    const bool near_one =
+        precision->relative && frame->depth_kind == GLSSAO_DEPTH_WINDOW && projection->sky_depth == 1.0f;
+    const bool relative = precision->relative && !near_one;
+    const double step = near_one ? 0.5 * precision->step : precision->step;
     double c[3] = {0.0, step, 0.0}; /* view distance in floats */
     if (frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC) {
         /* d = log(c t + 1) / L: dt / dd = L (t + 1 / c) */
@@ -134,11 +138,11 @@ void glssao__projection_depth_step(const glssao_frame *frame, const glssao__proj
          * D = -W / (a - b t); and d = (k0 - k2 t) / (a - b t). */
         const double *k = projection->ends;
         const double w = fabs(k[1] * k[2] - k[0] * k[3]), a = k[0] - k[1], b = k[2] - k[3];
-        const double last[2] = {precision->relative ? k[0] : a, precision->relative ? -k[2] : -b};
+        const double last[2] = {relative ? k[0] : a, relative ? -k[2] : -b};
         c[0] = step / w * a * last[0];
         c[1] = step / w * (a * last[1] - b * last[0]);
         c[2] = step / w * -b * last[1];
-    } else if (!precision->relative) {
+    } else if (!relative) {
         c[0] = step;
         c[1] = 0.0;
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * The glTF loader, fed with any bytes: it gives a valid scene, or one line that names the file and a fault. The entry point
- * is libFuzzer's; replay.c calls it too.
+ * The glTF loader, fed with any bytes: it gives a valid scene, or one line that names the file and a fault. The entry
+ * point is libFuzzer's; replay.c calls it too.
  */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include "scene_validity.h"

@@ -85,8 +85,7 @@ static GLuint depth_with_stencil(const subject *s)
     } *texels = malloc(count_of(s) * sizeof *texels);
     for (size_t i = 0; i < count_of(s); ++i)
         texels[i] = (struct texel){s->depth[i], (uint32_t)(i % 251)};
-    GLuint texture =
-        make_texture(GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, s, texels);
+    GLuint texture = make_texture(GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, s, texels);
     free(texels);
     return texture;
 }

@@ -146,8 +146,8 @@ void analytic_render_distance(const analytic_view *view, const analytic_shape *s
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             double normal[3] = {0.0, 0.0, 1.0};
-            const double nearest = see(view, shapes, shape_count, 2.0 * (x + 0.5) / width - 1.0,
-                                       2.0 * (y + 0.5) / height - 1.0, normal);
+            const double nearest =
+                see(view, shapes, shape_count, 2.0 * (x + 0.5) / width - 1.0, 2.0 * (y + 0.5) / height - 1.0, normal);
             size_t at = (size_t)y * (size_t)width + (size_t)x;
             double ndc_z = (p[14] - p[10] * nearest) / (p[15] - p[11] * nearest);
             double window = view->clip_zero_to_one ? ndc_z : 0.5 * ndc_z + 0.5;

@@ -18,7 +18,8 @@ uint32_t horizon_paired_map(const glssao_effect *effect, int number);
 /* TOLERANCE of the planar blur and of upsampling; false where there is none. */
 bool horizon_read_tolerances(double *out_blur, double *out_upsample);
 
-/* Slices, steps and constants of the variant that was compiled; the effect must have run one alone. */
+/* Slices, steps and constants of the variant that was compiled, and the step of the depth format; the effect must have
+ * run one alone. */
 bool horizon_variant(const glssao_effect *effect, horizon_input *out);
 
 #endif
