@@ -139,7 +139,7 @@ uint hidden_between(float x, float x2, float chord, float top, float bottom, pol
     // Sky can lie so deep that its square overflows, and its cosine would come out as 0.
     top = clamp(top, -1e6, chord);
     bottom = max(bottom, -chord);
-    // x is 0 on the point's own texel, and below it where the border holds a sample on the other side.
+    // x is 0 on the point's own texel, and would be below it where the border holds a sample on the other side.
     cos_top = x > 0.0 ? max(top * inversesqrt(x2 + top * top), lowest) : lowest;
     float cos_bottom = clamp(bottom * inversesqrt(x2 + bottom * bottom), lowest, cos_top);
     uint near = 1u << sector(sectors, cos_top);
@@ -149,8 +149,10 @@ uint hidden_between(float x, float x2, float chord, float top, float bottom, pol
 
 // Sectors that one sample hides, whose run is `width` steps wide. Raises `highest` to the sample's top where it veils what is
 // behind it.
-uint hidden_by(vec3 at, vec2 layers, float width, polynomial sectors, bool minus, float lowest, inout float highest)
+uint hidden_by(vec3 at, vec2 layers, float width, polynomial sectors, bool minus, float lowest, float least_x, inout float highest)
 {
+    // A sample that the border held may have slid along it to right across the slice, where its angle is all error.
+    at.x = at.x > least_x * at.z ? at.x : 0.0;
     float x2 = at.x * at.x + 1e-12;
     float chord = sqrt(max(1.0 - x2, 0.0));
     float thickness = WIDTH * width * at.z;
@@ -169,7 +171,7 @@ uint hidden_by(vec3 at, vec2 layers, float width, polynomial sectors, bool minus
 // Sectors that one side's samples hide. `lowest` is the cosine of the angle at which the hemisphere ends there, `highest`
 // that of the horizon over occluders that veil what is behind them.
 uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, polynomial sectors, bool minus, float lowest,
-                    out float highest)
+                    float least_x, out float highest)
 {
     float change[STEPS];
     bool bend[STEPS + 1];
@@ -193,7 +195,7 @@ uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, polyn
     EACH_STEP_BACK(FIND_END)
     uint mask = 0u;
     highest = lowest;
-#define HIDE(i) mask |= hidden_by(samples[i], layers[i], end[i] - start[i], sectors, minus, lowest, highest);
+#define HIDE(i) mask |= hidden_by(samples[i], layers[i], end[i] - start[i], sectors, minus, lowest, least_x, highest);
     EACH_STEP(HIDE)
     return mask;
 }
@@ -253,9 +255,10 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
 #define TAKE_MINUS(i) minus_samples[i] = mirror * sample_at(f, step_px, (jitter - 1.0 - float(i)) * STEP, minus_layers[i]);
     EACH_STEP(TAKE_PLUS)
     EACH_STEP(TAKE_MINUS)
+    float least_x = 0.25 * length(f.x_per_px) / f.per_scale; // a quarter of a pixel, in widths of a step
     float highest_plus, highest_minus;
-    uint mask = hidden_sectors(plus_samples, plus_layers, jitter, plus_sectors, false, -sin_g, highest_plus) |
-                hidden_sectors(minus_samples, minus_layers, jitter, minus_sectors, true, sin_g, highest_minus);
+    uint mask = hidden_sectors(plus_samples, plus_layers, jitter, plus_sectors, false, -sin_g, least_x, highest_plus) |
+                hidden_sectors(minus_samples, minus_layers, jitter, minus_sectors, true, sin_g, least_x, highest_minus);
     float hidden = total * float(count_bits(mask)) / SECTORS;
     float veiled = total - value(plus, highest_plus) - value(minus, highest_minus);
     return projected * mix(hidden, veiled, VEIL);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * What the stability tests hand over: a picture of shapes, stored in any way that a host may store it, and the accessibility
- * that comes back. One effect serves a whole test program, so that each shader is compiled once.
+ * What the stability tests hand over: a picture of shapes, stored in any way that a host may store it, and the
+ * accessibility that comes back. One effect serves a whole test program, so that each shader is compiled once.
  */
 #ifndef GLSSAO_TESTS_SUBJECT_H
 #define GLSSAO_TESTS_SUBJECT_H

@@ -53,9 +53,14 @@ static interval cosine_of(interval x, interval y)
 static void add_sample(const point *p, const slice *s, const side *d, const candidate *at, rounded width, hidden *h)
 {
     const interval x = bounds(at->x), y = bounds(at->y);
-    if (x.high <= 0.0 || x.low >= 1.0 + 4.0 * ROUNDING)
-        return; /* on the point or on the other side of it; beyond the sphere */
-    const bool maybe_outside = x.low <= 0.0 || x.high >= 1.0 - 4.0 * ROUNDING;
+    /* A quarter of the size that a pixel has there. */
+    const rounded squares[2] = {multiply(s->x_per_px[0], s->x_per_px[0]), multiply(s->x_per_px[1], s->x_per_px[1])};
+    const rounded center = exactly((p->orthographic ? 1.0 : p->distance) * p->in->steps * 0.25);
+    const rounded least = multiply(multiply(center, at->step), square_root(add(squares[0], squares[1])));
+    const interval beyond = bounds(subtract(at->x, least));
+    if (beyond.high <= 0.0 || x.low >= 1.0 + 4.0 * ROUNDING)
+        return; /* on the point, across the slice or on the other side of it; beyond the sphere */
+    const bool maybe_outside = beyond.low <= 0.0 || x.high >= 1.0 - 4.0 * ROUNDING;
     const interval outward = {fmax(x.low, 0.0), x.high};
     const rounded thickness = multiply(multiply(once_rounded(p->in->constants.width), width), at->step);
     const double square_error = 4.0 * ROUNDING;
