@@ -108,6 +108,14 @@ struct slice_frame {
     vec2 x_per_px;         // for the plus side
     vec2 y_per_px;
     float y_per_distance;
+    float y_step; // of the depth format
+};
+
+// What a sample must exceed to be an occluder.
+struct least {
+    float x;       // in widths of a step
+    float tangent; // height of the tangent plane per x ...
+    float above;   // ... and how much higher than that
 };
 
 // Snapped to a texel's centre, and beyond the border to the border's; the height is corrected for the distance off the
@@ -149,10 +157,11 @@ uint hidden_between(float x, float x2, float chord, float top, float bottom, pol
 
 // Sectors that one sample hides, whose run is `width` steps wide. Raises `highest` to the sample's top where it veils what is
 // behind it.
-uint hidden_by(vec3 at, vec2 layers, float width, polynomial sectors, bool minus, float lowest, float least_x, inout float highest)
+uint hidden_by(vec3 at, vec2 layers, float width, polynomial sectors, bool minus, float lowest, least from, inout float highest)
 {
-    // A sample that the border held may have slid along it to right across the slice, where its angle is all error.
-    at.x = at.x > least_x * at.z ? at.x : 0.0;
+    // A sample that the border held may have slid along it to right across the slice, where its angle is all error; and what
+    // the depth format can't tell from the tangent plane is no occluder. x of 0 hides nothing.
+    at.x = at.x > from.x * at.z && at.y > from.tangent * at.x + from.above ? at.x : 0.0;
     float x2 = at.x * at.x + 1e-12;
     float chord = sqrt(max(1.0 - x2, 0.0));
     float thickness = WIDTH * width * at.z;
@@ -171,7 +180,7 @@ uint hidden_by(vec3 at, vec2 layers, float width, polynomial sectors, bool minus
 // Sectors that one side's samples hide. `lowest` is the cosine of the angle at which the hemisphere ends there, `highest`
 // that of the horizon over occluders that veil what is behind them.
 uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, polynomial sectors, bool minus, float lowest,
-                    float least_x, out float highest)
+                    least from, out float highest)
 {
     float change[STEPS];
     bool bend[STEPS + 1];
@@ -195,7 +204,7 @@ uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, polyn
     EACH_STEP_BACK(FIND_END)
     uint mask = 0u;
     highest = lowest;
-#define HIDE(i) mask |= hidden_by(samples[i], layers[i], end[i] - start[i], sectors, minus, lowest, least_x, highest);
+#define HIDE(i) mask |= hidden_by(samples[i], layers[i], end[i] - start[i], sectors, minus, lowest, from, highest);
     EACH_STEP(HIDE)
     return mask;
 }
@@ -255,10 +264,12 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
 #define TAKE_MINUS(i) minus_samples[i] = mirror * sample_at(f, step_px, (jitter - 1.0 - float(i)) * STEP, minus_layers[i]);
     EACH_STEP(TAKE_PLUS)
     EACH_STEP(TAKE_MINUS)
-    float least_x = 0.25 * length(f.x_per_px) / f.per_scale; // a quarter of a pixel, in widths of a step
+    float tangent = sin_g / max(cos_g, 1e-3);
+    least from_plus = least(0.25 * length(f.x_per_px) / f.per_scale, -tangent, f.y_step); // a quarter of a pixel
+    least from_minus = least(from_plus.x, tangent, f.y_step);
     float highest_plus, highest_minus;
-    uint mask = hidden_sectors(plus_samples, plus_layers, jitter, plus_sectors, false, -sin_g, least_x, highest_plus) |
-                hidden_sectors(minus_samples, minus_layers, jitter, minus_sectors, true, sin_g, least_x, highest_minus);
+    uint mask = hidden_sectors(plus_samples, plus_layers, jitter, plus_sectors, false, -sin_g, from_plus, highest_plus) |
+                hidden_sectors(minus_samples, minus_layers, jitter, minus_sectors, true, sin_g, from_minus, highest_minus);
     float hidden = total * float(count_bits(mask)) / SECTORS;
     float veiled = total - value(plus, highest_plus) - value(minus, highest_minus);
     return projected * mix(hidden, veiled, VEIL);
@@ -286,10 +297,10 @@ void main()
     slice_frame f;
     f.size = map_size;
     f.center = pixel_center();
-    // Heights are lowered by what the depth format can't tell from the point's own surface.
-    f.center_distance = distance - 0.5 * depth_step(distance + gOcclusionRadius);
+    f.center_distance = distance;
     f.per_scale = STEP / (orthographic() ? 1.0 : distance);
     f.y_per_distance = ray_length / gOcclusionRadius;
+    f.y_step = f.y_per_distance * depth_step(distance + gOcclusionRadius);
     vec2 noise = tile_noise();
     float occlusion = slice_occlusion(f, normal_view, up, px, noise.x / float(SLICES), noise.y);
 #if SLICES_2

@@ -53,7 +53,7 @@ vec3 step_view(ivec2 pixel, ivec2 axis, ivec2 size, vec3 position_view)
 ivec2 stride(float distance, ivec2 size)
 {
     vec2 width = abs(gRayOrigin.xy + distance * gRayDirection.xy) / vec2(size);
-    return ivec2(clamp(ceil(4.0 * depth_step(distance) / max(width, vec2(1e-30))), 1.0, 16.0));
+    return ivec2(clamp(ceil(4.0 * depth_step(distance) / max(width, vec2(1e-30))), 1.0, 32.0));
 }
 
 // Only the direction matters: at length 1 or so the cross product neither overflows nor underflows at any scene scale.

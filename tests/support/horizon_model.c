@@ -82,7 +82,7 @@ static void take_sample(const point *p, const slice *s, double along, candidate 
         candidate *c = &out[(*out_count)++];
         c->x = multiply(scale, add(multiply(offset[0], s->x_per_px[0]), multiply(offset[1], s->x_per_px[1])));
         c->x.v *= direction;
-        c->y = add(multiply(deeper, subtract(p->lowered, exactly(distance))),
+        c->y = add(multiply(deeper, subtract(exactly(p->distance), exactly(distance))),
                    multiply(scale, add(multiply(offset[0], s->y_per_px[0]), multiply(offset[1], s->y_per_px[1]))));
         c->step = divide(once_rounded(p->orthographic ? 1.0 / in->steps : distance / in->steps),
                          exactly(p->orthographic ? 1.0 : p->distance));
@@ -184,8 +184,6 @@ static bool make_point(const horizon_input *in, int x, int y, point *out)
     out->distance = (double)in->distance[y * in->width + x];
     const double far = out->distance + in->radius;
     const double step = in->depth_step[0] + far * (in->depth_step[1] + far * in->depth_step[2]);
-    out->lowered = once_rounded(out->distance - 0.5 * step);
-    out->lowered.e += 8.0 * ROUNDING * step;
     const int full[2] = {x * in->factor, y * in->factor}, size[2] = {in->full_width, in->full_height};
     const float *n = in->normals + 3 * ((size_t)full[1] * (size_t)in->full_width + (size_t)full[0]);
     const double length2 = (double)n[0] * (double)n[0] + (double)n[1] * (double)n[1] + (double)n[2] * (double)n[2];
@@ -206,6 +204,7 @@ static bool make_point(const horizon_input *in, int x, int y, point *out)
     }
     const vector back = {{-ray[0].v, ray[0].e}, {-ray[1].v, ray[1].e}, exactly(1.0)};
     out->ray_length = square_root(dot(back, back));
+    out->y_step = multiply(divide(out->ray_length, once_rounded(in->radius)), (rounded){step, 8.0 * ROUNDING * step});
     out->up = unit(back);
     return true;
 }

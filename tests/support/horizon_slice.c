@@ -58,9 +58,13 @@ static void add_sample(const point *p, const slice *s, const side *d, const cand
     const rounded center = exactly((p->orthographic ? 1.0 : p->distance) * p->in->steps * 0.25);
     const rounded least = multiply(multiply(center, at->step), square_root(add(squares[0], squares[1])));
     const interval beyond = bounds(subtract(at->x, least));
-    if (beyond.high <= 0.0 || x.low >= 1.0 + 4.0 * ROUNDING)
-        return; /* on the point, across the slice or on the other side of it; beyond the sphere */
-    const bool maybe_outside = beyond.low <= 0.0 || x.high >= 1.0 - 4.0 * ROUNDING;
+    /* The tangent plane, and a step of the depth format above it. */
+    rounded tangent = divide(s->sin_g, at_least(s->cos_g, 1e-3));
+    tangent.v *= d->minus ? 1.0 : -1.0;
+    const interval above = bounds(subtract(at->y, add(multiply(tangent, at->x), p->y_step)));
+    if (beyond.high <= 0.0 || above.high <= 0.0 || x.low >= 1.0 + 4.0 * ROUNDING)
+        return; /* on the point, across the slice or on the other side of it; too low; beyond the sphere */
+    const bool maybe_outside = beyond.low <= 0.0 || above.low <= 0.0 || x.high >= 1.0 - 4.0 * ROUNDING;
     const interval outward = {fmax(x.low, 0.0), x.high};
     const rounded thickness = multiply(multiply(once_rounded(p->in->constants.width), width), at->step);
     const double square_error = 4.0 * ROUNDING;
