@@ -25,12 +25,6 @@ float depth_component(vec4 texel)
 #endif
 }
 
-// What the host stores at uv, filtered by the depth sampler.
-float stored_depth(vec2 uv)
-{
-    return depth_component(texture(u_depth_map, uv));
-}
-
 // View distance (scene units) of a stored depth. Both ends of the depth range are exact constants and are blended
 // as (1 - d) a + d b, because a + d (b - a) cancels where far is much larger than near.
 float distance_from_depth(float depth)
@@ -120,6 +114,26 @@ float filter_error(vec2 uv, float distance, vec3 normal_view)
     vec2 texel = (gRayOrigin.xy + distance * gRayDirection.xy) / vec2(textureSize(u_depth_map, 0));
     vec3 ray = vec3(uv * gRayDirection.xy + gRayDirection.zw, -1.0);
     return dot(abs(normal_view.xy), abs(texel)) / max(256.0 * abs(dot(normal_view, ray)), 1e-3);
+}
+
+// What the host stores at uv, filtered by the depth sampler.
+float stored_depth(vec2 uv)
+{
+#if DEPTH_IS_DISTANCE
+    // Distances that mean sky (0, infinite, no number) can't be mixed with others, which 0 would bring near: beside one of
+    // them the nearest texel counts alone.
+    ivec2 last = textureSize(u_depth_map, 0) - 1;
+    vec2 texels = uv * vec2(last + 1);
+    ivec2 low = clamp(ivec2(floor(texels - 0.5)), ivec2(0), last);
+    ivec2 high = clamp(ivec2(floor(texels + 0.5)), ivec2(0), last);
+    bool beside_sky = is_sky(fetched_depth(low)) || is_sky(fetched_depth(high)) ||
+                      is_sky(fetched_depth(ivec2(low.x, high.y))) || is_sky(fetched_depth(ivec2(high.x, low.y)));
+    if (beside_sky && uv == clamp(uv, 0.0, 1.0)) {
+        float depth = fetched_depth(min(ivec2(texels), last));
+        return is_sky(depth) ? FAR_AWAY : depth;
+    }
+#endif
+    return depth_component(texture(u_depth_map, uv));
 }
 
 // The point that is seen at uv at a view distance (scene units).

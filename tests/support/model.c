@@ -61,6 +61,13 @@ static double sky_depth(const model_input *in)
     return at_1 > at_0 ? 1.0 : 0.0;
 }
 
+static bool is_sky(const model_input *in, double depth)
+{
+    if (in->frame->depth_kind == GLSSAO_DEPTH_WINDOW)
+        return depth == sky_depth(in);
+    return depth == 0.0 || !(fabs(depth) < 1e15);
+}
+
 /* Linear filter, border: sky. */
 static double depth_at(const model_input *in, double u, double v)
 {
@@ -68,16 +75,21 @@ static double depth_at(const model_input *in, double u, double v)
     double x = u * in->width - 0.5, y = v * in->height - 0.5;
     double fx = x - floor(x), fy = y - floor(y);
     int ix = (int)floor(x), iy = (int)floor(y);
+    if (in->frame->depth_kind != GLSSAO_DEPTH_WINDOW && u >= 0.0 && v >= 0.0 && u <= 1.0 && v <= 1.0) {
+        bool beside_sky = false; /* distances that mean sky are not mixed with others */
+        for (int i = 0; i < 4; ++i) {
+            const int tx = (int)fmin(fmax(ix + i % 2, 0.0), in->width - 1.0);
+            const int ty = (int)fmin(fmax(iy + i / 2, 0.0), in->height - 1.0);
+            beside_sky |= is_sky(in, depth_texel(in, tx, ty, 0.0));
+        }
+        const double nearest = depth_texel(in, (int)fmin(u * in->width, in->width - 1.0),
+                                           (int)fmin(v * in->height, in->height - 1.0), 0.0);
+        if (beside_sky)
+            return is_sky(in, nearest) ? 1e15 : nearest;
+    }
     double low = (1.0 - fx) * depth_texel(in, ix, iy, border) + fx * depth_texel(in, ix + 1, iy, border);
     double high = (1.0 - fx) * depth_texel(in, ix, iy + 1, border) + fx * depth_texel(in, ix + 1, iy + 1, border);
     return (1.0 - fy) * low + fy * high;
-}
-
-static bool is_sky(const model_input *in, double depth)
-{
-    if (in->frame->depth_kind == GLSSAO_DEPTH_WINDOW)
-        return depth == sky_depth(in);
-    return depth == 0.0 || !(fabs(depth) < 1e15);
 }
 
 /* The full-size texel that stands for an ambient pixel: the lower left one where four meet. */
