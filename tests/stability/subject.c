@@ -68,6 +68,7 @@ static GLuint make_texture(GLenum internal, GLenum format, GLenum type, const su
     gl.BindTexture(GL_TEXTURE_2D, texture);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
     gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)internal, s->width, s->height, 0, format, type, data);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
     gl.BindTexture(GL_TEXTURE_2D, 0);
     return texture;
 }

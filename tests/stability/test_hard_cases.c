@@ -148,7 +148,7 @@ static const hard_case cases[] = {
      .least = {0.97, 0.94, 0.97}}, /* distance is not linear from texel to texel, and hemisphere filters it */
     {"coarse depth far away", SEE_PLANE, 40.0, 300.0, .zoom = 1.2, .depth = DEPTH_16, .normal = NORMAL_32F,
      .lengths = 2.0, .least = {0.95, 0.97, 0.95}},
-    {"24 bits far away", SEE_PLANE, 40.0, 1000.0, .near_plane = 0.01, .far_plane = 1e5, .zoom = 12.0, .depth = DEPTH_24,
+    {"24 bits far away", SEE_PLANE, 40.0, 1000.0, .near_plane = 0.01, .far_plane = 1e5, .zoom = 4.0, .depth = DEPTH_24,
      .normal = NORMAL_32F, .lengths = 0.5, .least = {0.95, 0.97, 0.95}},
     {"half float distances", SEE_PLANE, 60.0, 30.0, .zoom = 10.0, .depth = DISTANCE_16F, .normal = NORMAL_32F,
      .lengths = 0.3, .least = {0.95, 0.97, 0.95}},
@@ -170,7 +170,7 @@ static const hard_case cases[] = {
      .normal = NORMAL_32F},
     {"distances that are none, in alpha", SEE_ROOM, .spoil = distances_that_are_none, .depth = ALPHA_32F},
     {"holes in a plane", SEE_PLANE, 40.0, .spoil = holes, .depth = DISTANCE_32F, .normal = NORMAL_32F,
-     .least = {0.95, 0.95, 0.95}},
+     .least = {0.85, 0.85, 0.85}},
     /* settings */
     {"fades that meet", SEE_ROOM, .change = fades_meet, .depth = DEPTH_24, .normal = NORMAL_32F},
     {"fades that meet at 0", SEE_ROOM, .change = fades_meet_at_0, .depth = DEPTH_24, .normal = NORMAL_32F},
@@ -186,10 +186,13 @@ static const hard_case cases[] = {
     {"a plane and lengths beyond it", SEE_PLANE, 60.0, .change = most_lengths, .depth = DEPTH_32F, .normal = NORMAL_32F,
      .least = OPEN},
     {"thresholds that no tap meets", SEE_ROOM, .change = many_rounds, .depth = DEPTH_24, .normal = NORMAL_32F},
-    /* sizes */
-    {"one pixel", SEE_PLANE, 60.0, .width = 1, .height = 1, .depth = DEPTH_24, .normal = NORMAL_32F, .least = OPEN},
-    {"one column", SEE_PLANE, 60.0, .width = 1, .height = 97, .depth = DEPTH_24, .normal = NORMAL_32F, .least = OPEN},
-    {"one row", SEE_PLANE, 60.0, .width = 97, .height = 1, .depth = DEPTH_24, .normal = NORMAL_32F, .least = OPEN},
+    /* sizes; a map one pixel wide tells nothing of its slope that way, and hemisphere samples there */
+    {"one pixel", SEE_PLANE, 60.0, .width = 1, .height = 1, .depth = DEPTH_24, .normal = NORMAL_32F,
+     .least = {0.9, 0.85, 0.97}},
+    {"one column", SEE_PLANE, 60.0, .width = 1, .height = 97, .depth = DEPTH_24, .normal = NORMAL_32F,
+     .least = {0.9, 0.85, 0.97}},
+    {"one row", SEE_PLANE, 60.0, .width = 97, .height = 1, .depth = DEPTH_24, .normal = NORMAL_32F,
+     .least = {0.9, 0.85, 0.97}},
     {"odd sizes", SEE_PLANE, 60.0, .width = 63, .height = 47, .depth = DEPTH_24, .normal = NORMAL_32F, .least = OPEN},
     {"three pixels high", SEE_ROOM, .width = 61, .height = 3, .depth = DEPTH_24, .normal = NORMAL_32F},
     {"16384 wide", SEE_PLANE, 60.0, .width = 16384, .height = 2, .depth = DEPTH_24, .normal = NORMAL_32F,
