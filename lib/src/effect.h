@@ -360,9 +360,10 @@ glssao_result glssao__maps_make_normal(glssao_effect *effect, int width, int hei
 /* Makes or remakes the map where it has another size; on failure it is as it was. */
 glssao_result glssao__maps_fit_input(glssao_effect *effect, bool has_normals, glssao__target *map);
 glssao_result glssao__maps_fit_distance(glssao_effect *effect, int width, int height, bool has_layers);
-glssao_result glssao__maps_fit_result(glssao_effect *effect, int width, int height);
 glssao_result glssao__maps_fit_accumulation(glssao_effect *effect);
-glssao_result glssao__maps_fit_paired(glssao_effect *effect, int width, int height);
+/* The ambient maps, the paired ones and the result's own (width 0: neither is needed), all or none. */
+glssao_result glssao__maps_fit_results(glssao_effect *effect, int width, int height, bool paired, int result_width,
+                                       int result_height);
 void glssao__maps_delete_target(const glssao__gl *gl, glssao__target *target);
 /* The texture that holds the result. */
 gl_uint glssao__maps_result(const glssao_effect *effect, int *out_width, int *out_height);

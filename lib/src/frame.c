@@ -113,24 +113,13 @@ static glssao_result fit_maps(glssao_effect *effect, const glssao_frame *frame, 
     glssao_result result = GLSSAO_OK;
     if (plan->passes[GLSSAO_PASS_DISTANCE].run)
         result = glssao__maps_fit_distance(effect, width, height, frame->back_texture != 0);
-    if (result == GLSSAO_OK && is_apart(plan, frame))
-        result = glssao__maps_fit_result(effect, delivered.width, delivered.height);
     if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_RESOLVE].run)
         result = glssao__maps_fit_accumulation(effect);
-    if (result == GLSSAO_OK && is_paired(settings, plan))
-        result = glssao__maps_fit_paired(effect, width, height);
-    if (result != GLSSAO_OK || (width == effect->ambient.width && height == effect->ambient.height))
-        return result;
-    glssao__ambient_maps maps;
-    result = glssao__maps_make_ambient(effect, width, height, &maps);
     if (result != GLSSAO_OK)
         return result;
-    glssao__maps_delete_ambient(&effect->gl, &effect->ambient);
-    effect->ambient = maps;
-    effect->ambient_is_one = true;
-    effect->has_result_map = false; /* until the last pass has run */
-    effect->is_paired = false;
-    return GLSSAO_OK;
+    const bool apart = is_apart(plan, frame);
+    return glssao__maps_fit_results(effect, width, height, is_paired(settings, plan), apart ? delivered.width : 0,
+                                    apart ? delivered.height : 0);
 }
 
 /* `block_count`: how many blocks the frame reads; only the hemisphere technique needs the last. */
