@@ -12,3 +12,5 @@ int gFactor;                // full-size texels per texel of the estimate: 1 or 
 vec2 gNoise;                // offset of the tile of noise: of the angle and of the jitter, 0..1 (accumulation)
 vec4 gAccumulation;         // xy: 1 for the replicate that the estimate belongs to; zw: estimates in each
 vec4 gProbe;                // pixels: lower left corner of what is probed, size of a cell
+vec4 gDepthStep;            // what a step of the depth format comes to in view distance t: x + y t + z t^2
+vec4 gLogDepth;             // logarithmic depth: x: log2(c far + 1), y: 1 / c

@@ -13,10 +13,10 @@ in vec2 v_uv;
 uniform sampler2D u_random_vector_map;
 out AMBIENT o_ambient;
 
-// How much an occluder counts that is this much nearer to the camera than the point (scene units).
-float weight_from_distance(float nearer)
+// How much an occluder counts that is this much nearer to the camera than the point (scene units), and more than `least`.
+float weight_from_distance(float nearer, float least)
 {
-    if (nearer <= gSurfaceEpsilon)
+    if (nearer <= least)
         return 0.0;
     // Equal bounds make a step; the floor keeps its 0 / 0 from arising at exactly fade_end.
     float fade_length = max(gOcclusionFadeEnd - gOcclusionFadeStart, 1e-20);
@@ -39,6 +39,8 @@ void main()
     // Not normalised, as in the reference; a vector of length 0 leaves every offset as it is.
     vec3 random_vector = 2.0 * texture(u_random_vector_map, 4.0 * v_uv).rgb - 1.0;
 
+    // What depth's format and its filter can't tell from the point's own surface is no occluder.
+    float least = gSurfaceEpsilon + depth_step(distance) + filter_error(uv_from_texel(texel), distance, normal_view);
     float occlusion = 0.0;
     for (int i = 0; i < gSampleCount; ++i) {
         vec3 offset = gOffsetVectors[i].xyz;
@@ -58,7 +60,7 @@ void main()
         // r = p: the direction is 0 / 0 without the floor; its weight is 0 in any case.
         float facing = max(dot(normal_view, to_occluder) * inversesqrt(max(dot(to_occluder, to_occluder), 1e-30)), 0.0);
 #endif
-        occlusion += weight_from_distance(to_occluder.z) * facing;
+        occlusion += weight_from_distance(to_occluder.z, least) * facing;
     }
     float accessibility = 1.0 - occlusion / float(gSampleCount);
     // pow() is undefined for a base of 0 with power 0, and for the negative that rounding can leave.

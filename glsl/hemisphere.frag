@@ -37,6 +37,9 @@ void main()
     vec3 position_view = position_view_from_uv(uv_from_texel(texel), center_distance);
     mat3 basis = view_from_tangent(normal_view);
 
+    // What depth's format and its filter can't tell from the point's own surface, within the radius, hides no sample.
+    float least = gSurfaceEpsilon + depth_step(center_distance + gOcclusionRadius) +
+                  filter_error(uv_from_texel(texel), center_distance, normal_view);
     float occlusion = 0.0;
     float counted = 0.0;
     for (int i = 0; i < gSampleCount; ++i) {
@@ -50,7 +53,7 @@ void main()
         if (!(uv.x >= 0.0 && uv.y >= 0.0 && uv.x <= 1.0 && uv.y <= 1.0))
             continue;
         float surface_distance = distance_from_depth(stored_depth(uv));
-        bool hidden = surface_distance < -sample_view.z - gSurfaceEpsilon;
+        bool hidden = surface_distance < -sample_view.z - least;
         bool in_reach = abs(surface_distance - center_distance) <= gOcclusionRadius;
         occlusion += hidden && in_reach ? 1.0 : 0.0;
         counted += 1.0;

@@ -112,6 +112,14 @@ struct slice_frame {
     vec2 x_per_px;         // for the plus side
     vec2 y_per_px;
     float y_per_distance;
+    float y_step; // of the depth format
+};
+
+// What a sample must exceed to be an occluder.
+struct least {
+    float x;       // in widths of a step
+    float tangent; // height of the tangent plane per x ...
+    float above;   // ... and how much higher than that
 };
 
 // Snapped to a texel's centre, and beyond the border to the border's; the height is corrected for the distance off the
@@ -143,7 +151,7 @@ uint hidden_between(float x, float x2, float chord, float top, float bottom, pol
     // Sky can lie so deep that its square overflows, and its cosine would come out as 0.
     top = clamp(top, -1e6, chord);
     bottom = max(bottom, -chord);
-    // x is 0 on the point's own texel, and below it where the border holds a sample on the other side.
+    // x is 0 on the point's own texel, and would be below it where the border holds a sample on the other side.
     cos_top = x > 0.0 ? max(top * inversesqrt(x2 + top * top), lowest) : lowest;
     float cos_bottom = clamp(bottom * inversesqrt(x2 + bottom * bottom), lowest, cos_top);
     uint near = 1u << sector(sectors, cos_top);
@@ -153,8 +161,11 @@ uint hidden_between(float x, float x2, float chord, float top, float bottom, pol
 
 // Sectors that one sample hides, whose run is `width` steps wide. Raises `highest` to the sample's top where it veils what is
 // behind it.
-uint hidden_by(vec3 at, vec2 layers, float width, polynomial sectors, bool minus, float lowest, inout float highest)
+uint hidden_by(vec3 at, vec2 layers, float width, polynomial sectors, bool minus, float lowest, least from, inout float highest)
 {
+    // A sample that the border held may have slid along it to right across the slice, where its angle is all error; and what
+    // the depth format can't tell from the tangent plane is no occluder. x of 0 hides nothing.
+    at.x = at.x > from.x * at.z && at.y > from.tangent * at.x + from.above ? at.x : 0.0;
     float x2 = at.x * at.x + 1e-12;
     float chord = sqrt(max(1.0 - x2, 0.0));
     float thickness = WIDTH * width * at.z;
@@ -173,7 +184,7 @@ uint hidden_by(vec3 at, vec2 layers, float width, polynomial sectors, bool minus
 // Sectors that one side's samples hide. `lowest` is the cosine of the angle at which the hemisphere ends there, `highest`
 // that of the horizon over occluders that veil what is behind them.
 uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, polynomial sectors, bool minus, float lowest,
-                    out float highest)
+                    least from, out float highest)
 {
     float change[STEPS];
     bool bend[STEPS + 1];
@@ -197,7 +208,7 @@ uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, polyn
     EACH_STEP_BACK(FIND_END)
     uint mask = 0u;
     highest = lowest;
-#define HIDE(i) mask |= hidden_by(samples[i], layers[i], end[i] - start[i], sectors, minus, lowest, highest);
+#define HIDE(i) mask |= hidden_by(samples[i], layers[i], end[i] - start[i], sectors, minus, lowest, from, highest);
     EACH_STEP(HIDE)
     return mask;
 }
@@ -267,9 +278,12 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
 #define TAKE_MINUS(i) minus_samples[i] = mirror * sample_at(f, step_px, (jitter - 1.0 - float(i)) * STEP, minus_layers[i]);
     EACH_STEP(TAKE_PLUS)
     EACH_STEP(TAKE_MINUS)
+    float tangent = sin_g / max(cos_g, 1e-3);
+    least from_plus = least(0.25 * length(f.x_per_px) / f.per_scale, -tangent, f.y_step); // a quarter of a pixel
+    least from_minus = least(from_plus.x, tangent, f.y_step);
     float highest_plus, highest_minus;
-    uint mask = hidden_sectors(plus_samples, plus_layers, jitter, plus_sectors, false, -sin_g, highest_plus) |
-                hidden_sectors(minus_samples, minus_layers, jitter, minus_sectors, true, sin_g, highest_minus);
+    uint mask = hidden_sectors(plus_samples, plus_layers, jitter, plus_sectors, false, -sin_g, from_plus, highest_plus) |
+                hidden_sectors(minus_samples, minus_layers, jitter, minus_sectors, true, sin_g, from_minus, highest_minus);
     float hidden = total * float(count_bits(mask)) / SECTORS;
     float veiled = total - value(plus, highest_plus) - value(minus, highest_minus);
     return projected * mix(hidden, veiled, VEIL);
@@ -302,6 +316,7 @@ void main()
     f.center_distance = distance;
     f.per_scale = STEP / (orthographic() ? 1.0 : distance);
     f.y_per_distance = ray_length / gOcclusionRadius;
+    f.y_step = f.y_per_distance * depth_step(distance + gOcclusionRadius);
     vec2 noise = tile_noise();
     float occlusion = slice_occlusion(f, normal_view, up, px, noise.x / float(SLICES), noise.y);
 #if SLICES_2

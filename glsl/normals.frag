@@ -29,6 +29,11 @@ vec3 position_view_at(ivec2 pixel, ivec2 size)
     return position_view_from_uv((vec2(pixel) + 0.5) / vec2(size), distance_from_depth(depth_at(pixel, size)));
 }
 
+bool is_seen(ivec2 pixel, ivec2 size)
+{
+    return pixel == clamp(pixel, ivec2(0), size - 1) && !is_sky(depth_at(pixel, size));
+}
+
 // Change of position from the pixel to its neighbour along `axis`, from the better side.
 vec3 step_view(ivec2 pixel, ivec2 axis, ivec2 size, vec3 position_view)
 {
@@ -37,15 +42,28 @@ vec3 step_view(ivec2 pixel, ivec2 axis, ivec2 size, vec3 position_view)
     float after = abs(2.0 * linear_depth_at(pixel + axis, size) - linear_depth_at(pixel + 2 * axis, size) - depth);
     ivec2 low = pixel - 2 * axis;
     ivec2 high = pixel + 2 * axis;
-    // A side that lies outside the map was clamped and predicts by chance.
-    bool has_before = low.x >= 0 && low.y >= 0;
-    bool has_after = high.x < size.x && high.y < size.y;
+    // A side that lies outside the map was clamped and predicts by chance; one that begins with sky has no surface.
+    bool before_seen = is_seen(pixel - axis, size);
+    bool after_seen = is_seen(pixel + axis, size);
+    if (!before_seen && !after_seen) // nothing is known of the slope: straight across
+        return vec3(vec2(axis) * (gRayOrigin.xy + gRayDirection.xy), 0.0);
+    bool has_before = before_seen && low.x >= 0 && low.y >= 0;
+    bool has_after = after_seen && high.x < size.x && high.y < size.y;
     bool use_before = has_before && (!has_after || before < after);
-    // In maps of 1 or 2 pixels neither side has two depths: take one that exists.
+    // Beside a hole at the border, and in maps of few pixels, neither side has two depths: take one that exists.
     if (!has_before && !has_after)
-        use_before = pixel.x - axis.x >= 0 && pixel.y - axis.y >= 0;
+        use_before = before_seen;
     return use_before ? position_view - position_view_at(pixel - axis, size)
                       : position_view_at(pixel + axis, size) - position_view;
+}
+
+// Where the depth format is coarser than the pixels are wide, neighbours make terraces: so many pixels make a slope that is
+// right to a quarter.
+ivec2 stride(float distance, ivec2 size)
+{
+    vec2 width = abs(gRayOrigin.xy + distance * gRayDirection.xy) / vec2(size);
+    vec2 most = clamp(vec2(size) / 4.0, 1.0, 32.0);
+    return ivec2(clamp(ceil(4.0 * depth_step(distance) / max(width, vec2(1e-30))), vec2(1.0), most));
 }
 
 // Only the direction matters: at length 1 or so the cross product neither overflows nor underflows at any scene scale.
@@ -61,11 +79,15 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float depth = depth_at(pixel, size);
     vec3 position_view = position_view_at(pixel, size);
-    vec3 across = step_view(pixel, ivec2(1, 0), size, position_view);
-    vec3 up = step_view(pixel, ivec2(0, 1), size, position_view);
+    ivec2 by = stride(-position_view.z, size);
+    vec3 across = step_view(pixel, ivec2(by.x, 0), size, position_view);
+    vec3 up = step_view(pixel, ivec2(0, by.y), size, position_view);
     vec3 normal = cross(scaled_to_one(across), scaled_to_one(up));
     float length_squared = dot(normal, normal);
     // Where a map is one pixel wide there is no second direction; the view's own axis is the one neutral answer.
     bool known = !is_sky(depth) && length_squared > 0.0;
+    // A projection that mirrors the picture turns the steps' order about.
+    vec4 gain = orthographic() ? gRayOrigin : gRayDirection;
+    normal = gain.x * gain.y < 0.0 ? -normal : normal;
     o_normal = vec4(known ? normal * inversesqrt(length_squared) : vec3(0.0, 0.0, 1.0), 0.0);
 }

@@ -25,12 +25,6 @@ float depth_component(vec4 texel)
 #endif
 }
 
-// What the host stores at uv, filtered by the depth sampler.
-float stored_depth(vec2 uv)
-{
-    return depth_component(texture(u_depth_map, uv));
-}
-
 // View distance (scene units) of a stored depth. Both ends of the depth range are exact constants and are blended
 // as (1 - d) a + d b, because a + d (b - a) cancels where far is much larger than near.
 float distance_from_depth(float depth)
@@ -44,6 +38,12 @@ float distance_from_depth(float depth)
     // An infinite far plane divides by 0 at the sky, 0 / 0 is possible beyond it, and hosts may store infinity or what
     // is no number (a comparison with it is false): none of them may reach a sum.
     return abs(distance) < FAR_AWAY ? distance : FAR_AWAY;
+}
+
+// What a step of the depth format comes to in view distance (scene units), and what single precision loses anyway.
+float depth_step(float distance)
+{
+    return gDepthStep.x + distance * (gDepthStep.y + distance * gDepthStep.z);
 }
 
 // A quantity that is linear across the picture of a plane: 1 / distance in perspective, distance itself where the
@@ -105,6 +105,35 @@ vec2 uv_from_texel(ivec2 texel)
 float fetched_depth(ivec2 texel)
 {
     return depth_component(texelFetch(u_depth_map, texel, 0));
+}
+
+// How far off (scene units) the distance of a linearly filtered depth may be on a surface with this unit normal: filters
+// weigh in steps of 1/256 of a texel, and a surface seen at a grazing angle changes much from texel to texel.
+float filter_error(vec2 uv, float distance, vec3 normal_view)
+{
+    vec2 texel = (gRayOrigin.xy + distance * gRayDirection.xy) / vec2(textureSize(u_depth_map, 0));
+    vec3 ray = vec3(uv * gRayDirection.xy + gRayDirection.zw, -1.0);
+    return dot(abs(normal_view.xy), abs(texel)) / max(256.0 * abs(dot(normal_view, ray)), 1e-3);
+}
+
+// What the host stores at uv, filtered by the depth sampler.
+float stored_depth(vec2 uv)
+{
+#if DEPTH_IS_DISTANCE
+    // Distances that mean sky (0, infinite, no number) can't be mixed with others, which 0 would bring near: beside one of
+    // them the nearest texel counts alone.
+    ivec2 last = textureSize(u_depth_map, 0) - 1;
+    vec2 texels = uv * vec2(last + 1);
+    ivec2 low = clamp(ivec2(floor(texels - 0.5)), ivec2(0), last);
+    ivec2 high = clamp(ivec2(floor(texels + 0.5)), ivec2(0), last);
+    bool beside_sky = is_sky(fetched_depth(low)) || is_sky(fetched_depth(high)) ||
+                      is_sky(fetched_depth(ivec2(low.x, high.y))) || is_sky(fetched_depth(ivec2(high.x, low.y)));
+    if (beside_sky && uv == clamp(uv, 0.0, 1.0)) {
+        float depth = fetched_depth(min(ivec2(texels), last));
+        return is_sky(depth) ? FAR_AWAY : depth;
+    }
+#endif
+    return depth_component(texture(u_depth_map, uv));
 }
 
 // The point that is seen at uv at a view distance (scene units).

@@ -124,6 +124,7 @@
     X(SHADERSOURCE, ShaderSource) \
     X(STENCILFUNC, StencilFunc) \
     X(TEXIMAGE2D, TexImage2D) \
+    X(TEXIMAGE2DMULTISAMPLE, TexImage2DMultisample) \
     X(TEXPARAMETERI, TexParameteri) \
     X(TEXSUBIMAGE2D, TexSubImage2D) \
     X(UNIFORM1F, Uniform1f) \

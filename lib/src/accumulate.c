@@ -26,6 +26,8 @@ static bool is_same_view(const glssao_frame *a, const glssao_settings *s, const 
     return a->depth_texture == b->depth_texture && a->depth_kind == b->depth_kind &&
            a->normal_texture == b->normal_texture && a->normal_kind == b->normal_kind &&
            a->back_texture == b->back_texture && a->second_texture == b->second_texture && a->margin == b->margin &&
+           a->multisample == b->multisample && memcmp(a->viewport, b->viewport, sizeof a->viewport) == 0 &&
+           a->log_depth_far == b->log_depth_far && a->log_depth_constant == b->log_depth_constant &&
            memcmp(a->projection, b->projection, sizeof a->projection) == 0 &&
            a->clip_zero_to_one == b->clip_zero_to_one && s->radius == t->radius && s->sample_count == t->sample_count;
 }

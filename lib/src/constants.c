@@ -46,6 +46,8 @@ SAME(block_frame, glssao__frame_constants, gFactor);
 SAME(block_frame, glssao__frame_constants, gNoise);
 SAME(block_frame, glssao__frame_constants, gAccumulation);
 SAME(block_frame, glssao__frame_constants, gProbe);
+SAME(block_frame, glssao__frame_constants, gDepthStep);
+SAME(block_frame, glssao__frame_constants, gLogDepth);
 SAME(block_hemisphere, glssao__hemisphere_constants, gKernel);
 SAME(block_hemisphere, glssao__hemisphere_constants, gRotations);
 _Static_assert(sizeof(struct block_ssao) == 488 && sizeof(glssao_constants) == 496, "cbSsao has another size");
@@ -148,7 +150,8 @@ void glssao__constants_fill(glssao_constants *c, const glssao_frame *frame, cons
 }
 
 void glssao__constants_fill_frame(glssao__frame_constants *c, const glssao_frame *frame,
-                                  const glssao_settings *settings, const glssao__projection *projection)
+                                  const glssao_settings *settings, const glssao__projection *projection,
+                                  const glssao__precision *precision)
 {
     memset(c, 0, sizeof *c);
     memcpy(c->gDistanceFromDepth, projection->distance_from_depth, sizeof c->gDistanceFromDepth);
@@ -160,4 +163,10 @@ void glssao__constants_fill_frame(glssao__frame_constants *c, const glssao_frame
     c->gBlurDepthThreshold = settings->blur_depth_threshold;
     c->gSampleCount = settings->sample_count;
     c->gFactor = settings->half_resolution ? 2 : 1;
+    glssao__projection_depth_step(frame, projection, precision, c->gDepthStep);
+    if (frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC) {
+        const double constant = glssao__projection_log_constant(frame);
+        c->gLogDepth[0] = (float)log2(constant * (double)frame->log_depth_far + 1.0);
+        c->gLogDepth[1] = (float)(1.0 / constant);
+    }
 }

@@ -110,7 +110,9 @@ void glssao_destroy(glssao_effect *effect)
     for (int i = 0; i < effect->program_count; ++i)
         gl->DeleteProgram(effect->programs[i].object.name);
     free(effect->programs);
-    glssao__maps_delete_target(gl, &effect->normal_map); /* names of 0 are ignored, here and below */
+    for (int i = 0; i < INPUT_COUNT; ++i)
+        glssao__maps_delete_target(gl, &effect->inputs[i]); /* names of 0 are ignored, here and below */
+    glssao__maps_delete_target(gl, &effect->normal_map);
     glssao__maps_delete_ambient(gl, &effect->ambient);
     glssao__maps_delete_ambient(gl, &effect->paired);
     glssao__maps_delete_target(gl, &effect->distance_map);
@@ -145,6 +147,8 @@ glssao_result glssao_resize(glssao_effect *effect, int width, int height)
     glssao__state_restore(&effect->gl, &host);
     if (result != GLSSAO_OK)
         return result;
+    for (int i = 0; i < INPUT_COUNT; ++i)
+        glssao__maps_delete_target(&effect->gl, &effect->inputs[i]);
     glssao__maps_delete_target(&effect->gl, &effect->normal_map);
     glssao__maps_delete_ambient(&effect->gl, &effect->ambient);
     glssao__maps_delete_ambient(&effect->gl, &effect->paired); /* made again when next needed, as are these: */

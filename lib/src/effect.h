@@ -46,7 +46,8 @@ enum glssao__block {
 
 /* What is drawn; with the flags below it names one program. program.c holds the tables of both. */
 enum glssao__shader {
-    SHADER_NORMALS = 0,
+    SHADER_INPUT = 0,
+    SHADER_NORMALS,
     SHADER_DISTANCE,
     SHADER_CLASSIC,
     SHADER_HEMISPHERE,
@@ -76,7 +77,9 @@ enum glssao__variant {
     VARIANT_ACCUMULATE = 2048,
     VARIANT_LAYERS = 4096,
     VARIANT_PAIRED = 8192,
-    VARIANT_FLAGS = 14, /* how many there are */
+    VARIANT_MULTISAMPLE = 16384,
+    VARIANT_LOGARITHMIC = 32768,
+    VARIANT_FLAGS = 16, /* how many there are */
     VARIANT_COUNT = 1 << VARIANT_FLAGS
 };
 
@@ -89,6 +92,7 @@ enum {
     TILE_ESTIMATES = 16,
     TIMER_FRAMES = 4,
     MAX_DRAW_BUFFERS = 8,
+    INPUT_COUNT = 4,
     TOGGLE_CAPACITY = 32
 };
 
@@ -115,6 +119,8 @@ typedef struct glssao__frame_constants {
     float gNoise[2];
     float gAccumulation[4];
     float gProbe[4];
+    float gDepthStep[4];
+    float gLogDepth[4];
 } glssao__frame_constants;
 
 /* glsl/cb_hemisphere.glsl in C. */
@@ -123,12 +129,19 @@ typedef struct glssao__hemisphere_constants {
     float gRotations[ROTATION_TILE * ROTATION_TILE][4];
 } glssao__hemisphere_constants;
 
+/* How far apart two values of a depth map may lie that its format tells apart: `step`, or that times the value. */
+typedef struct glssao__precision {
+    double step;
+    bool relative;
+} glssao__precision;
+
 /* What a projection says about depth, worked out in double precision. */
 typedef struct glssao__projection {
     float view_from_clip[16];
     float distance_from_depth[4], ray_origin[4], ray_direction[4]; /* as in cbFrame */
     float sky_depth;
     float sky_distance; /* scene units; infinite where the far plane is */
+    double ends[4];     /* distance_from_depth, unrounded */
 } glssao__projection;
 
 typedef struct glssao__ambient_maps {
@@ -199,6 +212,7 @@ struct glssao_effect {
     bool has_timers;
     int width, height;
 
+    glssao__target inputs[INPUT_COUNT]; /* copies of the host's textures; made when first needed */
     glssao__target normal_map;
     glssao__target distance_map; /* at the estimate's size; made when first needed */
     glssao__target result_map;   /* the result, where it has another size than the estimate; made when first needed */
@@ -243,6 +257,12 @@ void glssao__log_write(const glssao__log_sink *log, glssao_log_level level, cons
 bool glssao__projection_analyse(const float projection[16], bool clip_zero_to_one, const glssao__log_sink *log,
                                 glssao__projection *out);
 
+/* Of logarithmic depth; 0 stands for 1. */
+double glssao__projection_log_constant(const glssao_frame *frame);
+/* Coefficients of 1, t, t^2 in what the format's step comes to in view distance at the view distance t. */
+void glssao__projection_depth_step(const glssao_frame *frame, const glssao__projection *projection,
+                                   const glssao__precision *precision, float out_step[4]);
+
 /* constants.c */
 void glssao__constants_init(glssao_constants *c, uint32_t seed);
 void glssao__constants_init_hemisphere(glssao__hemisphere_constants *c, uint32_t seed);
@@ -250,7 +270,8 @@ void glssao__constants_fill_kernel(glssao__hemisphere_constants *c, uint32_t see
 void glssao__constants_fill(glssao_constants *c, const glssao_frame *frame, const glssao_settings *settings,
                             const glssao__projection *projection, int ambient_width, int ambient_height);
 void glssao__constants_fill_frame(glssao__frame_constants *c, const glssao_frame *frame,
-                                  const glssao_settings *settings, const glssao__projection *projection);
+                                  const glssao_settings *settings, const glssao__projection *projection,
+                                 const glssao__precision *precision);
 void glssao__constants_gauss_weights(float sigma, float out_weights[3][4]);
 
 /* random.c: PCG32 (O'Neill 2014); the same seed gives the same numbers on every machine. */
@@ -321,15 +342,29 @@ double glssao__accumulate_error(glssao_effect *effect);
 void glssao__accumulate_stop(glssao_effect *effect); /* the next estimate is the first */
 void glssao__accumulate_destroy(glssao_effect *effect);
 
+/* inputs.c */
+/* Refuses textures that are not what the frame says. */
+glssao_result glssao__inputs_check(glssao_effect *effect, const glssao_frame *frame, glssao__precision *out_precision);
+int glssao__inputs_count(const glssao_frame *frame); /* how many of the textures must be copied */
+glssao_result glssao__inputs_fit(glssao_effect *effect, const glssao_frame *frame);
+/* The frame as the passes after the copying see it. */
+glssao_frame glssao__inputs_frame(const glssao_effect *effect, const glssao_frame *frame);
+glssao_result glssao__inputs_programs(glssao_effect *effect, const glssao_frame *frame,
+                                      glssao__program_object out_programs[INPUT_COUNT]);
+void glssao__inputs_copy(const glssao_effect *effect, const glssao_frame *frame,
+                         const glssao__program_object programs[INPUT_COUNT]);
+
 /* maps.c */
 glssao_result glssao__maps_make_ambient(glssao_effect *effect, int width, int height, glssao__ambient_maps *out_maps);
 void glssao__maps_delete_ambient(const glssao__gl *gl, glssao__ambient_maps *maps);
 glssao_result glssao__maps_make_normal(glssao_effect *effect, int width, int height, glssao__target *out_map);
 /* Makes or remakes the map where it has another size; on failure it is as it was. */
+glssao_result glssao__maps_fit_input(glssao_effect *effect, bool has_normals, glssao__target *map);
 glssao_result glssao__maps_fit_distance(glssao_effect *effect, int width, int height, bool has_layers);
-glssao_result glssao__maps_fit_result(glssao_effect *effect, int width, int height);
 glssao_result glssao__maps_fit_accumulation(glssao_effect *effect);
-glssao_result glssao__maps_fit_paired(glssao_effect *effect, int width, int height);
+/* The ambient maps, the paired ones and the result's own (width 0: neither is needed), all or none. */
+glssao_result glssao__maps_fit_results(glssao_effect *effect, int width, int height, bool paired, int result_width,
+                                       int result_height);
 void glssao__maps_delete_target(const glssao__gl *gl, glssao__target *target);
 /* The texture that holds the result. */
 gl_uint glssao__maps_result(const glssao_effect *effect, int *out_width, int *out_height);

@@ -5,7 +5,7 @@
 #include "effect.h"
 
 typedef struct frame_programs {
-    glssao__program_object normals, distance, estimate, resolve, probe, blur, last_blur, upsample;
+    glssao__program_object inputs[INPUT_COUNT], normals, distance, estimate, resolve, probe, blur, last_blur, upsample;
 } frame_programs;
 
 /* How the host stores what the passes read. */
@@ -65,9 +65,10 @@ static bool is_paired(const glssao_settings *settings, const glssao_plan *plan)
            (plan->passes[GLSSAO_PASS_BLUR].run && settings->blur == GLSSAO_BLUR_PLANAR);
 }
 
-/* Compiles what the plan needs, before anything changes. */
-static glssao_result get_programs(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
-                                  const glssao_plan *plan, frame_programs *out)
+/* Compiles what the plan needs, before anything changes. `host` is the host's frame, `frame` what the passes after the
+ * copying of inputs see. */
+static glssao_result get_programs(glssao_effect *effect, const glssao_frame *host, const glssao_frame *frame,
+                                  const glssao_settings *settings, const glssao_plan *plan, frame_programs *out)
 {
     const unsigned inputs = input_variant(frame), paired = is_paired(settings, plan) ? VARIANT_PAIRED : 0u;
     const unsigned blur = inputs | (settings->blur == GLSSAO_BLUR_BILATERAL ? VARIANT_EDGE_AWARE : 0u) |
@@ -90,7 +91,8 @@ static glssao_result get_programs(glssao_effect *effect, const glssao_frame *fra
         {GLSSAO_PASS_BLUR, blur_shader, blur | (plan->passes[GLSSAO_PASS_UPSAMPLE].run ? paired : 0u), &out->last_blur},
         {GLSSAO_PASS_UPSAMPLE, SHADER_UPSAMPLE, inputs, &out->upsample},
     };
-    glssao_result result = GLSSAO_OK;
+    glssao_result result =
+        plan->passes[GLSSAO_PASS_INPUTS].run ? glssao__inputs_programs(effect, host, out->inputs) : GLSSAO_OK;
     for (size_t i = 0; i < sizeof needed / sizeof *needed && result == GLSSAO_OK; ++i)
         if (plan->passes[needed[i].pass].run)
             result = glssao__program_get(effect, needed[i].shader, needed[i].variant, needed[i].out);
@@ -113,24 +115,13 @@ static glssao_result fit_maps(glssao_effect *effect, const glssao_frame *frame, 
     glssao_result result = GLSSAO_OK;
     if (plan->passes[GLSSAO_PASS_DISTANCE].run)
         result = glssao__maps_fit_distance(effect, width, height, frame->back_texture != 0);
-    if (result == GLSSAO_OK && is_apart(plan, frame))
-        result = glssao__maps_fit_result(effect, delivered.width, delivered.height);
     if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_RESOLVE].run)
         result = glssao__maps_fit_accumulation(effect);
-    if (result == GLSSAO_OK && is_paired(settings, plan))
-        result = glssao__maps_fit_paired(effect, width, height);
-    if (result != GLSSAO_OK || (width == effect->ambient.width && height == effect->ambient.height))
-        return result;
-    glssao__ambient_maps maps;
-    result = glssao__maps_make_ambient(effect, width, height, &maps);
     if (result != GLSSAO_OK)
         return result;
-    glssao__maps_delete_ambient(&effect->gl, &effect->ambient);
-    effect->ambient = maps;
-    effect->ambient_is_one = true;
-    effect->has_result_map = false; /* until the last pass has run */
-    effect->is_paired = false;
-    return GLSSAO_OK;
+    const bool apart = is_apart(plan, frame);
+    return glssao__maps_fit_results(effect, width, height, is_paired(settings, plan), apart ? delivered.width : 0,
+                                    apart ? delivered.height : 0);
 }
 
 /* `block_count`: how many blocks the frame reads; only the hemisphere technique needs the last. */
@@ -149,7 +140,8 @@ static void upload_constants(glssao_effect *effect, gl_uint block_count)
 /* What the passes of one frame have in common. */
 typedef struct frame_run {
     glssao_effect *effect;
-    const glssao_frame *frame;
+    const glssao_frame *host;  /* as it was handed over */
+    const glssao_frame *frame; /* as the passes after the copying of inputs see it */
     const glssao_settings *settings;
     const glssao_plan *plan;
     frame_programs programs;
@@ -164,6 +156,19 @@ static bool runs(const frame_run *r, glssao_pass pass)
 static glssao__region region_of(const frame_run *r, glssao_pass pass)
 {
     return glssao__plan_region(r->effect, r->frame, r->settings, r->plan, pass);
+}
+
+/* Horizon fetches depth; the others read occluders filtered. */
+static void bind_depth(const frame_run *r)
+{
+    glssao__draw_bind(r->effect, UNIT_DEPTH, depth_source(r->frame),
+                      r->settings->technique == GLSSAO_HORIZON ? SAMPLER_POINT_CLAMP : SAMPLER_DEPTH);
+}
+
+static void copy_inputs(const frame_run *r)
+{
+    glssao__inputs_copy(r->effect, r->host, r->programs.inputs);
+    bind_depth(r);
 }
 
 static void rebuild_normals(const frame_run *r)
@@ -266,11 +271,9 @@ static void upsample(const frame_run *r)
 static void run_passes(const frame_run *r)
 {
     static void (*const passes[GLSSAO_PASS_COUNT])(const frame_run *) = {
-        [GLSSAO_PASS_NORMALS] = rebuild_normals,
-        [GLSSAO_PASS_DISTANCE] = map_distance,
-        [GLSSAO_PASS_ESTIMATE] = estimate,
-        [GLSSAO_PASS_RESOLVE] = resolve,
-        [GLSSAO_PASS_BLUR] = blur,
+        [GLSSAO_PASS_INPUTS] = copy_inputs,    [GLSSAO_PASS_NORMALS] = rebuild_normals,
+        [GLSSAO_PASS_DISTANCE] = map_distance, [GLSSAO_PASS_ESTIMATE] = estimate,
+        [GLSSAO_PASS_RESOLVE] = resolve,       [GLSSAO_PASS_BLUR] = blur,
         [GLSSAO_PASS_UPSAMPLE] = upsample,
     };
     for (int i = 0; i < GLSSAO_PASS_COUNT; ++i) {
@@ -288,51 +291,36 @@ static void run_passes(const frame_run *r)
     }
 }
 
-/* Textures of the host, whose content only GL knows. */
-static glssao_result check_textures(glssao_effect *effect, const glssao_frame *frame)
-{
-    const struct {
-        gl_uint texture;
-        const char *field;
-    } textures[] = {
-        {frame->depth_kind != GLSSAO_DEPTH_NORMAL_ALPHA ? frame->depth_texture : 0, "frame.depth_texture"},
-        {frame->normal_texture, "frame.normal_texture"},
-        {frame->back_texture, "frame.back_texture"},
-        {frame->second_texture, "frame.second_texture"},
-    };
-    glssao_result result = GLSSAO_OK;
-    for (size_t i = 0; i < sizeof textures / sizeof *textures && result == GLSSAO_OK; ++i)
-        if (textures[i].texture)
-            result = glssao__maps_check_texture(effect, textures[i].texture, false, textures[i].field);
-    return result;
-}
-
 /* What glssao_compute and glssao_accumulate have in common; `plan` tells which it is. */
-static glssao_result run(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
+static glssao_result run(glssao_effect *effect, const glssao_frame *host, const glssao_settings *settings,
                          const glssao__projection *projection, const glssao_plan *plan)
 {
     frame_run r = {.effect = effect,
-                   .frame = frame,
+                   .host = host,
                    .settings = settings,
                    .plan = plan,
-                   .delivered = glssao__plan_result(effect, frame, settings, plan)};
-    glssao_result result = check_textures(effect, frame);
+                   .delivered = glssao__plan_result(effect, host, settings, plan)};
+    glssao__precision precision;
+    glssao_result result = glssao__inputs_check(effect, host, &precision);
     if (result == GLSSAO_OK)
-        result = get_programs(effect, frame, settings, plan, &r.programs);
+        result = glssao__inputs_fit(effect, host);
+    const glssao_frame read = glssao__inputs_frame(effect, host), *const frame = r.frame = &read;
+    if (result == GLSSAO_OK)
+        result = get_programs(effect, host, frame, settings, plan, &r.programs);
     if (result == GLSSAO_OK)
         result = fit_maps(effect, frame, settings, plan);
     if (result != GLSSAO_OK)
         return result;
 
-    effect->depth_texture = depth_source(frame);
+    effect->depth_texture = depth_source(host);
     effect->margin = frame->margin;
     glssao__constants_fill(&effect->constants, frame, settings, projection, effect->ambient.width,
                            effect->ambient.height);
-    glssao__constants_fill_frame(&effect->frame_constants, frame, settings, projection);
+    glssao__constants_fill_frame(&effect->frame_constants, host, settings, projection, &precision);
     if (settings->technique == GLSSAO_HEMISPHERE)
         glssao__constants_fill_kernel(&effect->hemisphere_constants, effect->seed, settings->sample_count);
     if (plan->passes[GLSSAO_PASS_RESOLVE].run) {
-        glssao__accumulate_begin(effect, frame, settings);
+        glssao__accumulate_begin(effect, host, settings);
         glssao__accumulate_fill_constants(effect, &r.delivered, &effect->frame_constants);
     } else {
         glssao__accumulate_stop(effect);
@@ -349,9 +337,7 @@ static glssao_result run(glssao_effect *effect, const glssao_frame *frame, const
     gl_float sky = frame->depth_kind == GLSSAO_DEPTH_WINDOW ? projection->sky_depth : SKY_DISTANCE;
     effect->gl.SamplerParameterfv(effect->samplers[SAMPLER_DEPTH], GL_TEXTURE_BORDER_COLOR,
                                   (const gl_float[4]){sky, sky, sky, sky});
-    /* Horizon fetches depth; the others read occluders filtered. */
-    glssao__draw_bind(effect, UNIT_DEPTH, depth_source(frame),
-                      settings->technique == GLSSAO_HORIZON ? SAMPLER_POINT_CLAMP : SAMPLER_DEPTH);
+    bind_depth(&r);
     run_passes(&r);
     return GLSSAO_OK;
 }
@@ -395,6 +381,24 @@ glssao_result glssao_accumulate(glssao_effect *effect, const glssao_frame *frame
     return result;
 }
 
+/* Whether drawing into the bound framebuffer's first buffer would change the texture that is read. */
+static bool is_drawn_into(const glssao__gl *gl, gl_uint framebuffer, gl_uint texture)
+{
+    gl_int attachment = 0, type = 0, name = 0;
+    if (framebuffer == 0)
+        return false;
+    gl->GetIntegerv(GL_DRAW_BUFFER0, &attachment);
+    if (attachment == 0) /* GL_NONE */
+        return false;
+    gl->GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, (gl_enum)attachment,
+                                            GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &type);
+    if (type != GL_TEXTURE)
+        return false;
+    gl->GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, (gl_enum)attachment,
+                                            GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME, &name);
+    return (gl_uint)name == texture;
+}
+
 static glssao_result apply(glssao_effect *effect, gl_uint framebuffer)
 {
     const glssao__gl *gl = &effect->gl;
@@ -409,11 +413,19 @@ static glssao_result apply(glssao_effect *effect, gl_uint framebuffer)
                           status);
         return GLSSAO_FRAMEBUFFER_ERROR;
     }
+    int width, height;
+    const gl_uint map = glssao__maps_result(effect, &width, &height);
+    if (is_drawn_into(gl, framebuffer, map)) {
+        glssao__log_write(
+            &effect->log, GLSSAO_LOG_ERROR,
+            "framebuffer = %u: its colour is the accessibility map itself, which would be read and written",
+            framebuffer);
+        return GLSSAO_INVALID_ARGUMENT;
+    }
     glssao__stats_begin_pass(effect, GLSSAO_PASS_APPLY);
     glssao__state_set_blend(gl, GL_ZERO, GL_SRC_COLOR);
     gl->UseProgram(program.name);
-    int width, height;
-    glssao__draw_bind(effect, UNIT_AMBIENT, glssao__maps_result(effect, &width, &height), SAMPLER_LINEAR_CLAMP);
+    glssao__draw_bind(effect, UNIT_AMBIENT, map, SAMPLER_LINEAR_CLAMP);
     glssao__draw(effect, framebuffer, effect->width - 2 * effect->margin, effect->height - 2 * effect->margin);
     glssao__stats_end_pass(effect, GLSSAO_PASS_APPLY, 1);
     return GLSSAO_OK;

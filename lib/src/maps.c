@@ -88,14 +88,14 @@ static glssao_result fit_target(glssao_effect *effect, gl_enum format, int width
     return GLSSAO_OK;
 }
 
+glssao_result glssao__maps_fit_input(glssao_effect *effect, bool has_normals, glssao__target *map)
+{
+    return fit_target(effect, has_normals ? GL_RGBA32F : GL_R32F, effect->width, effect->height, "input", map);
+}
+
 glssao_result glssao__maps_fit_distance(glssao_effect *effect, int width, int height, bool has_layers)
 {
     return fit_target(effect, has_layers ? GL_RGBA32F : GL_R32F, width, height, "distance", &effect->distance_map);
-}
-
-glssao_result glssao__maps_fit_result(glssao_effect *effect, int width, int height)
-{
-    return fit_target(effect, GL_R16, width, height, "result", &effect->result_map);
 }
 
 glssao_result glssao__maps_fit_accumulation(glssao_effect *effect)
@@ -146,16 +146,43 @@ glssao_result glssao__maps_make_ambient(glssao_effect *effect, int width, int he
     return result;
 }
 
-glssao_result glssao__maps_fit_paired(glssao_effect *effect, int width, int height)
+glssao_result glssao__maps_fit_results(glssao_effect *effect, int width, int height, bool paired, int result_width,
+                                       int result_height)
 {
-    if (effect->paired.width == width && effect->paired.height == height)
-        return GLSSAO_OK;
-    glssao__ambient_maps made;
-    glssao_result result = make_pair(effect, GL_RG32F, width, height, "paired ambient", &made);
-    if (result != GLSSAO_OK)
+    const bool makes_result =
+        result_width > 0 && (effect->result_map.width != result_width || effect->result_map.height != result_height);
+    const bool makes_paired = paired && (effect->paired.width != width || effect->paired.height != height);
+    const bool makes_ambient = effect->ambient.width != width || effect->ambient.height != height;
+    glssao__target result_map = {0};
+    glssao__ambient_maps paired_maps = {0}, ambient_maps = {0};
+    glssao_result result = GLSSAO_OK;
+    if (makes_result)
+        result = make_target(effect, GL_R16, result_width, result_height, "result", &result_map);
+    if (result == GLSSAO_OK && makes_paired)
+        result = make_pair(effect, GL_RG32F, width, height, "paired ambient", &paired_maps);
+    if (result == GLSSAO_OK && makes_ambient)
+        result = glssao__maps_make_ambient(effect, width, height, &ambient_maps);
+    /* The old ones hold the last result: none goes before all of the new ones are there. */
+    if (result != GLSSAO_OK) {
+        glssao__maps_delete_target(&effect->gl, &result_map);
+        glssao__maps_delete_ambient(&effect->gl, &paired_maps);
         return result;
-    glssao__maps_delete_ambient(&effect->gl, &effect->paired);
-    effect->paired = made;
+    }
+    if (makes_result) {
+        glssao__maps_delete_target(&effect->gl, &effect->result_map);
+        effect->result_map = result_map;
+    }
+    if (makes_paired) {
+        glssao__maps_delete_ambient(&effect->gl, &effect->paired);
+        effect->paired = paired_maps;
+    }
+    if (makes_ambient) {
+        glssao__maps_delete_ambient(&effect->gl, &effect->ambient);
+        effect->ambient = ambient_maps;
+        effect->ambient_is_one = true;
+        effect->has_result_map = false; /* until the last pass has run */
+        effect->is_paired = false;
+    }
     return GLSSAO_OK;
 }
 

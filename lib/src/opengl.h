@@ -66,6 +66,8 @@ enum {
     GL_PACK_ALIGNMENT = 0x0D05,
     GL_MAX_TEXTURE_SIZE = 0x0D33,
     GL_MAX_VIEWPORT_DIMS = 0x0D3A,
+    GL_DRAW_BUFFER0 = 0x8825,
+    GL_TEXTURE = 0x1702,
     GL_TEXTURE_2D = 0x0DE1,
     GL_TEXTURE_WIDTH = 0x1000,
     GL_TEXTURE_HEIGHT = 0x1001,
@@ -111,7 +113,12 @@ enum {
     GL_TEXTURE0 = 0x84C0,
     GL_ACTIVE_TEXTURE = 0x84E0,
     GL_TEXTURE_COMPARE_MODE = 0x884C,
+    GL_TEXTURE_RED_SIZE = 0x805C,
+    GL_TEXTURE_ALPHA_SIZE = 0x805F,
     GL_TEXTURE_DEPTH_SIZE = 0x884A,
+    GL_TEXTURE_RED_TYPE = 0x8C10,
+    GL_TEXTURE_ALPHA_TYPE = 0x8C13,
+    GL_TEXTURE_DEPTH_TYPE = 0x8C16,
     GL_QUERY_RESULT = 0x8866,
     GL_QUERY_RESULT_AVAILABLE = 0x8867,
     GL_MAX_DRAW_BUFFERS = 0x8824,
@@ -145,6 +152,8 @@ enum {
     GL_READ_FRAMEBUFFER = 0x8CA8,
     GL_DRAW_FRAMEBUFFER = 0x8CA9,
     GL_READ_FRAMEBUFFER_BINDING = 0x8CAA,
+    GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE = 0x8CD0,
+    GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME = 0x8CD1,
     GL_FRAMEBUFFER_COMPLETE = 0x8CD5,
     GL_COLOR_ATTACHMENT0 = 0x8CE0,
     GL_DEPTH_ATTACHMENT = 0x8D00,
@@ -153,6 +162,8 @@ enum {
     GL_SAMPLE_MASK = 0x8E51,
     GL_EXTENSIONS = 0x1F03,
     GL_PRIMITIVE_RESTART = 0x8F9D,
+    GL_TEXTURE_2D_MULTISAMPLE = 0x9100,
+    GL_TEXTURE_BINDING_2D_MULTISAMPLE = 0x9104,
     GL_CLIP_ORIGIN = 0x935C,
     GL_CLIP_DEPTH_MODE = 0x935D,
     GL_SYNC_GPU_COMMANDS_COMPLETE = 0x9117,
@@ -216,6 +227,8 @@ enum {
     X(void, GetBufferSubData, (gl_enum target, gl_intptr offset, gl_sizeiptr size, void *data))                        \
     X(gl_enum, GetError, (void))                                                                                       \
     X(void, GetFloatv, (gl_enum name, gl_float * out))                                                                 \
+    X(void, GetFramebufferAttachmentParameteriv,                                                                       \
+      (gl_enum target, gl_enum attachment, gl_enum name, gl_int * out))                                                \
     X(void, GetInteger64i_v, (gl_enum name, gl_uint index, int64_t * out))                                             \
     X(void, GetIntegeri_v, (gl_enum name, gl_uint index, gl_int * out))                                                \
     X(void, GetIntegerv, (gl_enum name, gl_int * out))                                                                 \

@@ -50,6 +50,8 @@ glssao__region glssao__plan_region(const glssao_effect *effect, const glssao_fra
 {
     int width, height, factor = settings->half_resolution ? 2 : 1, by = reach(settings, plan);
     glssao__plan_ambient_size(effect, settings, &width, &height);
+    if (pass == GLSSAO_PASS_INPUTS)
+        return inner(effect->width, effect->height, 0);
     if (pass == GLSSAO_PASS_UPSAMPLE)
         return inner(effect->width, effect->height, frame->margin);
     if (pass == GLSSAO_PASS_NORMALS)
@@ -97,6 +99,10 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
 
     glssao_plan plan = plan_of_skips("");
     plan.passes[GLSSAO_PASS_RESOLVE].reason = "runs when glssao_accumulate is called";
+    const int copies = glssao__inputs_count(frame);
+    plan.passes[GLSSAO_PASS_INPUTS] =
+        copies > 0 ? planned(GLSSAO_PASS_INPUTS, true, "one sample, the viewport or the logarithm is taken out first")
+                   : planned(GLSSAO_PASS_INPUTS, false, "the host's textures are read as they are");
     struct glssao_planned_pass *normals = &plan.passes[GLSSAO_PASS_NORMALS];
     *normals = frame->normal_texture ? planned(GLSSAO_PASS_NORMALS, false, "the host brings normals")
                                      : planned(GLSSAO_PASS_NORMALS, true, "no normal map: rebuilt from depth");
@@ -128,7 +134,10 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
         if (i == GLSSAO_PASS_APPLY || i == GLSSAO_PASS_RESOLVE)
             continue;
         const glssao__region region = glssao__plan_region(effect, frame, settings, &plan, (glssao_pass)i);
-        pass->draw_calls = !pass->run ? 0 : pass == blur ? 2 * settings->blur_rounds : 1;
+        pass->draw_calls = !pass->run                ? 0
+                           : pass == blur            ? 2 * settings->blur_rounds
+                           : i == GLSSAO_PASS_INPUTS ? copies
+                                                     : 1;
         pass->width = region.width;
         pass->height = region.height;
     }

@@ -23,6 +23,8 @@ static const char *const macros[VARIANT_FLAGS] = {
     "ACCUMULATE",
     "LAYERS",
     "PAIRED",
+    "MULTISAMPLE",
+    "LOGARITHMIC",
 };
 
 enum {
@@ -37,6 +39,7 @@ static const struct shader {
     unsigned flags;
     const char *files[4]; /* after the blocks, in order; the last is the pass itself */
 } shaders[SHADER_COUNT] = {
+    [SHADER_INPUT] = {"input", VARIANT_MULTISAMPLE | VARIANT_LOGARITHMIC, {shader_view_glsl, shader_input_frag}},
     [SHADER_NORMALS] = {"normals", DEPTH_FLAGS, {shader_view_glsl, shader_normals_frag}},
     [SHADER_CLASSIC] = {"classic",
                         NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_NO_ANGLE_WEIGHT | VARIANT_PAIRED,
@@ -186,6 +189,8 @@ static const struct member {
     FRAME(gNoise),
     FRAME(gAccumulation),
     FRAME(gProbe),
+    FRAME(gDepthStep),
+    FRAME(gLogDepth),
 #undef FRAME
     {BLOCK_HEMISPHERE, "gKernel", offsetof(glssao__hemisphere_constants, gKernel)},
     {BLOCK_HEMISPHERE, "gRotations", offsetof(glssao__hemisphere_constants, gRotations)},
@@ -262,7 +267,7 @@ static void tie_samplers(const glssao__gl *gl, gl_uint program)
     } samplers[] = {
         {"u_normal_map", UNIT_NORMAL},   {"u_depth_map", UNIT_DEPTH},       {"u_random_vector_map", UNIT_RANDOM_VECTOR},
         {"u_ambient_map", UNIT_AMBIENT}, {"u_distance_map", UNIT_DISTANCE}, {"u_back_map", UNIT_BACK},
-        {"u_second_map", UNIT_SECOND},
+        {"u_second_map", UNIT_SECOND},   {"u_input_map", UNIT_DEPTH},
     };
     gl->UseProgram(program);
     for (size_t i = 0; i < sizeof samplers / sizeof *samplers; ++i)

@@ -92,7 +92,7 @@ bool glssao__projection_analyse(const float projection[16], bool clip_zero_to_on
     /* Only the quotient counts: numbers near 1 keep small scenes out of the denormals. */
     double scale = 1.0 / fmax(fabs(k[2]), fabs(k[3]));
     for (int i = 0; i < 4; ++i)
-        out->distance_from_depth[i] = (float)(k[i] * scale);
+        out->distance_from_depth[i] = (float)(out->ends[i] = k[i] * scale);
     bool perspective = p[11] != 0.0;
     double distance_0 = distance_at(k[0], k[2], perspective), distance_1 = distance_at(k[1], k[3], perspective);
     if (distance_0 == distance_1 || !(isfinite(distance_0) || isfinite(distance_1))) {
@@ -111,4 +111,44 @@ bool glssao__projection_analyse(const float projection[16], bool clip_zero_to_on
         out->ray_direction[axis + 2] = (float)((p[11] + skew) / s);
     }
     return true;
+}
+
+double glssao__projection_log_constant(const glssao_frame *frame)
+{
+    return frame->log_depth_constant == 0.0f ? 1.0 : (double)frame->log_depth_constant;
+}
+
+void glssao__projection_depth_step(const glssao_frame *frame, const glssao__projection *projection,
+                                   const glssao__precision *precision, float out_step[4])
+{
+    /* Floats just below 1 lie as far apart as half their step there, and no farther anywhere nearer. */
+    const bool near_one =
+        precision->relative && frame->depth_kind == GLSSAO_DEPTH_WINDOW && projection->sky_depth == 1.0f;
+    const bool relative = precision->relative && !near_one;
+    const double step = near_one ? 0.5 * precision->step : precision->step;
+    double c[3] = {0.0, step, 0.0}; /* view distance in floats */
+    if (frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC) {
+        /* d = log(c t + 1) / L: dt / dd = L (t + 1 / c) */
+        const double constant = glssao__projection_log_constant(frame);
+        const double length = log(constant * (double)frame->log_depth_far + 1.0);
+        c[0] = step * length / constant;
+        c[1] = step * length;
+    } else if (frame->depth_kind == GLSSAO_DEPTH_WINDOW) {
+        /* t = N / D with N = (1 - d) k0 + d k1, D = (1 - d) k2 + d k3: dt / dd = (k1 k2 - k0 k3) / D^2 = W / D^2, where
+         * D = -W / (a - b t); and d = (k0 - k2 t) / (a - b t). */
+        const double *k = projection->ends;
+        const double w = fabs(k[1] * k[2] - k[0] * k[3]), a = k[0] - k[1], b = k[2] - k[3];
+        const double last[2] = {relative ? k[0] : a, relative ? -k[2] : -b};
+        c[0] = step / w * a * last[0];
+        c[1] = step / w * (a * last[1] - b * last[0]);
+        c[2] = step / w * -b * last[1];
+    } else if (!relative) {
+        c[0] = step;
+        c[1] = 0.0;
+    }
+    /* Positions are computed in single precision, whatever depth is stored in. */
+    c[1] += ldexp(1.0, -22);
+    for (int i = 0; i < 3; ++i)
+        out_step[i] = (float)c[i];
+    out_step[3] = 0.0f;
 }

@@ -135,10 +135,43 @@ bool glssao__settings_check(const glssao_settings *settings, const glssao__log_s
     return refuse(log, "settings.blur", settings->blur, "unknown");
 }
 
+static bool check_viewport(const glssao_effect *effect, const glssao_frame *frame, const glssao__log_sink *log)
+{
+    const int *v = frame->viewport;
+    if (v[0] == 0 && v[1] == 0 && v[2] == 0 && v[3] == 0)
+        return true;
+    for (int i = 0; i < 2; ++i)
+        if (v[i] < 0)
+            return refuse(log, i ? "frame.viewport[1]" : "frame.viewport[0]", v[i], "less than 0");
+    if (v[2] == effect->width && v[3] == effect->height)
+        return true;
+    glssao__log_write(log, GLSSAO_LOG_ERROR, "frame.viewport = %d x %d: want the effect's full size, %d x %d", v[2],
+                      v[3], effect->width, effect->height);
+    return false;
+}
+
+static bool check_logarithm(const glssao_frame *frame, const glssao__log_sink *log)
+{
+    const struct {
+        const char *field;
+        double value;
+    } numbers_of[] = {
+        {"log_depth_far", (double)frame->log_depth_far},
+        {"log_depth_constant", glssao__projection_log_constant(frame)},
+    };
+    for (int i = 0; i < 2 && frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC; ++i)
+        if (!(numbers_of[i].value >= 1e-12 && numbers_of[i].value <= 1e12)) { /* also true for nan */
+            glssao__log_write(log, GLSSAO_LOG_ERROR, "frame.%s = %g: want 1e-12 to 1e+12", numbers_of[i].field,
+                              numbers_of[i].value);
+            return false;
+        }
+    return true;
+}
+
 static bool check_frame(const glssao_effect *effect, const glssao_frame *frame, const glssao__log_sink *log,
                         glssao__projection *out_projection)
 {
-    if ((unsigned)frame->depth_kind > GLSSAO_DEPTH_NORMAL_ALPHA)
+    if ((unsigned)frame->depth_kind > GLSSAO_DEPTH_LOGARITHMIC)
         return refuse(log, "frame.depth_kind", frame->depth_kind, "unknown");
     if ((unsigned)frame->normal_kind > GLSSAO_NORMAL_OCTAHEDRAL)
         return refuse(log, "frame.normal_kind", frame->normal_kind, "unknown");
@@ -150,11 +183,27 @@ static bool check_frame(const glssao_effect *effect, const glssao_frame *frame, 
     if (frame->margin < 0 || frame->margin % 2 != 0 || frame->margin > (effect->width - 1) / 2 ||
         frame->margin > (effect->height - 1) / 2)
         return refuse(log, "frame.margin", frame->margin, "want an even number that leaves a pixel between");
+    if (!check_viewport(effect, frame, log) || !check_logarithm(frame, log))
+        return false;
     if ((frame->back_texture == 0) != (frame->second_texture == 0))
         return refuse(log, frame->back_texture ? "frame.second_texture" : "frame.back_texture", 0,
                       "no texture, but the other is there");
-    const gl_uint written[] = {effect->ambient.texture[0], effect->ambient.texture[1],   effect->paired.texture[0],
-                               effect->paired.texture[1],  effect->distance_map.texture, effect->result_map.texture};
+    /* A texture that a pass both reads and draws into gives undefined pixels. */
+    const gl_uint written[] = {
+        effect->ambient.texture[0],
+        effect->ambient.texture[1],
+        effect->paired.texture[0],
+        effect->paired.texture[1],
+        effect->distance_map.texture,
+        effect->result_map.texture,
+        effect->inputs[0].texture,
+        effect->inputs[1].texture,
+        effect->inputs[2].texture,
+        effect->inputs[3].texture,
+        effect->accumulation.sum.texture,
+        effect->accumulation.probe.texture,
+        frame->normal_texture ? 0 : effect->normal_map.texture, /* normals are rebuilt there */
+    };
     for (size_t i = 0; i < sizeof written / sizeof *written; ++i)
         if (written[i] && (frame->depth_texture == written[i] || frame->normal_texture == written[i] ||
                            frame->back_texture == written[i] || frame->second_texture == written[i]))

@@ -43,6 +43,7 @@ static void print_measure(FILE *f, const error_measure *m)
 static void print_timing(FILE *f, const timing *t)
 {
     static const char *const passes[GLSSAO_PASS_COUNT] = {
+        [GLSSAO_PASS_INPUTS] = "inputs_ms",
         [GLSSAO_PASS_NORMALS] = "normals_ms",   [GLSSAO_PASS_DISTANCE] = "distance_ms",
         [GLSSAO_PASS_ESTIMATE] = "estimate_ms", [GLSSAO_PASS_BLUR] = "blur_ms",
         [GLSSAO_PASS_UPSAMPLE] = "upsample_ms", [GLSSAO_PASS_APPLY] = "apply_ms"};

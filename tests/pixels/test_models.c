@@ -139,6 +139,7 @@ static void check_estimate(setup *s, const char *what)
     s->settings.blur = GLSSAO_BLUR_NONE;
     int width, height;
     float *got = fixture_compute(s->effect, &s->frame, &s->settings, &width, &height);
+    s->input.depth_step = depth_step_of(s->effect);
     assert_int_equal(width, s->input.ambient_width);
     assert_int_equal(height, s->input.ambient_height);
     double tolerance = 1.5 * R16_STEP + 2e-5 * fmax(1.0, (double)s->settings.power);

@@ -105,40 +105,61 @@ static double hit(const analytic_shape *s, const double o[3], const double d[3],
     return enter <= leave ? enter : HUGE_VAL;
 }
 
+/* View distance of what is seen through a pixel, HUGE_VAL where nothing is, and the normal there. */
+static double see(const analytic_view *view, const analytic_shape *shapes, int shape_count, double ndc_x, double ndc_y,
+                  double out_normal[3])
+{
+    const float *p = view->projection;
+    const double ndc[2] = {ndc_x, ndc_y};
+    double o[3] = {0}, d[3] = {0.0, 0.0, -1.0}, nearest = HUGE_VAL;
+    for (int i = 0; i < 2; ++i) {
+        o[i] = (ndc[i] * (double)p[15] - (double)p[12 + i]) / (double)p[5 * i];
+        d[i] = (-ndc[i] * (double)p[11] + (double)p[8 + i]) / (double)p[5 * i];
+    }
+    for (int i = 0; i < shape_count; ++i) {
+        double candidate[3] = {0.0}, t = hit(&shapes[i], o, d, candidate);
+        if (t > 0.0 && t < nearest) {
+            nearest = t;
+            memcpy(out_normal, candidate, sizeof candidate);
+        }
+    }
+    return nearest;
+}
+
 void analytic_render(const analytic_view *view, const analytic_shape *shapes, int shape_count, int width, int height,
                      float **out_depth, float **out_normals)
+{
+    float *distance;
+    analytic_render_distance(view, shapes, shape_count, width, height, out_depth, out_normals, &distance);
+    free(distance);
+}
+
+void analytic_render_distance(const analytic_view *view, const analytic_shape *shapes, int shape_count, int width,
+                              int height, float **out_depth, float **out_normals, float **out_distance)
 {
     double p[16];
     for (int i = 0; i < 16; ++i)
         p[i] = (double)view->projection[i];
     size_t count = (size_t)width * (size_t)height;
     float *depth = malloc(count * sizeof *depth), *normals = malloc(count * 3 * sizeof *normals);
+    float *distance = malloc(count * sizeof *distance);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            double ndc[2] = {2.0 * (x + 0.5) / width - 1.0, 2.0 * (y + 0.5) / height - 1.0};
-            double o[3] = {0}, d[3] = {0.0, 0.0, -1.0};
-            for (int i = 0; i < 2; ++i) {
-                o[i] = (ndc[i] * p[15] - p[12 + i]) / p[5 * i];
-                d[i] = (-ndc[i] * p[11] + p[8 + i]) / p[5 * i];
-            }
-            double nearest = HUGE_VAL, normal[3] = {0.0, 0.0, 1.0};
-            for (int i = 0; i < shape_count; ++i) {
-                double candidate[3] = {0.0}, t = hit(&shapes[i], o, d, candidate);
-                if (t > 0.0 && t < nearest) {
-                    nearest = t;
-                    memcpy(normal, candidate, sizeof normal);
-                }
-            }
+            double normal[3] = {0.0, 0.0, 1.0};
+            const double nearest =
+                see(view, shapes, shape_count, 2.0 * (x + 0.5) / width - 1.0, 2.0 * (y + 0.5) / height - 1.0, normal);
             size_t at = (size_t)y * (size_t)width + (size_t)x;
             double ndc_z = (p[14] - p[10] * nearest) / (p[15] - p[11] * nearest);
             double window = view->clip_zero_to_one ? ndc_z : 0.5 * ndc_z + 0.5;
             bool drawn = window >= 0.0 && window <= 1.0; /* between the planes; false for a miss */
             depth[at] = drawn ? (float)window : view->sky_depth;
+            distance[at] = drawn ? (float)nearest : INFINITY;
             for (int i = 0; i < 3; ++i)
                 normals[3 * at + (size_t)i] = drawn ? (float)normal[i] : (i == 2 ? 1.0f : 0.0f);
         }
     *out_depth = depth;
     *out_normals = normals;
+    *out_distance = distance;
 }
 
 static bool blocked(const analytic_shape *shapes, int shape_count, const double point[3], const double d[3],

@@ -40,6 +40,9 @@ analytic_view analytic_make_view(analytic_projection kind, double aspect, double
 /* Window depth (sky where nothing is hit) and normals (xyz; 0, 0, 1 on sky); the caller frees both. */
 void analytic_render(const analytic_view *view, const analytic_shape *shapes, int shape_count, int width, int height,
                      float **out_depth, float **out_normals);
+/* View distance as well (scene units; infinite on sky). */
+void analytic_render_distance(const analytic_view *view, const analytic_shape *shapes, int shape_count, int width,
+                              int height, float **out_depth, float **out_normals, float **out_distance);
 
 /* Cosine-weighted accessibility of a point with that unit normal: the share of `rays` rays (a Fibonacci lattice on the
  * disc below the hemisphere) that hit no shape within `radius`. */

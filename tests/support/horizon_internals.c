@@ -44,6 +44,8 @@ bool horizon_variant(const glssao_effect *effect, horizon_input *out)
         }
     out->steps = variant & VARIANT_STEPS_16 ? 16 : variant & VARIANT_STEPS_12 ? 12 : variant & VARIANT_STEPS_8 ? 8 : 6;
     out->slices = variant & VARIANT_SLICES_2 ? 2 : 1;
+    for (int i = 0; i < 3; ++i)
+        out->depth_step[i] = (double)effect->frame_constants.gDepthStep[i];
     const char *pieces[GLSSAO__PROGRAM_MAX_SOURCES];
     const int count = glssao__program_sources(SHADER_HORIZON, variant, GL_FRAGMENT_SHADER, pieces);
     return found == 1 && horizon_read_constants(pieces, count, variant & VARIANT_LAYERS, &out->constants);

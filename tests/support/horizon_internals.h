@@ -25,7 +25,8 @@ void horizon_read_noise(const glssao_effect *effect, horizon_input *out);
 /* Constants of the planar blur and of upsampling, lengths in units of the radius; false where one is missing. */
 bool horizon_read_pass_constants(pass_constants *out_blur, pass_constants *out_upsample);
 
-/* Slices, steps and constants of the variant that was compiled; the effect must have run one alone. */
+/* Slices, steps and constants of the variant that was compiled, and the step of the depth format; the effect must have
+ * run one alone. */
 bool horizon_variant(const glssao_effect *effect, horizon_input *out);
 
 #endif

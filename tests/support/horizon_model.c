@@ -191,6 +191,8 @@ static bool make_point(const horizon_input *in, int x, int y, point *out)
     const float *m = in->projection;
     *out = (point){.in = in, .x = x, .y = y, .orthographic = !(m[11] < 0.0f)};
     out->distance = (double)in->distance[y * in->width + x];
+    const double far = out->distance + in->radius;
+    const double step = in->depth_step[0] + far * (in->depth_step[1] + far * in->depth_step[2]);
     const int full[2] = {x * in->factor, y * in->factor}, size[2] = {in->full_width, in->full_height};
     const float *n = in->normals + 3 * ((size_t)full[1] * (size_t)in->full_width + (size_t)full[0]);
     const double length2 = (double)n[0] * (double)n[0] + (double)n[1] * (double)n[1] + (double)n[2] * (double)n[2];
@@ -211,6 +213,7 @@ static bool make_point(const horizon_input *in, int x, int y, point *out)
     }
     const vector back = {{-ray[0].v, ray[0].e}, {-ray[1].v, ray[1].e}, exactly(1.0)};
     out->ray_length = square_root(dot(back, back));
+    out->y_step = multiply(divide(out->ray_length, once_rounded(in->radius)), (rounded){step, 8.0 * ROUNDING * step});
     out->up = unit(back);
     return true;
 }

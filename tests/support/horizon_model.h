@@ -30,6 +30,7 @@ typedef struct horizon_input {
     const float *normals; /* xyz a pixel, view space, full size */
     float projection[16];
     double radius, power;
+    double depth_step[3]; /* coefficients of 1, t, t^2 in what a step of the depth format comes to at distance t */
     int slices, steps;
     double noise_offset[2]; /* added to the tile's angle and jitter, which wrap at 1 */
     bool turned_over;       /* the tile's angle and jitter change places */

@@ -89,11 +89,20 @@ static void add_sample(const point *p, const slice *s, const side *d, const cand
 {
     const horizon_constants *c = &p->in->constants;
     const interval x = bounds(at->x), y = bounds(at->y);
-    if (x.high <= 0.0 || x.low >= 1.0 + 4.0 * ROUNDING)
-        return; /* on the point or on the other side of it; beyond the sphere */
+    /* A quarter of the size that a pixel has there. */
+    const rounded squares[2] = {multiply(s->x_per_px[0], s->x_per_px[0]), multiply(s->x_per_px[1], s->x_per_px[1])};
+    const rounded center = exactly((p->orthographic ? 1.0 : p->distance) * p->in->steps * 0.25);
+    const rounded least = multiply(multiply(center, at->step), square_root(add(squares[0], squares[1])));
+    const interval beyond = bounds(subtract(at->x, least));
+    /* The tangent plane, and a step of the depth format above it. */
+    rounded tangent = divide(s->sin_g, at_least(s->cos_g, 1e-3));
+    tangent.v *= d->minus ? 1.0 : -1.0;
+    const interval above = bounds(subtract(at->y, add(multiply(tangent, at->x), p->y_step)));
+    if (beyond.high <= 0.0 || above.high <= 0.0 || x.low >= 1.0 + 4.0 * ROUNDING)
+        return; /* on the point, across the slice or on the other side of it; too low; beyond the sphere */
     const double square_error = 4.0 * ROUNDING;
     place here = {.outward = {fmax(x.low, 0.0), x.high},
-                  .maybe_outside = x.low <= 0.0 || x.high >= 1.0 - 4.0 * ROUNDING};
+                  .maybe_outside = beyond.low <= 0.0 || above.low <= 0.0 || x.high >= 1.0 - 4.0 * ROUNDING};
     here.chord = (interval){sqrt(fmax(1.0 - here.outward.high * here.outward.high - square_error, 0.0)),
                             sqrt(fmax(1.0 - here.outward.low * here.outward.low + square_error, 0.0))};
     rounded thickness = multiply(multiply(once_rounded(c->width), width), at->step);

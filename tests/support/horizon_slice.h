@@ -23,6 +23,7 @@ typedef struct point {
     int x, y; /* of the estimate */
     bool orthographic;
     double distance;
+    rounded y_step; /* of the depth format, in radii */
     vector up, normal;
     rounded px[2]; /* view xy that a pixel gains; in perspective per unit of distance */
     rounded ray_length;

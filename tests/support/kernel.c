@@ -5,6 +5,11 @@
 
 #include <string.h>
 
+const float *depth_step_of(const glssao_effect *effect)
+{
+    return effect->frame_constants.gDepthStep;
+}
+
 void kernel_of_seed(uint32_t seed, int sample_count, float out_kernel[64][4], float out_rotations[16][4])
 {
     glssao__hemisphere_constants c;

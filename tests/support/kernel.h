@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * The hemisphere technique's random inputs, asked of the library's own code, for the model to be fed with.
+ * Inputs of the models, asked of the library's own code: the hemisphere technique's random ones, and what a step of the
+ * depth format came to in the last frame.
  */
 #ifndef GLSSAO_TESTS_KERNEL_H
 #define GLSSAO_TESTS_KERNEL_H
 
-#include <stdint.h>
+#include <glssao/glssao.h>
 
+/* Coefficients of 1, t, t^2 at view distance t; test_internals checks them. */
+const float *depth_step_of(const glssao_effect *effect);
 void kernel_of_seed(uint32_t seed, int sample_count, float out_kernel[64][4], float out_rotations[16][4]);
 
 #endif

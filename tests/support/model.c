@@ -61,6 +61,13 @@ static double sky_depth(const model_input *in)
     return at_1 > at_0 ? 1.0 : 0.0;
 }
 
+static bool is_sky(const model_input *in, double depth)
+{
+    if (in->frame->depth_kind == GLSSAO_DEPTH_WINDOW)
+        return depth == sky_depth(in);
+    return depth == 0.0 || !(fabs(depth) < 1e15);
+}
+
 /* Linear filter, border: sky. */
 static double depth_at(const model_input *in, double u, double v)
 {
@@ -68,16 +75,21 @@ static double depth_at(const model_input *in, double u, double v)
     double x = u * in->width - 0.5, y = v * in->height - 0.5;
     double fx = x - floor(x), fy = y - floor(y);
     int ix = (int)floor(x), iy = (int)floor(y);
+    if (in->frame->depth_kind != GLSSAO_DEPTH_WINDOW && u >= 0.0 && v >= 0.0 && u <= 1.0 && v <= 1.0) {
+        bool beside_sky = false; /* distances that mean sky are not mixed with others */
+        for (int i = 0; i < 4; ++i) {
+            const int tx = (int)fmin(fmax(ix + i % 2, 0.0), in->width - 1.0);
+            const int ty = (int)fmin(fmax(iy + i / 2, 0.0), in->height - 1.0);
+            beside_sky |= is_sky(in, depth_texel(in, tx, ty, 0.0));
+        }
+        const double nearest = depth_texel(in, (int)fmin(u * in->width, in->width - 1.0),
+                                           (int)fmin(v * in->height, in->height - 1.0), 0.0);
+        if (beside_sky)
+            return is_sky(in, nearest) ? 1e15 : nearest;
+    }
     double low = (1.0 - fx) * depth_texel(in, ix, iy, border) + fx * depth_texel(in, ix + 1, iy, border);
     double high = (1.0 - fx) * depth_texel(in, ix, iy + 1, border) + fx * depth_texel(in, ix + 1, iy + 1, border);
     return (1.0 - fy) * low + fy * high;
-}
-
-static bool is_sky(const model_input *in, double depth)
-{
-    if (in->frame->depth_kind == GLSSAO_DEPTH_WINDOW)
-        return depth == sky_depth(in);
-    return depth == 0.0 || !(fabs(depth) < 1e15);
 }
 
 /* The full-size texel that stands for an ambient pixel: the lower left one where four meet. */
@@ -119,9 +131,22 @@ static vec3 normal_texel(const model_input *in, int x, int y)
     return (vec3){normal.x / length, normal.y / length, normal.z / length};
 }
 
-static double distance_weight(const glssao_settings *s, double nearer)
+/* How much nearer a surface must seem to be one: the setting, a step of the depth format at `at`, and what a filter
+ * that weighs in steps of 1/256 may make of the surface at a texel, whose distance per texel follows from n . p being
+ * constant. */
+static double least_nearer(const model_input *in, int x, int y, double t, vec3 n, double at)
 {
-    if (nearer <= (double)s->surface_epsilon)
+    const double u = (x + 0.5) / in->width, v = (y + 0.5) / in->height;
+    const vec3 p = position_view(in, u, v, t), ray = add_scaled(position_view(in, u, v, t + 1.0), -1.0, p);
+    const vec3 right = position_view(in, u + 1.0 / in->width, v, t), up = position_view(in, u, v + 1.0 / in->height, t);
+    const double slope = fabs(n.x * (right.x - p.x)) + fabs(n.y * (up.y - p.y)), facing = dot(n, ray);
+    return (double)in->settings->surface_epsilon + (double)in->depth_step[0] + at * (double)in->depth_step[1] +
+           at * at * (double)in->depth_step[2] + slope / fmax(256.0 * fabs(facing), 1e-3);
+}
+
+static double distance_weight(const glssao_settings *s, double least, double nearer)
+{
+    if (nearer <= least)
         return 0.0;
     double length = (double)s->fade_end - (double)s->fade_start;
     if (length <= 0.0)
@@ -142,7 +167,7 @@ void model_classic(const model_input *in, int x, int y, double *out_low, double 
     const float *random = in->random_vectors + 3 * ((size_t)y * (size_t)in->ambient_width + (size_t)x);
     vec3 v = {2.0 * (double)random[0] - 1.0, 2.0 * (double)random[1] - 1.0, 2.0 * (double)random[2] - 1.0};
 
-    double low = 0.0, high = 0.0;
+    double low = 0.0, high = 0.0, least = least_nearer(in, fx, fy, -p.z, n, -p.z);
     for (int i = 0; i < s->sample_count; ++i) {
         const float *offset = in->constants->gOffsetVectors[i];
         vec3 o = {(double)offset[0], (double)offset[1], (double)offset[2]};
@@ -169,9 +194,9 @@ void model_classic(const model_input *in, int x, int y, double *out_low, double 
         double facing_error = length > 0.0 ? fmin(2.0 * fmax(nearer, farther) / length, 1.0) : 1.0;
         if (s->no_angle_weight)
             facing_error = 0.0;
-        double a = distance_weight(s, to.z - farther), b = distance_weight(s, to.z + nearer);
-        double at_epsilon = (double)s->surface_epsilon * (1.0 + 1e-12);
-        double c = distance_weight(s, fmin(fmax(at_epsilon, to.z - farther), to.z + nearer));
+        double a = distance_weight(s, least, to.z - farther), b = distance_weight(s, least, to.z + nearer);
+        double at_epsilon = least * (1.0 + 1e-12);
+        double c = distance_weight(s, least, fmin(fmax(at_epsilon, to.z - farther), to.z + nearer));
         double weight_low = fmin(a, b), weight_high = fmax(fmax(a, b), c);
         if (fabs(side) < 1e-6) { /* flipped or not: another sample altogether */
             weight_low = 0.0;
@@ -211,6 +236,7 @@ void model_hemisphere(const model_input *in, int x, int y, double *out_low, doub
     vec3 bitangent = {n.y * tangent.z - n.z * tangent.y, n.z * tangent.x - n.x * tangent.z,
                       n.x * tangent.y - n.y * tangent.x};
 
+    const double least = least_nearer(in, fx, fy, center, n, center + radius);
     double low = 0.0, high = 0.0, counted = 0.0, perhaps_counted = 0.0;
     for (int i = 0; i < s->sample_count; ++i) {
         const float *k = in->kernel[i];
@@ -233,7 +259,7 @@ void model_hemisphere(const model_input *in, int x, int y, double *out_low, doub
         double nearer, farther;
         distance_errors(in, u, v, &nearer, &farther);
         double error = fmax(nearer, farther) + 4.0 * 0x1p-24 * (center + radius);
-        double behind = -q.z - (double)s->surface_epsilon - distance, reach = radius - fabs(distance - center);
+        double behind = -q.z - least - distance, reach = radius - fabs(distance - center);
         low += behind > error && reach > error ? 1.0 : 0.0;
         high += behind > -error && reach > -error ? 1.0 : 0.0;
         counted += 1.0;

@@ -21,7 +21,8 @@ typedef struct model_input {
     const glssao_frame *frame;
     const glssao_settings *settings;
     const glssao_constants *constants;
-    const float (*kernel)[4];    /* hemisphere: sample positions about +z */
+    const float *depth_step;  /* coefficients of 1, t, t^2 in what a step of the depth format comes to at distance t */
+    const float (*kernel)[4]; /* hemisphere: sample positions about +z */
     const float (*rotations)[4]; /* hemisphere: the 4x4 tile, row by row from the bottom */
 } model_input;
 

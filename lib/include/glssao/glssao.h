@@ -127,7 +127,9 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
 typedef enum glssao_depth { /* what a texel of depth means */
     GLSSAO_DEPTH_WINDOW = 0,    /* what the depth buffer stores; depth or depth-stencil format */
     GLSSAO_DEPTH_VIEW_DISTANCE, /* view distance in the red channel of a float format; sky: 0, infinite or no number */
-    GLSSAO_DEPTH_NORMAL_ALPHA   /* the same in the alpha of normal_texture; depth_texture is not used */
+    GLSSAO_DEPTH_NORMAL_ALPHA,  /* the same in the alpha of normal_texture; depth_texture is not used */
+    GLSSAO_DEPTH_LOGARITHMIC    /* log(c t + 1) / log(c far + 1) at view distance t, sky at 1; depth or red of a float
+                                   format; frame.log_depth_far and _constant. Copied first, see frame.multisample */
 } glssao_depth;
 
 typedef enum glssao_normal { /* how a texel stores a normal */
@@ -137,7 +139,7 @@ typedef enum glssao_normal { /* how a texel stores a normal */
 } glssao_normal;
 
 typedef struct glssao_frame { /* zero a field that you don't use */
-    uint32_t depth_texture;    /* GL_TEXTURE_2D of the effect's full size, level 0 */
+    uint32_t depth_texture;    /* GL_TEXTURE_2D of the effect's full size, level 0; may stay attached to a framebuffer */
     glssao_depth depth_kind;   /* of depth_texture */
     uint32_t normal_texture;   /* GL_TEXTURE_2D of the full size, view space; 0: rebuilt from depth (one more pass) */
     glssao_normal normal_kind; /* of normal_texture */
@@ -150,6 +152,13 @@ typedef struct glssao_frame { /* zero a field that you don't use */
     uint32_t second_texture;   /* red where depth is in the normal map): the nearest back face at or behind the surface
                                   seen, where surfaces that have two sides count as back faces; and the nearest front
                                   face behind it. Sky: there is none. Thickness is then read instead of guessed */
+    float log_depth_far;       /* GLSSAO_DEPTH_LOGARITHMIC: view distance at depth 1, scene units, 1e-12 to 1e12 */
+    float log_depth_constant;  /* GLSSAO_DEPTH_LOGARITHMIC: c, 1e-12 to 1e12; 0: 1, which is what three.js has */
+    bool multisample;          /* true: the textures are GL_TEXTURE_2D_MULTISAMPLE; the first sample of each pixel is
+                                  read, never a mean. Costs a copy of each texture: a pass, and 4 bytes a pixel (depth,
+                                  back, second) or 16 (normals) of memory, until the next resize */
+    int viewport[4];           /* x, y, width, height, pixels: where the picture lies in larger textures; width and height
+                                  are the effect's full size. Costs as multisample does. All 0: nothing is larger */
 } glssao_frame;
 
 /* ---- what the effect tells ------------------------------------------------------------------------------ */
@@ -177,7 +186,8 @@ typedef struct glssao_constants {
 } glssao_constants;
 
 typedef enum glssao_pass { /* in the order of the frame */
-    GLSSAO_PASS_NORMALS = 0, /* normals rebuilt from depth */
+    GLSSAO_PASS_INPUTS = 0,  /* multisample, larger or logarithmic textures copied to plain ones */
+    GLSSAO_PASS_NORMALS,     /* normals rebuilt from depth */
     GLSSAO_PASS_DISTANCE,    /* view distance at the estimate's size */
     GLSSAO_PASS_ESTIMATE,    /* raw accessibility */
     GLSSAO_PASS_RESOLVE,     /* the mean of accumulated estimates and its error, by glssao_accumulate */
@@ -255,7 +265,8 @@ GLSSAO_API void glssao_restart_accumulation(glssao_effect *effect);
 
 /* Multiplies accessibility into the colour (alpha stays) of draw buffer 0 of `framebuffer` (0: the default one),
  * over the full size, less the margin, from its lower left corner. Occlusion then darkens direct light too: to be exact, sample
- * the map in your own shader and scale ambient light alone. Needs a glssao_compute before. */
+ * the map in your own shader and scale ambient light alone. Needs a glssao_compute before. Fails with INVALID_ARGUMENT where
+ * that buffer is the map itself, and as glssao_compute does. */
 GLSSAO_API glssao_result glssao_apply(glssao_effect *effect, uint32_t framebuffer);
 
 /* The texture's name, and its size if the pointers are not NULL; valid until the next resize, compute (which makes

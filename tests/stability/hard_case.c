@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: MIT */
+#include "hard_case.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static double or_default(double value, double otherwise)
+{
+    return value == 0.0 ? otherwise : value;
+}
+
+static analytic_view view_of(const hard_case *c, int width, int height)
+{
+    analytic_view view = analytic_make_view(c->projection, (double)width / height, or_default(c->near_plane, 0.1),
+                                            or_default(c->far_plane, 1000.0), 1.0);
+    const double zoom = or_default(c->zoom, 1.0);
+    view.projection[0] = (float)((double)view.projection[0] * zoom);
+    view.projection[5] = (float)((double)view.projection[5] * (c->flip != 0.0 ? -zoom : zoom));
+    return view;
+}
+
+static subject picture_of(const hard_case *c, double distance)
+{
+    const int width = c->width ? c->width : 64, height = c->height ? c->height : 48;
+    const analytic_view view = view_of(c, width, height);
+    const double angle = c->degrees * 3.14159265358979323846 / 180.0, half = sqrt(0.5);
+    analytic_shape room[ANALYTIC_ROOM_SHAPES];
+    analytic_room(room, distance / 3.0);
+    const analytic_shape plane = {ANALYTIC_PLANE, {0.0, -0.1 * distance, -distance}, {0.0, sin(angle), cos(angle)}};
+    const analytic_shape sphere = {ANALYTIC_SPHERE, {0.0, 0.0, -distance}, {0.3 * distance, 0.0, 0.0}};
+    const analytic_shape wall[2] = {{ANALYTIC_PLANE, {0.0, 0.0, -distance}, {0.0, half, half}},
+                                    {ANALYTIC_PLANE, {0.0, 0.0, -distance}, {0.0, -half, half}}};
+    const struct {
+        const analytic_shape *shapes;
+        int count;
+    } seen_as[] = {[SEE_PLANE] = {&plane, 1},
+                   [SEE_SPHERE] = {&sphere, 1},
+                   [SEE_ROOM] = {room, ANALYTIC_ROOM_SHAPES},
+                   [SEE_WALL] = {wall, 2},
+                   [SEE_NOTHING] = {NULL, 0}};
+    return subject_of(&view, seen_as[c->shape].shapes, seen_as[c->shape].count, width, height);
+}
+
+static void check(fixture *f, const hard_case *c, const subject *s, normal_store normal, int number)
+{
+    const double distance = or_default(c->distance, 3.0);
+    configuration one = configuration_of(number);
+    one.settings = settings_scaled(&one.settings, distance / 3.0 * or_default(c->lengths, 1.0));
+    if (c->change)
+        c->change(&one.settings);
+    glssao_frame frame = subject_frame(s, c->depth, normal);
+    picture p = subject_shade(f, s->width, s->height, &frame, &one.settings);
+    if (!picture_is_sound(&p))
+        fail_msg("%s, %s, %s, %s: not sound", c->name, one.name, subject_depth_name(c->depth),
+                 subject_normal_name(normal));
+    const double least = picture_least(&p), wanted = c->least[one.settings.technique];
+    if (least < wanted)
+        fail_msg("%s, %s, %s, %s: %.4f, want at least %.4f", c->name, one.name, subject_depth_name(c->depth),
+                 subject_normal_name(normal), least, wanted);
+    free(p.values);
+    subject_frame_free(&frame);
+}
+
+int hard_case_run(fixture *f, const hard_case *c, int stride)
+{
+    subject s = picture_of(c, or_default(c->distance, 3.0));
+    if (c->spoil)
+        c->spoil(&s);
+    int made = 0;
+    for (int i = 0; i < CONFIGURATIONS; i += stride) {
+        check(f, c, &s, c->normal, i);
+        ++made;
+        if (c->normal != NORMAL_NONE && c->depth != ALPHA_16F && c->depth != ALPHA_32F) {
+            check(f, c, &s, NORMAL_NONE, i);
+            ++made;
+        }
+    }
+    subject_free(&s);
+    return made;
+}

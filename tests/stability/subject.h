@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What the stability tests hand over: a picture of shapes, stored in any way that a host may store it, and the
+ * accessibility that comes back. One effect serves a whole test program, so that each shader is compiled once.
+ */
+#ifndef GLSSAO_TESTS_SUBJECT_H
+#define GLSSAO_TESTS_SUBJECT_H
+
+#include "analytic.h"
+#include "fixture.h"
+
+/* How depth is stored. */
+typedef enum depth_store {
+    DEPTH_16,
+    DEPTH_24,
+    DEPTH_24_STENCIL,
+    DEPTH_32,
+    DEPTH_32F,
+    DEPTH_32F_STENCIL,
+    DISTANCE_32F,
+    DISTANCE_16F,
+    ALPHA_32F, /* beside the normal */
+    ALPHA_16F,
+    DEPTH_STORES
+} depth_store;
+
+/* How normals are stored; depth in alpha has float normals, whatever is asked for. */
+typedef enum normal_store {
+    NORMAL_NONE, /* rebuilt from depth */
+    NORMAL_32F,
+    NORMAL_16F,
+    NORMAL_8,
+    NORMAL_UNSIGNED_8,
+    NORMAL_OCTAHEDRAL,
+    NORMAL_STORES
+} normal_store;
+
+/* The maps in memory, rows bottom to top: what a case may spoil before it is handed over. */
+typedef struct subject {
+    int width, height;
+    analytic_view view;
+    float *depth;    /* window depth */
+    float *normals;  /* xyz */
+    float *distance; /* view distance; infinite: sky */
+} subject;
+
+typedef struct picture {
+    float *values;
+    int width, height;
+} picture;
+
+subject subject_of(const analytic_view *view, const analytic_shape *shapes, int count, int width, int height);
+void subject_free(subject *s);
+
+/* Textures of the subject; texture_frame_free deletes them. */
+glssao_frame subject_frame(const subject *s, depth_store depth, normal_store normal);
+void subject_frame_free(glssao_frame *frame);
+
+/* The program's effect at this size. subject_end destroys it; a group's last act. */
+glssao_effect *subject_effect(fixture *f, int width, int height);
+void subject_end(void);
+
+/* What glssao_compute makes of the frame; fails the test on any but GLSSAO_OK. The caller frees the values. */
+picture subject_shade(fixture *f, int width, int height, const glssao_frame *frame, const glssao_settings *settings);
+
+/* Names for messages. */
+const char *subject_depth_name(depth_store depth);
+const char *subject_normal_name(normal_store normal);
+
+#endif

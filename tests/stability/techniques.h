@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Every technique at every quality, at half and at full size: what each case of the stability tests runs over.
+ */
+#ifndef GLSSAO_TESTS_TECHNIQUES_H
+#define GLSSAO_TESTS_TECHNIQUES_H
+
+#include "subject.h"
+
+enum { TECHNIQUES = 3, QUALITIES = 4, CONFIGURATIONS = TECHNIQUES * QUALITIES * 2 };
+
+typedef struct configuration {
+    char name[48];
+    glssao_settings settings; /* lengths as for a radius of 0.5; contrast off */
+} configuration;
+
+configuration configuration_of(int number);
+
+/* The settings with all lengths multiplied. */
+glssao_settings settings_scaled(const glssao_settings *settings, double scale);
+
+/* Whether every value is a number of 0..1; prints the first that is not. */
+bool picture_is_sound(const picture *p);
+double picture_least(const picture *p);
+double picture_mean(const picture *p);
+
+#endif

@@ -1,0 +1,230 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Each allocation, compile, link and framebuffer check of each call made to fail in turn: the result code says what
+ * failed, the last result stays, the call works afterwards, and nothing is left when the effect is gone.
+ */
+#include "faulty_gl.h"
+#include "techniques.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { W = 32, H = 24 };
+
+static int stride = 1;
+static glssao_frame plain, bare, cropped; /* with normals, without, and within larger textures */
+static GLuint color, framebuffer;
+
+typedef struct act {
+    const char *name;
+    glssao_result (*run)(glssao_effect **effect, fixture *f);
+} act;
+
+static glssao_settings horizon_low(bool half)
+{
+    glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
+    s.half_resolution = half;
+    s.upsample = half;
+    return s;
+}
+
+static glssao_result create(glssao_effect **effect, fixture *f)
+{
+    glssao_config config = fixture_config(f, W, H);
+    config.load = faulty_load;
+    return glssao_create(&config, effect);
+}
+
+static glssao_result compute_at_full_size(glssao_effect **effect, fixture *f)
+{
+    (void)f;
+    const glssao_settings s = horizon_low(false);
+    return glssao_compute(*effect, &plain, &s);
+}
+
+static glssao_result compute_at_half_size(glssao_effect **effect, fixture *f)
+{
+    (void)f;
+    const glssao_settings s = horizon_low(true);
+    return glssao_compute(*effect, &bare, &s);
+}
+
+static glssao_result compute_hemisphere_in_a_viewport(glssao_effect **effect, fixture *f)
+{
+    (void)f;
+    const glssao_settings s = glssao_default_settings(GLSSAO_HEMISPHERE, GLSSAO_LOW);
+    return glssao_compute(*effect, &cropped, &s);
+}
+
+static glssao_result accumulate(glssao_effect **effect, fixture *f)
+{
+    (void)f;
+    const glssao_settings s = horizon_low(true);
+    glssao_result result = glssao_accumulate(*effect, &plain, &s);
+    if (result == GLSSAO_OK)
+        result = glssao_accumulate(*effect, &plain, &s);
+    if (result == GLSSAO_OK)
+        (void)glssao_get_stats(*effect);
+    return result;
+}
+
+static glssao_result apply(glssao_effect **effect, fixture *f)
+{
+    (void)f;
+    return glssao_apply(*effect, framebuffer);
+}
+
+static glssao_result resize(glssao_effect **effect, fixture *f)
+{
+    (void)f;
+    return glssao_resize(*effect, W + 2, H + 2);
+}
+
+static glssao_result begin_normals(glssao_effect **effect, fixture *f)
+{
+    (void)f;
+    const glssao_result result = glssao_begin_normals(*effect, plain.depth_texture);
+    return result == GLSSAO_OK ? glssao_end_normals(*effect) : result;
+}
+
+static glssao_result expected(fault kind)
+{
+    switch (kind) {
+    case FAULT_COMPILE:
+    case FAULT_LINK:
+        return GLSSAO_SHADER_ERROR;
+    case FAULT_FRAMEBUFFER:
+        return GLSSAO_FRAMEBUFFER_ERROR;
+    case FAULT_TEXTURE:
+    case FAULT_MEMORY:
+        return GLSSAO_OUT_OF_MEMORY;
+    case FAULT_NONE:
+    case FAULT_FENCE: /* the error of the mean is then not known */
+        break;
+    }
+    return GLSSAO_OK;
+}
+
+static picture result_of(const glssao_effect *effect)
+{
+    picture p;
+    const uint32_t map = glssao_map(effect, GLSSAO_MAP_AMBIENT, &p.width, &p.height);
+    p.values = fixture_read_texture(map, p.width, p.height, 1);
+    return p;
+}
+
+static void assert_same(const picture *a, const picture *b, const char *what, int number)
+{
+    if (a->width != b->width || a->height != b->height ||
+        memcmp(a->values, b->values, (size_t)a->width * (size_t)a->height * sizeof(float)) != 0)
+        fail_msg("%s, fault %d: another picture", what, number);
+}
+
+/* One fault in one call; false where there were fewer chances to fail. */
+static bool fail_once(fixture *f, const act *a, int number)
+{
+    glssao_effect *effect = NULL;
+    const bool creates = a->run == create;
+    faulty_arm(-1);
+    if (!creates) {
+        assert_int_equal(create(&effect, f), GLSSAO_OK);
+        assert_int_equal(compute_at_full_size(&effect, f), GLSSAO_OK);
+    }
+    faulty_disarm();
+    picture before = creates ? (picture){0} : result_of(effect);
+
+    faulty_arm(number);
+    fixture_clear_log(f);
+    const glssao_result got = a->run(&effect, f);
+    const fault kind = faulty_disarm();
+    if (got != expected(kind))
+        fail_msg("%s, fault %d of kind %d: %s: %s", a->name, number, (int)kind, glssao_result_string(got), f->log);
+    if (got != GLSSAO_OK) {
+        assert_true(strlen(f->log) > 0);
+        assert_true(creates == (effect == NULL));
+        if (!creates && a->run != accumulate) { /* which may have added one estimate before */
+            picture after = result_of(effect);
+            assert_same(&before, &after, a->name, number);
+            free(after.values);
+        }
+        faulty_arm(-1);
+        assert_int_equal(a->run(&effect, f), GLSSAO_OK); /* usable */
+        faulty_disarm();
+    }
+    free(before.values);
+    faulty_arm(-1);
+    glssao_destroy(effect);
+    faulty_disarm();
+    if (faulty_live_objects() != 0 || faulty_live_blocks() != 0)
+        fail_msg("%s, fault %d: %d objects and %d blocks are left", a->name, number, faulty_live_objects(),
+                 faulty_live_blocks());
+    return kind != FAULT_NONE;
+}
+
+static void each_call_survives_each_fault(void **state)
+{
+    static const act acts[] = {
+        {"create", create},
+        {"compute at half size", compute_at_half_size},
+        {"compute hemisphere in a viewport", compute_hemisphere_in_a_viewport},
+        {"accumulate", accumulate},
+        {"apply", apply},
+        {"resize", resize},
+        {"begin normals", begin_normals},
+    };
+    static const int least[] = {12, 20, 15, 15, 5, 6, 1};
+    for (size_t i = 0; i < sizeof acts / sizeof *acts; ++i) {
+        int faults = 0;
+        while (fail_once(*state, &acts[i], faults))
+            faults += stride;
+        print_message("%s: %d faults\n", acts[i].name, faults);
+        assert_true(faults >= least[i] - stride);
+    }
+}
+
+static int set_up(void **state)
+{
+    if (fixture_setup(state) != 0)
+        return 1;
+    analytic_shape room[ANALYTIC_ROOM_SHAPES];
+    analytic_room(room, 1.0);
+    const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
+    subject s = subject_of(&view, room, ANALYTIC_ROOM_SHAPES, W, H);
+    subject large = subject_of(&view, room, ANALYTIC_ROOM_SHAPES, W + 8, H + 8);
+    plain = subject_frame(&s, DEPTH_24, NORMAL_32F);
+    bare = subject_frame(&s, DEPTH_24, NORMAL_NONE);
+    cropped = subject_frame(&large, DEPTH_24, NORMAL_32F);
+    memcpy(cropped.viewport, (const int[4]){4, 4, W, H}, sizeof cropped.viewport);
+    subject_free(&s);
+    subject_free(&large);
+    gl.GenTextures(1, &color);
+    gl.BindTexture(GL_TEXTURE_2D, color);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, W, H, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    gl.GenFramebuffers(1, &framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    subject_frame_free(&plain);
+    subject_frame_free(&bare);
+    subject_frame_free(&cropped);
+    gl.DeleteFramebuffers(1, &framebuffer);
+    gl.DeleteTextures(1, &color);
+    return fixture_teardown(state);
+}
+
+int main(int argc, char **argv)
+{
+    if (argc > 1)
+        stride = atoi(argv[1]) > 0 ? atoi(argv[1]) : 1;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(each_call_survives_each_fault, NULL, fixture_no_gl_error),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}

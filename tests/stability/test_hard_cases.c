@@ -1,0 +1,265 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The table of hard cases (design.md, section 10): whatever camera and depth buffer a host hands over, the picture is
+ * made of numbers between 0 and 1, and open where nothing occludes. docs/stability.md says what each breaks elsewhere.
+ */
+#include "hard_case.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static int stride = 1, pictures;
+
+/* ---- what is done to maps and settings ---- */
+
+static size_t count_of(const subject *s)
+{
+    return (size_t)s->width * (size_t)s->height;
+}
+
+static void depth_at_near_plane(subject *s)
+{
+    for (size_t i = 0; i < count_of(s); ++i)
+        s->depth[i] = 1.0f - s->view.sky_depth;
+}
+
+/* Every fifth texel, in turn: no number, infinite, behind the camera, too large to square, too small to divide by. */
+static void distances_that_are_none(subject *s)
+{
+    static const float bad[] = {NAN, INFINITY, -INFINITY, -3.0f, 3e38f, 1e-40f, 0.0f};
+    for (size_t i = 0; i < count_of(s); i += 5)
+        s->distance[i] = bad[i / 5 % 7];
+}
+
+/* Here and there, what means that nothing was drawn. */
+static void holes(subject *s)
+{
+    static const float none[] = {NAN, INFINITY, -INFINITY, 0.0f};
+    for (size_t i = 0; i < count_of(s); i += 37)
+        s->distance[i] = none[i / 37 % 4];
+}
+
+static void normals_that_are_none(subject *s)
+{
+    static const float bad[] = {0.0f, NAN, INFINITY, -INFINITY, 1e30f, 1e-30f};
+    for (size_t i = 0; i < 3 * count_of(s); i += 2)
+        s->normals[i] = bad[i / 2 % 6];
+}
+
+static void normals_of_any_length(subject *s)
+{
+    for (size_t i = 0; i < 3 * count_of(s); ++i)
+        s->normals[i] *= i / 3 % 2 ? 1e-6f : 1e6f;
+}
+
+static void normals_away_from_the_eye(subject *s)
+{
+    for (size_t i = 0; i < 3 * count_of(s); ++i)
+        s->normals[i] = -s->normals[i];
+}
+
+/* Past what half floats hold. */
+static void distance_1e6(subject *s)
+{
+    for (size_t i = 0; i < count_of(s); ++i)
+        s->distance[i] *= 1e6f;
+}
+
+static void fades_meet(glssao_settings *s)
+{
+    s->fade_start = s->fade_end;
+}
+
+static void fades_meet_at_0(glssao_settings *s)
+{
+    s->fade_start = s->fade_end = s->surface_epsilon = 1e-30f;
+}
+
+static void no_epsilon(glssao_settings *s)
+{
+    s->surface_epsilon = 0.0f;
+}
+
+static void power_0(glssao_settings *s)
+{
+    s->power = 0.0f;
+}
+
+static void power_64(glssao_settings *s)
+{
+    s->power = 64.0f;
+}
+
+static void least_lengths(glssao_settings *s)
+{
+    *s = settings_scaled(s, 1e-9);
+}
+
+static void most_lengths(glssao_settings *s)
+{
+    *s = settings_scaled(s, 1e11);
+}
+
+static void many_rounds(glssao_settings *s)
+{
+    s->blur_rounds = 16;
+    s->blur_normal_threshold = 1.0f;
+    s->blur_depth_threshold = 0.0f;
+}
+
+#define OPEN                                                                                                           \
+    {                                                                                                                  \
+        0.97, 0.97, 0.97                                                                                               \
+    }
+#define EXACT                                                                                                          \
+    {                                                                                                                  \
+        1.0, 1.0, 1.0                                                                                                  \
+    }
+
+static const hard_case cases[] = {
+    /* sky */
+    {"nothing but sky", SEE_NOTHING, .depth = DEPTH_32F, .normal = NORMAL_32F, .least = EXACT},
+    {"nothing but sky, reversed", SEE_NOTHING, .projection = PERSPECTIVE_INFINITE_REVERSED_ZERO_TO_ONE,
+     .depth = DEPTH_32F, .normal = NORMAL_32F, .least = EXACT},
+    {"nothing but sky, distances", SEE_NOTHING, .depth = DISTANCE_16F, .normal = NORMAL_32F, .least = EXACT},
+    {"a sphere before sky", SEE_SPHERE, .depth = DEPTH_32F, .normal = NORMAL_32F, .least = {0.9, 0.9, 0.9}},
+    {"a sphere before sky, reversed", SEE_SPHERE, .projection = PERSPECTIVE_INFINITE_REVERSED_ZERO_TO_ONE,
+     .depth = DEPTH_32F, .normal = NORMAL_32F, .least = {0.9, 0.9, 0.9}},
+    {"a sphere before sky, distances", SEE_SPHERE, .depth = DISTANCE_32F, .normal = NORMAL_32F,
+     .least = {0.9, 0.9, 0.9}},
+    /* near and far */
+    {"depth at the near plane", SEE_PLANE, .distance = 0.1, .spoil = depth_at_near_plane, .depth = DEPTH_24,
+     .normal = NORMAL_32F, .least = OPEN},
+    {"a plane nearer than the radius", SEE_PLANE, 60.0, 0.3, .lengths = 20.0, .depth = DEPTH_24, .normal = NORMAL_32F,
+     .least = OPEN},
+    {"samples behind the camera", SEE_PLANE, 85.0, 0.4, .near_plane = 0.01, .lengths = 50.0, .depth = DEPTH_32F,
+     .normal = NORMAL_32F, .least = OPEN},
+    {"samples off the screen", SEE_PLANE, 45.0, 3.0, .zoom = 8.0, .lengths = 3.0, .depth = DEPTH_24,
+     .normal = NORMAL_32F, .least = OPEN},
+    {"near : far of 1 : 10^7, near", SEE_PLANE, 60.0, 3.0, .near_plane = 0.1, .far_plane = 1e6, .depth = DEPTH_24,
+     .normal = NORMAL_32F, .least = OPEN},
+    {"near : far of 1 : 10^7, far", SEE_PLANE, 40.0, 1e4, .near_plane = 0.1, .far_plane = 1e6, .depth = DEPTH_24,
+     .normal = NORMAL_32F, .least = OPEN},
+    {"near : far of 1 : 10^7, reversed", SEE_PLANE, 40.0, 1e5, .projection = PERSPECTIVE_REVERSED_ZERO_TO_ONE,
+     .near_plane = 0.1, .far_plane = 1e6, .depth = DEPTH_32F, .normal = NORMAL_32F, .least = OPEN},
+    {"a plane at 89.9 degrees", SEE_PLANE, 89.9, 3.0, .depth = DEPTH_32F, .normal = NORMAL_32F, .least = OPEN},
+    {"a plane at 89.9 degrees, distances", SEE_PLANE, 89.9, 3.0, .depth = DISTANCE_32F, .normal = NORMAL_32F,
+     .least = {0.97, 0.94, 0.97}}, /* distance is not linear from texel to texel, and hemisphere filters it */
+    {"coarse depth far away", SEE_PLANE, 40.0, 300.0, .zoom = 1.2, .depth = DEPTH_16, .normal = NORMAL_32F,
+     .lengths = 2.0, .least = {0.95, 0.97, 0.95}},
+    {"24 bits far away", SEE_PLANE, 40.0, 1000.0, .near_plane = 0.01, .far_plane = 1e5, .zoom = 4.0, .depth = DEPTH_24,
+     .normal = NORMAL_32F, .lengths = 0.5, .least = {0.95, 0.97, 0.95}},
+    {"half float distances", SEE_PLANE, 60.0, 30.0, .zoom = 10.0, .depth = DISTANCE_16F, .normal = NORMAL_32F,
+     .lengths = 0.3, .least = {0.95, 0.97, 0.95}},
+    {"half floats past 65504", SEE_PLANE, .spoil = distance_1e6, .depth = ALPHA_16F, .least = EXACT},
+    /* lenses */
+    {"a lens of 0.1 degrees", SEE_PLANE, 60.0, 30.0, .zoom = 660.0, .lengths = 0.002, .depth = DEPTH_32F,
+     .projection = PERSPECTIVE_REVERSED_ZERO_TO_ONE, .normal = NORMAL_32F, .least = OPEN},
+    {"a lens of 179 degrees", SEE_PLANE, 30.0, 3.0, .zoom = 0.005, .depth = DEPTH_32F, .normal = NORMAL_32F,
+     .least = {0.95, 0.95, 0.95}},
+    {"mirrored", SEE_ROOM, .flip = 1.0, .depth = DEPTH_24, .normal = NORMAL_32F},
+    /* bad numbers */
+    {"normals of no length and none", SEE_ROOM, .spoil = normals_that_are_none, .depth = DEPTH_24,
+     .normal = NORMAL_32F},
+    {"normals of any length", SEE_PLANE, 60.0, .spoil = normals_of_any_length, .depth = DEPTH_24, .normal = NORMAL_32F,
+     .least = OPEN},
+    {"normals away from the eye", SEE_ROOM, .spoil = normals_away_from_the_eye, .depth = DEPTH_24,
+     .normal = NORMAL_32F},
+    {"distances that are none", SEE_ROOM, .spoil = distances_that_are_none, .depth = DISTANCE_32F,
+     .normal = NORMAL_32F},
+    {"distances that are none, in alpha", SEE_ROOM, .spoil = distances_that_are_none, .depth = ALPHA_32F},
+    {"holes in a plane", SEE_PLANE, 40.0, .spoil = holes, .depth = DISTANCE_32F, .normal = NORMAL_32F,
+     .least = {0.85, 0.85, 0.85}},
+    /* settings */
+    {"fades that meet", SEE_ROOM, .change = fades_meet, .depth = DEPTH_24, .normal = NORMAL_32F},
+    {"fades that meet at 0", SEE_ROOM, .change = fades_meet_at_0, .depth = DEPTH_24, .normal = NORMAL_32F},
+    {"an occluder at the point itself", SEE_PLANE, 0.0, .change = no_epsilon, .depth = DEPTH_32F, .normal = NORMAL_32F,
+     .least = OPEN},
+    {"no epsilon on a slope", SEE_PLANE, 60.0, .change = no_epsilon, .depth = DEPTH_24, .normal = NORMAL_32F,
+     .least = OPEN},
+    {"power 0", SEE_ROOM, .change = power_0, .depth = DEPTH_24, .normal = NORMAL_32F, .least = EXACT},
+    {"power 64", SEE_ROOM, .change = power_64, .depth = DEPTH_24, .normal = NORMAL_32F},
+    {"power 64 in a corner", SEE_WALL, .change = power_64, .depth = DEPTH_24, .normal = NORMAL_32F},
+    {"lengths of next to nothing", SEE_ROOM, .change = least_lengths, .depth = DEPTH_24, .normal = NORMAL_32F},
+    {"lengths beyond the scene", SEE_ROOM, .change = most_lengths, .depth = DEPTH_24, .normal = NORMAL_32F},
+    {"a plane and lengths beyond it", SEE_PLANE, 60.0, .change = most_lengths, .depth = DEPTH_32F, .normal = NORMAL_32F,
+     .least = OPEN},
+    {"thresholds that no tap meets", SEE_ROOM, .change = many_rounds, .depth = DEPTH_24, .normal = NORMAL_32F},
+    /* sizes; a map one pixel wide tells nothing of its slope that way, and hemisphere samples there */
+    {"one pixel", SEE_PLANE, 60.0, .width = 1, .height = 1, .depth = DEPTH_24, .normal = NORMAL_32F,
+     .least = {0.9, 0.85, 0.97}},
+    {"one column", SEE_PLANE, 60.0, .width = 1, .height = 97, .depth = DEPTH_24, .normal = NORMAL_32F,
+     .least = {0.9, 0.85, 0.97}},
+    {"one row", SEE_PLANE, 60.0, .width = 97, .height = 1, .depth = DEPTH_24, .normal = NORMAL_32F,
+     .least = {0.9, 0.85, 0.97}},
+    {"odd sizes", SEE_PLANE, 60.0, .width = 63, .height = 47, .depth = DEPTH_24, .normal = NORMAL_32F, .least = OPEN},
+    {"three pixels high", SEE_ROOM, .width = 61, .height = 3, .depth = DEPTH_24, .normal = NORMAL_32F},
+    {"16384 wide", SEE_PLANE, 60.0, .width = 16384, .height = 2, .depth = DEPTH_24, .normal = NORMAL_32F,
+     .least = OPEN},
+};
+
+static void hard_cases(void **state)
+{
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i)
+        pictures += hard_case_run(*state, &cases[i], cases[i].width > 1000 ? 8 * stride + 1 : stride);
+}
+
+/* A plane in every projection, both ways up. */
+static void projections(void **state)
+{
+    for (int projection = 0; projection < PROJECTION_COUNT; ++projection)
+        for (int flip = 0; flip < 2; ++flip) {
+            char name[64];
+            snprintf(name, sizeof name, "projection %d%s", projection, flip ? ", mirrored" : "");
+            const hard_case c = {name,
+                                 SEE_PLANE,
+                                 60.0,
+                                 .projection = (analytic_projection)projection,
+                                 .flip = flip,
+                                 .depth = DEPTH_32F,
+                                 .normal = NORMAL_32F,
+                                 .least = {0.999, 0.999, 0.999}};
+            pictures += hard_case_run(*state, &c, stride);
+        }
+}
+
+/* A plane in every way to store depth and normals, near and far. Normals of 8 bits lean by half a degree. */
+static void stores(void **state)
+{
+    for (int depth = 0; depth < DEPTH_STORES; ++depth)
+        for (int far = 0; far < 2; ++far) {
+            const hard_case c = {subject_depth_name((depth_store)depth),
+                                 SEE_PLANE,
+                                 50.0,
+                                 far ? 60.0 : 3.0,
+                                 .depth = (depth_store)depth,
+                                 .normal = (normal_store)(1 + depth % (NORMAL_STORES - 1)),
+                                 .projection = far ? ORTHOGRAPHIC : PERSPECTIVE,
+                                 .zoom = far ? 0.1 : 1.0,
+                                 .least = OPEN};
+            pictures += hard_case_run(*state, &c, stride);
+        }
+}
+
+static void end(void **state)
+{
+    (void)state;
+    print_message("%d pictures\n", pictures);
+    assert_true(pictures > 2000 / stride);
+    subject_end();
+}
+
+int main(int argc, char **argv)
+{
+    if (argc > 1)
+        stride = atoi(argv[1]) > 0 ? atoi(argv[1]) : 1;
+#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
+    const struct CMUnitTest tests[] = {
+        GL_TEST(hard_cases),
+        GL_TEST(projections),
+        GL_TEST(stores),
+        GL_TEST(end),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+}

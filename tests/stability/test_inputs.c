@@ -1,0 +1,302 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Textures that are copied first give the picture that plain ones give: one sample of several, a viewport in larger
+ * textures, logarithmic depth. What can't be read is refused and named; a texture that stays attached elsewhere is none
+ * of that.
+ */
+#include "techniques.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { W = 60, H = 44, X = 13, Y = 7, LARGE_W = 96, LARGE_H = 64, NUMBERS = 6 };
+static const int numbers[NUMBERS] = {0, 5, 12, 17, 18, 23}; /* configurations */
+
+static subject room(void)
+{
+    analytic_shape shapes[ANALYTIC_ROOM_SHAPES];
+    analytic_room(shapes, 1.0);
+    const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
+    return subject_of(&view, shapes, ANALYTIC_ROOM_SHAPES, W, H);
+}
+
+/* ---- textures that are drawn, since multisample ones take no data ---- */
+
+static GLuint compile_copier(void)
+{
+    static const char *const vertex =
+        "#version 330\nvoid main() { gl_Position = vec4(vec2(gl_VertexID % 2, gl_VertexID / 2)"
+        " * 4.0 - 1.0, 0.0, 1.0); }\n";
+    static const char *const fragment =
+        "#version 330\nuniform sampler2D u_map; uniform vec4 u_instead; out vec4 o_color;\n"
+        "void main() { vec4 t = texelFetch(u_map, ivec2(gl_FragCoord.xy), 0);\n"
+        "if (u_instead.w > 0.0) t = u_instead; gl_FragDepth = t.r; o_color = t; }\n";
+    const char *const sources[2] = {vertex, fragment};
+    GLuint program = gl.CreateProgram();
+    for (int i = 0; i < 2; ++i) {
+        GLuint shader = gl.CreateShader(i ? GL_FRAGMENT_SHADER : GL_VERTEX_SHADER);
+        gl.ShaderSource(shader, 1, &sources[i], NULL);
+        gl.CompileShader(shader);
+        gl.AttachShader(program, shader);
+        gl.DeleteShader(shader);
+    }
+    gl.LinkProgram(program);
+    GLint ok = 0;
+    gl.GetProgramiv(program, GL_LINK_STATUS, &ok);
+    assert_true(ok);
+    return program;
+}
+
+/* A multisample texture whose first sample holds `plain`'s texels and whose others hold what would spoil the picture.
+ */
+static GLuint multisampled(GLuint plain, GLenum internal, bool is_depth)
+{
+    GLuint texture, framebuffer, vertex_array, program = compile_copier();
+    gl.GenTextures(1, &texture);
+    gl.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, texture);
+    gl.TexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, 4, internal, W, H, GL_TRUE);
+    gl.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, 0);
+    gl.GenFramebuffers(1, &framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, is_depth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0,
+                            GL_TEXTURE_2D_MULTISAMPLE, texture, 0);
+    assert_int_equal(gl.CheckFramebufferStatus(GL_FRAMEBUFFER), GL_FRAMEBUFFER_COMPLETE);
+    gl.GenVertexArrays(1, &vertex_array);
+    gl.BindVertexArray(vertex_array);
+    gl.Viewport(0, 0, W, H);
+    gl.UseProgram(program);
+    gl.BindTexture(GL_TEXTURE_2D, plain);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_ALWAYS);
+    gl.Enable(GL_SAMPLE_MASK);
+    for (int i = 0; i < 2; ++i) {
+        gl.SampleMaski(0, i ? ~1u : 1u);
+        gl.Uniform4f(gl.GetUniformLocation(program, "u_instead"), 0.3f, 0.3f, 0.3f, i ? 1.0f : 0.0f);
+        gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    }
+    gl.Disable(GL_SAMPLE_MASK);
+    gl.SampleMaski(0, ~0u);
+    gl.Disable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_LESS);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    gl.DeleteFramebuffers(1, &framebuffer);
+    gl.DeleteVertexArrays(1, &vertex_array);
+    gl.UseProgram(0);
+    gl.DeleteProgram(program);
+    return texture;
+}
+
+/* The same map within a larger one that is otherwise full of what would spoil the picture. */
+static float *enlarged(const float *values, int channels)
+{
+    float *large = malloc((size_t)LARGE_W * LARGE_H * (size_t)channels * sizeof *large);
+    for (int y = 0; y < LARGE_H; ++y)
+        for (int x = 0; x < LARGE_W; ++x)
+            for (int c = 0; c < channels; ++c) {
+                const bool inside = x >= X && y >= Y && x < X + W && y < Y + H;
+                large[(y * LARGE_W + x) * channels + c] = inside ? values[((y - Y) * W + x - X) * channels + c] : 0.2f;
+            }
+    return large;
+}
+
+static void assert_same(fixture *f, const glssao_frame *plain, const glssao_frame *other, double most)
+{
+    for (int i = 0; i < NUMBERS; ++i) {
+        const configuration c = configuration_of(numbers[i]);
+        picture a = subject_shade(f, W, H, plain, &c.settings), b = subject_shade(f, W, H, other, &c.settings);
+        assert_true(a.width == b.width && a.height == b.height && picture_is_sound(&b) && picture_mean(&a) < 0.995);
+        double apart = 0.0;
+        for (int k = 0; k < a.width * a.height; ++k)
+            apart += fabs((double)a.values[k] - (double)b.values[k]) / (a.width * a.height);
+        if (apart > most)
+            fail_msg("%s: %g apart", c.name, apart);
+        free(a.values);
+        free(b.values);
+    }
+}
+
+static void first_samples_are_taken(void **state)
+{
+    subject s = room();
+    for (int normals = 0; normals < 2; ++normals) {
+        glssao_frame plain = subject_frame(&s, DEPTH_32F, normals ? NORMAL_16F : NORMAL_NONE), other = plain;
+        other.multisample = true;
+        other.depth_texture = multisampled(plain.depth_texture, GL_DEPTH_COMPONENT32F, true);
+        if (normals)
+            other.normal_texture = multisampled(plain.normal_texture, GL_RGBA16F, false);
+        assert_same(*state, &plain, &other, 0.0);
+        gl.DeleteTextures(1, &other.depth_texture);
+        if (normals)
+            gl.DeleteTextures(1, &other.normal_texture);
+        subject_frame_free(&plain);
+    }
+    glssao_frame plain = subject_frame(&s, ALPHA_32F, NORMAL_32F), other = plain;
+    other.multisample = true;
+    other.normal_texture = multisampled(plain.normal_texture, GL_RGBA32F, false);
+    assert_same(*state, &plain, &other, 0.0);
+    gl.DeleteTextures(1, &other.normal_texture);
+    subject_frame_free(&plain);
+    subject_free(&s);
+}
+
+static void viewports_are_crops(void **state)
+{
+    subject s = room(), large = {.width = LARGE_W, .height = LARGE_H, .view = s.view};
+    large.depth = enlarged(s.depth, 1);
+    large.normals = enlarged(s.normals, 3);
+    large.distance = enlarged(s.distance, 1);
+    for (int depth = 0; depth < DEPTH_STORES; depth += 3) {
+        glssao_frame plain = subject_frame(&s, (depth_store)depth, NORMAL_32F);
+        glssao_frame other = subject_frame(&large, (depth_store)depth, NORMAL_32F);
+        memcpy(other.viewport, (const int[4]){X, Y, W, H}, sizeof other.viewport);
+        assert_same(*state, &plain, &other, 0.0);
+        subject_frame_free(&plain);
+        subject_frame_free(&other);
+    }
+    subject_free(&s);
+    subject_free(&large);
+}
+
+/* Its own rounding differs from window depth's. */
+static void logarithms_are_undone(void **state)
+{
+    static const double constants[] = {0.0, 1.0, 0.01, 100.0};
+    subject s = room();
+    for (int i = 0; i < 4; ++i) {
+        const double c = i == 0 ? 1.0 : constants[i], far_distance = 40.0;
+        subject stored = s;
+        stored.depth = malloc((size_t)W * H * sizeof(float));
+        for (int k = 0; k < W * H; ++k)
+            stored.depth[k] = isfinite(s.distance[k])
+                                  ? (float)(log(c * (double)s.distance[k] + 1.0) / log(c * far_distance + 1.0))
+                                  : 1.0f;
+        glssao_frame plain = subject_frame(&s, DISTANCE_32F, NORMAL_32F);
+        glssao_frame other = subject_frame(&stored, DEPTH_32F, NORMAL_32F);
+        other.depth_kind = GLSSAO_DEPTH_LOGARITHMIC;
+        other.log_depth_far = (float)far_distance;
+        other.log_depth_constant = (float)constants[i];
+        assert_same(*state, &plain, &other, 1e-3);
+        subject_frame_free(&plain);
+        subject_frame_free(&other);
+        free(stored.depth);
+    }
+    subject_free(&s);
+}
+
+/* ---- refused and named, or rightly not ---- */
+
+static void assert_refused(fixture *f, const glssao_frame *frame, const char *named)
+{
+    const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
+    glssao_effect *effect = subject_effect(f, W, H);
+    fixture_clear_log(f);
+    assert_int_equal(glssao_compute(effect, frame, &settings), GLSSAO_INVALID_ARGUMENT);
+    if (!strstr(f->log, named))
+        fail_msg("'%s' does not name %s", f->log, named);
+}
+
+static void unreadable_inputs_are_named(void **state)
+{
+    subject s = room();
+    const glssao_frame good = subject_frame(&s, DEPTH_24, NORMAL_32F);
+    glssao_frame bad;
+#define REFUSED(field, value, named)                                                                                   \
+    bad = good;                                                                                                        \
+    bad.field = value;                                                                                                 \
+    assert_refused(*state, &bad, named)
+    REFUSED(multisample, true, "frame.depth_texture");
+    (void)fixture_no_gl_error(state); /* a texture of another target does not bind, and OpenGL says so */
+    REFUSED(viewport[0], -1, "frame.viewport[0]");
+    REFUSED(viewport[1], -1, "frame.viewport[1]");
+    REFUSED(viewport[2], W, "frame.viewport");
+    REFUSED(depth_kind, GLSSAO_DEPTH_LOGARITHMIC, "frame.log_depth_far");
+    bad.log_depth_far = 10.0f;
+    bad.log_depth_constant = -1.0f;
+    assert_refused(*state, &bad, "frame.log_depth_constant");
+    bad.log_depth_constant = NAN;
+    assert_refused(*state, &bad, "frame.log_depth_constant");
+    bad = good;
+    memcpy(bad.viewport, (const int[4]){1, 0, W, H}, sizeof bad.viewport);
+    assert_refused(*state, &bad, "frame.viewport");
+    REFUSED(projection[0], 0.0f, "frame.projection is singular");
+    REFUSED(projection[14], 0.0f, "frame.projection");
+    REFUSED(projection[5], NAN, "frame.projection[5]");
+    REFUSED(projection[10], INFINITY, "frame.projection[10]");
+    REFUSED(projection[4], 0.1f, "frame.projection[4]");
+#undef REFUSED
+    subject_frame_free((glssao_frame *)&good);
+    subject_free(&s);
+}
+
+static void a_map_that_a_pass_draws_into_is_refused(void **state)
+{
+    fixture *f = *state;
+    subject s = room();
+    glssao_frame frame = subject_frame(&s, DEPTH_24, NORMAL_NONE), bad = frame;
+    const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
+    glssao_effect *effect = subject_effect(f, W, H);
+    int w, h;
+    bad.depth_texture = glssao_map(effect, GLSSAO_MAP_NORMAL, &w, &h); /* where normals would be rebuilt */
+    assert_refused(f, &bad, "the effect's own map");
+    assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_OK);
+    bad.depth_texture = glssao_map(effect, GLSSAO_MAP_AMBIENT, &w, &h);
+    assert_refused(f, &bad, "the effect's own map");
+
+    GLuint framebuffer;
+    gl.GenFramebuffers(1, &framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+                            glssao_map(effect, GLSSAO_MAP_AMBIENT, &w, &h), 0);
+    fixture_clear_log(f);
+    assert_int_equal(glssao_apply(effect, framebuffer), GLSSAO_INVALID_ARGUMENT);
+    assert_non_null(strstr(f->log, "the accessibility map itself"));
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    gl.DeleteFramebuffers(1, &framebuffer);
+    subject_frame_free(&frame);
+    subject_free(&s);
+}
+
+/* The passes draw into framebuffers of their own, so this is no feedback, and most hosts do it. */
+static void depth_may_stay_attached_to_the_bound_framebuffer(void **state)
+{
+    subject s = room();
+    glssao_frame frame = subject_frame(&s, DEPTH_24, NORMAL_32F);
+    const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
+    picture detached = subject_shade(*state, W, H, &frame, &settings);
+    GLuint framebuffer;
+    gl.GenFramebuffers(1, &framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, frame.depth_texture, 0);
+    picture attached = subject_shade(*state, W, H, &frame, &settings);
+    assert_memory_equal(detached.values, attached.values, (size_t)W * H * sizeof(float));
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    gl.DeleteFramebuffers(1, &framebuffer);
+    free(detached.values);
+    free(attached.values);
+    subject_frame_free(&frame);
+    subject_free(&s);
+}
+
+static void end(void **state)
+{
+    (void)state;
+    subject_end();
+}
+
+int main(void)
+{
+#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
+    const struct CMUnitTest tests[] = {
+        GL_TEST(first_samples_are_taken),
+        GL_TEST(viewports_are_crops),
+        GL_TEST(logarithms_are_undone),
+        GL_TEST(unreadable_inputs_are_named),
+        GL_TEST(a_map_that_a_pass_draws_into_is_refused),
+        GL_TEST(depth_may_stay_attached_to_the_bound_framebuffer),
+        GL_TEST(end),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+}

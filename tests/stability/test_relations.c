@@ -1,0 +1,249 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What must hold between two pictures, whatever is right for either: scale, depth's direction, tiles, quarter turns,
+ * radius, power and repetition.
+ */
+#include "techniques.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int stride = 1;
+
+enum { W = 96, H = 96 };
+
+static double mean_apart(const picture *a, const picture *b)
+{
+    double sum = 0.0;
+    assert_true(a->width == b->width && a->height == b->height);
+    for (int i = 0; i < a->width * a->height; ++i)
+        sum += fabs((double)a->values[i] - (double)b->values[i]);
+    return sum / (a->width * a->height);
+}
+
+static bool same_bits(const picture *a, const picture *b)
+{
+    return a->width == b->width && a->height == b->height &&
+           memcmp(a->values, b->values, (size_t)a->width * (size_t)a->height * sizeof *a->values) == 0;
+}
+
+/* The room, seen by a view; a quarter turn about the view axis first, where wanted. */
+static picture shade_room(fixture *f, const analytic_view *view, int width, int height, double scale, bool turned,
+                          const glssao_settings *settings)
+{
+    analytic_shape room[ANALYTIC_ROOM_SHAPES];
+    analytic_room(room, scale);
+    for (int i = 0; i < ANALYTIC_ROOM_SHAPES && turned; ++i) {
+        const analytic_shape s = room[i];
+        const bool plane = s.kind == ANALYTIC_PLANE;
+        room[i].center[0] = -s.center[1];
+        room[i].center[1] = s.center[0];
+        if (s.kind == ANALYTIC_SPHERE)
+            continue;
+        room[i].size[0] = plane ? -s.size[1] : s.size[1];
+        room[i].size[1] = s.size[0];
+    }
+    subject s = subject_of(view, room, ANALYTIC_ROOM_SHAPES, width, height);
+    glssao_frame frame = subject_frame(&s, DEPTH_32F, NORMAL_32F);
+    const glssao_settings scaled = settings_scaled(settings, scale);
+    picture p = subject_shade(f, width, height, &frame, &scaled);
+    assert_true(picture_is_sound(&p));
+    subject_frame_free(&frame);
+    subject_free(&s);
+    return p;
+}
+
+static picture plain(fixture *f, const glssao_settings *settings)
+{
+    const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
+    return shade_room(f, &view, W, H, 1.0, false, settings);
+}
+
+typedef void (*relation)(fixture *f, const configuration *c, const picture *first);
+
+static void for_each_configuration(void **state, relation check)
+{
+    for (int i = 0; i < CONFIGURATIONS; i += stride) {
+        const configuration c = configuration_of(i);
+        picture first = plain(*state, &c.settings);
+        assert_true(picture_mean(&first) < 0.995); /* there is something to see */
+        check(*state, &c, &first);
+        free(first.values);
+    }
+}
+
+static void check_repeats(fixture *f, const configuration *c, const picture *first)
+{
+    picture again = plain(f, &c->settings);
+    if (!same_bits(first, &again))
+        fail_msg("%s: another picture", c->name);
+    free(again.values);
+}
+
+static void runs_repeat(void **state)
+{
+    for_each_configuration(state, check_repeats);
+}
+
+static void check_scale(fixture *f, const configuration *c, const picture *first)
+{
+    static const double scales[] = {0x1p-13, 0x1p13, 1e-4, 1e4};
+    for (int i = 0; i < 4; ++i) {
+        const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, scales[i]);
+        picture scaled = shade_room(f, &view, W, H, scales[i], false, &c->settings);
+        const double apart = mean_apart(first, &scaled);
+        /* Powers of two are exact; others turn samples that lie on a threshold. */
+        if (i < 2 ? apart > 0.0 : apart > 1e-3)
+            fail_msg("%s: scale %g: %g apart", c->name, scales[i], apart);
+        free(scaled.values);
+    }
+}
+
+static void scale_changes_nothing(void **state)
+{
+    for_each_configuration(state, check_scale);
+}
+
+static void check_directions(fixture *f, const configuration *c, const picture *first)
+{
+    static const analytic_projection others[] = {PERSPECTIVE_INFINITE, PERSPECTIVE_REVERSED_ZERO_TO_ONE,
+                                                 PERSPECTIVE_INFINITE_REVERSED_ZERO_TO_ONE};
+    for (int i = 0; i < 3; ++i) {
+        const analytic_view view = analytic_make_view(others[i], (double)W / H, 0.5, 40.0, 1.0);
+        picture other = shade_room(f, &view, W, H, 1.0, false, &c->settings);
+        const double apart = mean_apart(first, &other);
+        if (apart > 1.5e-3)
+            fail_msg("%s: projection %d: %g apart", c->name, (int)others[i], apart);
+        free(other.values);
+    }
+}
+
+static void depth_directions_agree(void **state)
+{
+    for_each_configuration(state, check_directions);
+}
+
+/* The left lower part of the picture, by an off-centre projection: it must equal the crop, but for a margin where the
+ * picture goes on, on its right and above. The classic technique's random vectors are stretched over the target, so
+ * noise differs. */
+static void check_tile(fixture *f, const configuration *c, const picture *first)
+{
+    enum { TILE = 72, MARGIN = 28 };
+    analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
+    const double stretch = (double)W / TILE;
+    for (int axis = 0; axis < 2; ++axis) { /* ndc' = stretch (ndc + 1) - 1, with w of -z */
+        view.projection[5 * axis] *= (float)stretch;
+        view.projection[8 + axis] = (float)(1.0 - stretch);
+    }
+    picture tile = shade_room(f, &view, TILE, TILE, 1.0, false, &c->settings);
+    double sum = 0.0, bias = 0.0;
+    int count = 0;
+    for (int y = 0; y < TILE - MARGIN; ++y)
+        for (int x = 0; x < TILE - MARGIN; ++x) {
+            const double apart = (double)tile.values[y * TILE + x] - (double)first->values[y * W + x];
+            sum += fabs(apart);
+            bias += apart;
+            ++count;
+        }
+    if (sum / count > (c->settings.technique == GLSSAO_CLASSIC ? 8e-3 : 1e-3) || fabs(bias) / count > 2e-3)
+        fail_msg("%s: a tile is %g apart, bias %g", c->name, sum / count, bias / count);
+    free(tile.values);
+}
+
+static void tiles_are_crops(void **state)
+{
+    for_each_configuration(state, check_tile);
+}
+
+/* Noise, samples' places and which texel stands for four at half size don't turn along. */
+static void check_turn(fixture *f, const configuration *c, const picture *first)
+{
+    const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
+    picture turned = shade_room(f, &view, W, H, 1.0, true, &c->settings);
+    double sum = 0.0, bias = 0.0;
+    for (int y = 0; y < H; ++y)
+        for (int x = 0; x < W; ++x) {
+            const double apart = (double)turned.values[x * W + (W - 1 - y)] - (double)first->values[y * W + x];
+            sum += fabs(apart);
+            bias += apart;
+        }
+    if (sum / (W * H) > 0.02 || fabs(bias) / (W * H) > 0.004)
+        fail_msg("%s: a quarter turn: %g apart, bias %g", c->name, sum / (W * H), bias / (W * H));
+    free(turned.values);
+}
+
+static void quarter_turns_turn_the_picture(void **state)
+{
+    for_each_configuration(state, check_turn);
+}
+
+static void check_radius(fixture *f, const configuration *c, const picture *first)
+{
+    (void)first;
+    double before = 2.0;
+    for (float radius = 0.0625f; radius <= 1.0f; radius *= 2.0f) {
+        glssao_settings s = c->settings;
+        s.radius = radius;
+        s.surface_epsilon = 0.01f; /* the same for all */
+        picture p = plain(f, &s);
+        const double mean = picture_mean(&p);
+        if (mean > before + 1e-3)
+            fail_msg("%s: radius %g brightens the mean from %g to %g", c->name, (double)radius, before, mean);
+        before = mean;
+        free(p.values);
+    }
+}
+
+static void greater_radius_never_brightens_the_mean(void **state)
+{
+    for_each_configuration(state, check_radius);
+}
+
+static void check_power(fixture *f, const configuration *c, const picture *first)
+{
+    picture before = *first, after;
+    for (float power = 2.0f; power <= 64.0f; power *= 4.0f) {
+        glssao_settings s = c->settings;
+        s.power = power;
+        after = plain(f, &s);
+        for (int i = 0; i < W * H; ++i)
+            if (after.values[i] > before.values[i] + 1.01f / 65535.0f)
+                fail_msg("%s: power %g brightens pixel %d from %g to %g", c->name, (double)power, i,
+                         (double)before.values[i], (double)after.values[i]);
+        if (before.values != first->values)
+            free(before.values);
+        before = after;
+    }
+    free(before.values);
+}
+
+static void greater_power_never_brightens(void **state)
+{
+    for_each_configuration(state, check_power);
+}
+
+static void end(void **state)
+{
+    (void)state;
+    subject_end();
+}
+
+int main(int argc, char **argv)
+{
+    if (argc > 1)
+        stride = atoi(argv[1]) > 0 ? atoi(argv[1]) : 1;
+#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
+    const struct CMUnitTest tests[] = {
+        GL_TEST(runs_repeat),
+        GL_TEST(scale_changes_nothing),
+        GL_TEST(depth_directions_agree),
+        GL_TEST(tiles_are_crops),
+        GL_TEST(quarter_turns_turn_the_picture),
+        GL_TEST(greater_radius_never_brightens_the_mean),
+        GL_TEST(greater_power_never_brightens),
+        GL_TEST(end),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+}
