@@ -42,6 +42,7 @@ static void set_up(setup *s, fixture *f, analytic_projection projection, int wid
     s->orthographic = view.projection[11] == 0.0f;
     s->settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     s->settings.upsample = true;
+    s->settings.blur_rounds = 1;
     s->settings.radius = 0.8f;
     assert_true(horizon_read_pass_constants(&s->blur, &s->upsample));
     pass_constants *in_radius[] = {&s->blur, &s->upsample};

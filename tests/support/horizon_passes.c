@@ -226,6 +226,13 @@ void upsample_model(const paired_map *half, bool orthographic, const pass_consta
         tests[NEAR_0 + i] = is_below(f.apart[i], f.error, in_linear(constants->near, own->linear, orthographic));
         mean += 0.25 * (f.at[i].linear - own->linear);
     }
+    /* Where all four face one way, the pixel is taken to face it too. */
+    const int *first = f.at[0].normal;
+    bool all_alike = true;
+    for (int i = 1; i < 4; ++i)
+        all_alike = all_alike && f.at[i].normal[0] == first[0] && f.at[i].normal[1] == first[1];
+    for (int i = 0; all_alike && i < 4; ++i)
+        tests[JOINS_0 + i] = YES;
     tests[ON_PLANE] = is_below(fabs(mean), f.error + 4.0 * 0x1p-24 * fabs(mean),
                                in_linear(constants->tolerance, own->linear, orthographic));
     *out_low = HUGE_VAL;
