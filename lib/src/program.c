@@ -304,7 +304,7 @@ glssao_result glssao__program_get(glssao_effect *effect, enum glssao__shader sha
 {
     variant &= shaders[shader].flags;
     if (shader == SHADER_BLUR && !(variant & VARIANT_EDGE_AWARE))
-        variant &= VARIANT_BOX; /* it reads neither normals nor depth */
+        variant &= VARIANT_BOX | VARIANT_PAIRED; /* it reads neither normals nor depth */
     const glssao__program_object *found = find(effect, shader, variant);
     if (found) {
         *out = *found;
