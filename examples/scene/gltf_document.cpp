@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Translates tinygltf's model into the plain C of gltf_document.h. No exception leaves this file.
+// Translates tinygltf's model into the plain C of gltf_document.h; surfaces are gltf_surfaces.cpp's. No exception leaves
+// this file.
 #include "gltf_document.h"
 
 #include "gltf_file.h"
 #include "gltf_parse.h"
+#include "gltf_translate.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <deque>
 #include <exception>
@@ -40,44 +41,6 @@ struct document_owner {
     std::deque<std::vector<gltf_attribute_list>> targets;
     std::deque<std::vector<gltf_primitive>> primitives;
 };
-
-template <typename T> void point_to(const std::vector<T> &from, const T **out, size_t *out_count)
-{
-    *out = from.data();
-    *out_count = from.size();
-}
-
-// True, and `out` filled, where the vector has as many numbers as `out`; an empty one leaves `out` as it is.
-template <size_t N> bool copy_numbers(const std::vector<double> &from, double (&out)[N])
-{
-    if (from.size() == N)
-        std::copy(from.begin(), from.end(), out);
-    return from.empty() || from.size() == N;
-}
-
-// An extension's numbers, left as they are where the member is missing or is something else.
-template <size_t N> void copy_member(const tinygltf::Value &object, const char *name, double (&out)[N])
-{
-    if (!object.Has(name) || object.Get(name).ArrayLen() != N)
-        return;
-    for (size_t i = 0; i < N; ++i)
-        out[i] = object.Get(name).Get(static_cast<int>(i)).GetNumberAsDouble();
-}
-
-// An extension's index: `missing` where there is none, one that no check lets pass where it is no integer.
-int index_member(const tinygltf::Value &object, const char *name, int missing)
-{
-    if (!object.IsObject() || !object.Has(name))
-        return missing;
-    const tinygltf::Value &value = object.Get(name);
-    return value.IsInt() ? value.Get<int>() : -2;
-}
-
-const tinygltf::Value *find_extension(const tinygltf::ExtensionMap &extensions, const char *name)
-{
-    const auto found = extensions.find(name);
-    return found == extensions.end() ? nullptr : &found->second;
-}
 
 gltf_accessor translate(const tinygltf::Accessor &from)
 {
@@ -172,87 +135,6 @@ bool translate(const tinygltf::Node &from, size_t number, gltf_node *out, scene_
     return true;
 }
 
-// Of a TextureInfo, and of those for normals and occlusion, which share its members.
-template <typename Info> gltf_texture_use translate_use(const Info &from)
-{
-    gltf_texture_use out{};
-    out.texture = from.index;
-    out.uv_set = from.texCoord;
-    out.scale[0] = out.scale[1] = 1;
-    if (const tinygltf::Value *transform = find_extension(from.extensions, "KHR_texture_transform")) {
-        copy_member(*transform, "offset", out.offset);
-        copy_member(*transform, "scale", out.scale);
-        if (transform->Has("rotation"))
-            out.rotation = transform->Get("rotation").GetNumberAsDouble();
-        out.uv_set = index_member(*transform, "texCoord", out.uv_set);
-    }
-    return out;
-}
-
-bool translate(const tinygltf::Material &from, size_t number, gltf_material *out, scene_fault *fault)
-{
-    const tinygltf::PbrMetallicRoughness &pbr = from.pbrMetallicRoughness;
-    std::fill(out->base_color, out->base_color + 4, 1.0);
-    if (!copy_numbers(pbr.baseColorFactor, out->base_color))
-        return scene_fail(fault, "material %zu: its baseColorFactor does not have four numbers", number);
-    if (!copy_numbers(from.emissiveFactor, out->emissive))
-        return scene_fail(fault, "material %zu: its emissiveFactor does not have three numbers", number);
-    if (const tinygltf::Value *emission = find_extension(from.extensions, "KHR_materials_emissive_strength"))
-        for (double &channel : out->emissive)
-            channel *= emission->Has("emissiveStrength") ? emission->Get("emissiveStrength").GetNumberAsDouble() : 1;
-    out->base_color_map = translate_use(pbr.baseColorTexture);
-    out->metallic_roughness_map = translate_use(pbr.metallicRoughnessTexture);
-    out->normal_map = translate_use(from.normalTexture);
-    out->occlusion_map = translate_use(from.occlusionTexture);
-    out->emissive_map = translate_use(from.emissiveTexture);
-    out->metallic = pbr.metallicFactor;
-    out->roughness = pbr.roughnessFactor;
-    out->normal_scale = from.normalTexture.scale;
-    out->occlusion_strength = from.occlusionTexture.strength;
-    out->alpha_mode = from.alphaMode.c_str();
-    out->alpha_cutoff = from.alphaCutoff;
-    out->double_sided = from.doubleSided;
-    out->unlit = find_extension(from.extensions, "KHR_materials_unlit") != nullptr;
-    return true;
-}
-
-gltf_image translate(const tinygltf::Image &from)
-{
-    gltf_image out{};
-    // A data URI with a type that tinygltf does not know ends up here as if it were a file's name.
-    const bool has_file_name = !from.uri.empty() && from.uri.compare(0, 5, "data:") != 0;
-    out.name = has_file_name ? from.uri.c_str() : from.name.c_str();
-    out.buffer_view = from.bufferView;
-    out.encoded = from.image.empty() ? nullptr : from.image.data();
-    out.encoded_size = from.image.size();
-    return out;
-}
-
-gltf_camera translate(const tinygltf::Camera &from)
-{
-    gltf_camera out{};
-    out.name = from.name.c_str();
-    out.orthographic = from.type == "orthographic";
-    out.fov_y_rad = from.perspective.yfov;
-    out.x_mag = from.orthographic.xmag;
-    out.y_mag = from.orthographic.ymag;
-    out.near_plane = out.orthographic ? from.orthographic.znear : from.perspective.znear;
-    out.far_plane = out.orthographic ? from.orthographic.zfar : from.perspective.zfar;
-    return out;
-}
-
-bool translate(const tinygltf::Light &from, size_t number, gltf_light *out, scene_fault *fault)
-{
-    std::fill(out->color, out->color + 3, 1.0);
-    out->type = from.type.c_str();
-    out->intensity = from.intensity;
-    out->range = from.range;
-    out->inner_cone_rad = from.spot.innerConeAngle;
-    out->outer_cone_rad = from.spot.outerConeAngle;
-    return copy_numbers(from.color, out->color) ||
-           scene_fail(fault, "light %zu: its color does not have three numbers", number);
-}
-
 void translate(const tinygltf::Animation &from, document_owner *owner, gltf_document *out)
 {
     for (const tinygltf::AnimationSampler &sampler : from.samplers)
@@ -284,19 +166,19 @@ bool translate_all(document_owner *owner, gltf_document *out, scene_fault *fault
     }
     owner->materials.resize(model.materials.size());
     for (size_t i = 0; i < model.materials.size(); ++i)
-        if (!translate(model.materials[i], i, &owner->materials[i], fault))
+        if (!gltf_translate(model.materials[i], i, &owner->materials[i], fault))
             return false;
     for (const tinygltf::Texture &texture : model.textures)
         owner->textures.push_back({texture.sampler, texture.source});
     for (const tinygltf::Sampler &sampler : model.samplers)
         owner->samplers.push_back({sampler.minFilter, sampler.magFilter, sampler.wrapS, sampler.wrapT});
     for (const tinygltf::Image &image : model.images)
-        owner->images.push_back(translate(image));
+        owner->images.push_back(gltf_translate(image));
     for (const tinygltf::Camera &camera : model.cameras)
-        owner->cameras.push_back(translate(camera));
+        owner->cameras.push_back(gltf_translate(camera));
     owner->lights.resize(model.lights.size());
     for (size_t i = 0; i < model.lights.size(); ++i)
-        if (!translate(model.lights[i], i, &owner->lights[i], fault))
+        if (!gltf_translate(model.lights[i], i, &owner->lights[i], fault))
             return false;
     for (const tinygltf::Scene &scene : model.scenes)
         owner->scenes.push_back({scene.nodes.data(), scene.nodes.size()});
