@@ -15,13 +15,15 @@ targets=(test_hard_cases test_relations test_random test_inputs test_faults)
 make() { ninja -C "$build" "${targets[@]}" >"$copy/log" 2>&1; }
 run() { # test
     local arguments=()
-    [ "$1" != test_random ] || arguments=(--cases 700)
+    [ "$1" != test_random ] || arguments=(--cases 900)
     GLSSAO_TEST_CONTEXT=egl timeout 300 "$build/tests/stability/$1" "${arguments[@]}" >"$copy/log" 2>&1
 }
 make || { cat "$copy/log"; exit 1; }
 
 held=0 loose=0
-while IFS=$'\t' read -r guard file text instead test; do
+mapfile -t lines <"$here/guards.tsv"
+for line in "${lines[@]}"; do
+    IFS=$'\t' read -r guard file text instead test <<<"$line"
     [[ $guard == \#* || "$guard $file" != *"${1:-}"* ]] && continue
     cp "$copy/$file" "$copy/kept"
     TEXT=$text INSTEAD=$instead perl -0pi -e 's/\Q$ENV{TEXT}\E/$ENV{INSTEAD}/' "$copy/$file"
@@ -38,6 +40,6 @@ while IFS=$'\t' read -r guard file text instead test; do
     [[ $answer == $test:* ]] || loose=$((loose + 1))
     printf '%s\t%s\n' "$guard" "$answer"
     cp "$copy/kept" "$copy/$file"
-done <"$here/guards.tsv"
+done
 echo "$held guards held, $loose not"
 [ "$loose" = 0 ]
