@@ -127,7 +127,19 @@ static void first_samples_are_taken(void **state)
         other.depth_texture = multisampled(plain.depth_texture, GL_DEPTH_COMPONENT32F, true);
         if (normals)
             other.normal_texture = multisampled(plain.normal_texture, GL_RGBA16F, false);
+        /* What the host has bound comes back. */
+        GLint bound = 0;
+        for (int unit = 0; unit < 8; ++unit) {
+            gl.ActiveTexture(GL_TEXTURE0 + (GLenum)unit);
+            gl.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, other.depth_texture);
+        }
         assert_same(*state, &plain, &other, 0.0);
+        for (int unit = 0; unit < 8; ++unit) {
+            gl.ActiveTexture(GL_TEXTURE0 + (GLenum)unit);
+            gl.GetIntegerv(GL_TEXTURE_BINDING_2D_MULTISAMPLE, &bound);
+            assert_int_equal(bound, other.depth_texture);
+        }
+        gl.ActiveTexture(GL_TEXTURE0);
         gl.DeleteTextures(1, &other.depth_texture);
         if (normals)
             gl.DeleteTextures(1, &other.normal_texture);

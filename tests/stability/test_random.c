@@ -109,17 +109,17 @@ static void random_case(fixture *f, uint64_t seed)
     const analytic_view view = random_view(&s, width, height, scale);
     analytic_shape shapes[ANALYTIC_ROOM_SHAPES];
     const int count = random_shapes(&s, shapes, scale);
-    subject subject = subject_of(&view, shapes, count, width, height);
+    subject seen = subject_of(&view, shapes, count, width, height);
     const size_t texels = (size_t)width * (size_t)height;
     if (below(&s, 4) == 0)
-        spoil(&s, subject.depth, texels, true);
+        spoil(&s, seen.depth, texels, true);
     if (below(&s, 4) == 0)
-        spoil(&s, subject.distance, texels, false);
+        spoil(&s, seen.distance, texels, false);
     if (below(&s, 4) == 0)
-        spoil(&s, subject.normals, 3 * texels, false);
+        spoil(&s, seen.normals, 3 * texels, false);
     const glssao_settings settings = random_settings(&alike, &s, scale);
     const depth_store depth = (depth_store)below(&alike, DEPTH_STORES);
-    glssao_frame frame = subject_frame(&subject, depth, (normal_store)below(&alike, NORMAL_STORES));
+    glssao_frame frame = subject_frame(&seen, depth, (normal_store)below(&alike, NORMAL_STORES));
     const int most = (width < height ? width : height) / 2 - 1;
     frame.margin = most > 1 && below(&s, 4) == 0 ? below(&s, most) / 2 * 2 : 0;
 
@@ -132,7 +132,7 @@ static void random_case(fixture *f, uint64_t seed)
     free(first.values);
     free(again.values);
     subject_frame_free(&frame);
-    subject_free(&subject);
+    subject_free(&seen);
 }
 
 static void random_cases(void **state)
@@ -152,9 +152,9 @@ int main(int argc, char **argv)
             first_seed = strtoull(argv[i + 1], NULL, 10);
     }
     /* Each context its own cases. */
-    const char *context = getenv("GLSSAO_TEST_CONTEXT");
+    const char *kind = getenv("GLSSAO_TEST_CONTEXT");
     if (argc < 2 || (argc == 3 && !strcmp(argv[1], "--cases")))
-        first_seed += context && !strcmp(context, "osmesa") ? 100000 : 0;
+        first_seed += kind && !strcmp(kind, "osmesa") ? 100000 : 0;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(random_cases, NULL, fixture_no_gl_error),
     };

@@ -257,6 +257,61 @@ static void default_settings_pass_the_checks(void **state)
     assert_int_equal(glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH).technique, GLSSAO_HORIZON);
 }
 
+/* View distance of a window depth, from the definition of a projection alone. */
+static double distance_of(const float p[16], bool zero_to_one, double depth)
+{
+    const double ndc = zero_to_one ? depth : 2.0 * depth - 1.0;
+    return ((double)p[14] - ndc * (double)p[15]) / ((double)p[10] - ndc * (double)p[11]);
+}
+
+/* The step that the coefficients give at a view distance is how far a stored value's neighbour lies. */
+static void depth_steps_are_differences(void **state)
+{
+    (void)state;
+    static const struct {
+        float p10, p11, p14, p15;
+        bool zero_to_one;
+    } projections[] = {
+        {-1.002002f, -1.0f, -0.2002002f, 0.0f, false}, /* 0.1 to 100 */
+        {-1.0f, -1.0f, -0.2f, 0.0f, false},            /* infinite */
+        {0.0f, -1.0f, 0.1f, 0.0f, true},               /* infinite, reversed */
+        {0.001001f, -1.0f, 0.1001001f, 0.0f, true},    /* reversed */
+        {-0.02f, 0.0f, -1.002f, 1.0f, false},          /* orthographic */
+    };
+    static const glssao__precision formats[] = {{0x1p-16, false}, {0x1p-24, false}, {0x1p-23, true}};
+    for (size_t i = 0; i < sizeof projections / sizeof *projections; ++i)
+        for (size_t k = 0; k < sizeof formats / sizeof *formats; ++k) {
+            glssao_frame frame = {.projection = {[0] = 1.0f,
+                                                 [5] = 1.0f,
+                                                 [10] = projections[i].p10,
+                                                 [11] = projections[i].p11,
+                                                 [14] = projections[i].p14,
+                                                 [15] = projections[i].p15},
+                                  .clip_zero_to_one = projections[i].zero_to_one};
+            glssao__projection projection;
+            float c[4];
+            assert_true(glssao__projection_analyse(frame.projection, frame.clip_zero_to_one, &silent, &projection));
+            glssao__projection_depth_step(&frame, &projection, &formats[k], c);
+            for (double depth = 0.05; depth < 1.0; depth += 0.09) {
+                const double t = distance_of(frame.projection, frame.clip_zero_to_one, depth);
+                /* Floats near a sky of 1 are 2^-24 apart; else a step is relative. */
+                const double step = !formats[k].relative           ? formats[k].step
+                                    : projection.sky_depth == 1.0f ? 0x1p-24
+                                                                   : formats[k].step * depth;
+                const double wanted =
+                    fabs(distance_of(frame.projection, frame.clip_zero_to_one, depth + 1e-3 * step) - t) * 1e3 +
+                    0x1p-22 * t;
+                assert_near((double)c[0] + t * ((double)c[1] + t * (double)c[2]), wanted, 1e-3 * wanted);
+            }
+        }
+    glssao_frame logarithmic = {.depth_kind = GLSSAO_DEPTH_LOGARITHMIC, .log_depth_far = 100.0f};
+    float c[4];
+    glssao__projection_depth_step(&logarithmic, &(glssao__projection){0}, &formats[1], c);
+    const double t = exp(0.5 * log(101.0)) - 1.0, next = exp((0.5 + 1e-6) * log(101.0)) - 1.0;
+    assert_near((double)c[0] + t * (double)c[1], (next - t) * 1e6 * 0x1p-24 + 0x1p-22 * t,
+                1e-3 * 0x1p-24 * (next - t) * 1e6);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -269,6 +324,7 @@ int main(void)
         cmocka_unit_test(distance_survives_a_range_of_ten_million),
         cmocka_unit_test(ray_through_uv_meets_the_projected_point),
         cmocka_unit_test(inverse_times_projection_is_identity),
+        cmocka_unit_test(depth_steps_are_differences),
         cmocka_unit_test(default_settings_pass_the_checks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# mutate.sh [WORD]: takes each guard of guards.tsv (whose line holds WORD) away, one at a time, in a copy of the repository,
+# and says whether the test that it names then fails. Prints a line a guard; fails where one is not held by its test.
+set -uo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+root=$(cd "$here/../.." && pwd)
+copy=$(mktemp -d)
+trap 'rm -rf "$copy"' EXIT
+cp -r "$root"/{CMakeLists.txt,LICENSE,glsl,lib,tests,examples,third_party,docs,README.md,CHANGELOG.md} "$copy"
+build=$copy/build
+cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
+    >/dev/null || exit 1
+targets=(test_hard_cases test_relations test_random test_inputs test_faults)
+make() { ninja -C "$build" "${targets[@]}" >"$copy/log" 2>&1; }
+run() { # test
+    local arguments=()
+    [ "$1" != test_random ] || arguments=(--cases 900)
+    GLSSAO_TEST_CONTEXT=egl timeout 300 "$build/tests/stability/$1" "${arguments[@]}" >"$copy/log" 2>&1
+}
+make || { cat "$copy/log"; exit 1; }
+
+held=0 loose=0
+mapfile -t lines <"$here/guards.tsv"
+for line in "${lines[@]}"; do
+    IFS=$'\t' read -r guard file text instead test <<<"$line"
+    [[ $guard == \#* || "$guard $file" != *"${1:-}"* ]] && continue
+    cp "$copy/$file" "$copy/kept"
+    TEXT=$text INSTEAD=$instead perl -0pi -e 's/\Q$ENV{TEXT}\E/$ENV{INSTEAD}/' "$copy/$file"
+    if cmp -s "$copy/$file" "$copy/kept"; then
+        answer="NOT FOUND in $file"
+    elif ! make; then
+        answer="does not build"
+    elif run "$test"; then
+        answer="NOT HELD by $test"
+    else
+        answer="$test: $(grep -am1 'ERROR: \|ERROR   \]' "$copy/log" | sed 's/^ERROR: //' | cut -c1-100)"
+        held=$((held + 1))
+    fi
+    [[ $answer == $test:* ]] || loose=$((loose + 1))
+    printf '%s\t%s\n' "$guard" "$answer"
+    cp "$copy/kept" "$copy/$file"
+done
+echo "$held guards held, $loose not"
+[ "$loose" = 0 ]
