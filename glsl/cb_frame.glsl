@@ -12,3 +12,6 @@ int gFactor;                // full-size texels per texel of the estimate: 1 or 
 vec2 gNoise;                // offset of the tile of noise: of the angle and of the jitter, 0..1 (accumulation)
 vec4 gAccumulation;         // xy: 1 for the replicate that the estimate belongs to; zw: estimates in each
 vec4 gProbe;                // pixels: lower left corner of what is probed, size of a cell
+vec4 gTiles;                // x: side of a tile, pixels of the estimate; y: how far samples reach, in radii; z: sine of
+                            // the angle that still is flat, 0: no plane counts; w: scene units of range that do not occlude
+float gTileRings;           // how far tiles are told from the nearest that needs an estimate

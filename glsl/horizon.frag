@@ -10,6 +10,7 @@
 // out o_ambient       accessibility, and the linear quantity of distance; with ACCUMULATE 1 the linear accessibility,
 //                     to be added to the sum of its replicate
 // STEPS_8, STEPS_12, STEPS_16 1: that many samples on each side of a slice, else 6. SLICES_2 1: two slices, else one.
+// OPEN 1: nothing occludes.
 //
 // In a slice, x is the distance along it from the point, outwards on either side, and y the height towards the eye, both
 // in units of the radius; angles are measured from y. Loops are written out by macros: Mesa's software rasteriser does
@@ -272,6 +273,9 @@ void main()
     o_ambient = gAccumulation.xy;
 #else
     o_ambient = vec2(1.0, linear_from_distance(distance));
+#endif
+#if OPEN
+    return;
 #endif
     // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
     if (distance >= FAR_AWAY || normal_view == vec3(0.0))

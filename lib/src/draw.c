@@ -23,10 +23,12 @@ void glssao__draw_bind(const glssao_effect *effect, enum glssao__unit unit, gl_u
     effect->gl.BindSampler((gl_uint)unit, effect->samplers[sampler]);
 }
 
-void glssao__draw_use(const glssao_effect *effect, const glssao__program_object *program)
+void glssao__draw_use(glssao_effect *effect, const glssao__program_object *program)
 {
+    effect->tiles.drawn = 1;
     effect->gl.UseProgram(program->name);
     effect->gl.Uniform2f(program->origin_location, 0.0f, 0.0f); /* a location of -1 is ignored */
+    effect->gl.Uniform4f(program->tile_range_location, 0.0f, 0.0f, 0.0f, 0.0f);
 }
 
 void glssao__draw(const glssao_effect *effect, gl_uint framebuffer, int width, int height)
@@ -35,7 +37,7 @@ void glssao__draw(const glssao_effect *effect, gl_uint framebuffer, int width, i
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     glssao__state_set_viewport(gl, (const gl_float[4]){0.0f, 0.0f, (gl_float)width, (gl_float)height});
     gl->BindVertexArray(effect->vertex_array);
-    gl->DrawArrays(GL_TRIANGLES, 0, 6);
+    gl->DrawArrays(GL_TRIANGLES, 0, 6 * effect->tiles.drawn);
 }
 
 void glssao__draw_region(const glssao_effect *effect, const glssao__target *target, const glssao__region *region)
@@ -58,7 +60,7 @@ void glssao__draw_crop(const glssao_effect *effect, const glssao__program_object
     glssao__state_set_viewport(
         gl, (const gl_float[4]){(gl_float)-region->x, (gl_float)-region->y, (gl_float)width, (gl_float)height});
     gl->BindVertexArray(effect->vertex_array);
-    gl->DrawArrays(GL_TRIANGLES, 0, 6);
+    gl->DrawArrays(GL_TRIANGLES, 0, 6 * effect->tiles.drawn);
 }
 
 bool glssao__draw_is_between_normals(const glssao_effect *effect, const char *function)

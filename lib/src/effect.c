@@ -72,6 +72,7 @@ glssao_result glssao_create(const glssao_config *config, glssao_effect **out_eff
     effect->seed = config->seed;
     effect->has_timers = !config->no_timers;
     effect->accumulation.sampling_error = -1.0;
+    effect->tiles.drawn = 1;
     effect->width = config->width;
     effect->height = config->height;
 
@@ -115,6 +116,7 @@ void glssao_destroy(glssao_effect *effect)
     glssao__maps_delete_ambient(gl, &effect->paired);
     glssao__maps_delete_target(gl, &effect->distance_map);
     glssao__maps_delete_target(gl, &effect->result_map);
+    glssao__tiles_destroy(effect);
     glssao__accumulate_destroy(effect);
     gl->DeleteTextures(1, &effect->random_vector_map);
     gl->DeleteSamplers(SAMPLER_COUNT, effect->samplers);
@@ -150,6 +152,7 @@ glssao_result glssao_resize(glssao_effect *effect, int width, int height)
     glssao__maps_delete_ambient(&effect->gl, &effect->paired); /* made again when next needed, as are these: */
     glssao__maps_delete_target(&effect->gl, &effect->distance_map);
     glssao__maps_delete_target(&effect->gl, &effect->result_map);
+    glssao__tiles_destroy(effect);
     glssao__accumulate_destroy(effect);
     effect->has_result_map = false;
     effect->margin = 0;
@@ -184,6 +187,11 @@ uint32_t glssao_map(const glssao_effect *effect, glssao_map_id id, int *out_widt
         case GLSSAO_MAP_RANDOM_VECTOR:
             texture = effect->random_vector_map;
             width = height = RANDOM_VECTOR_MAP_SIZE;
+            break;
+        case GLSSAO_MAP_TILES:
+            texture = effect->tiles.used ? effect->tiles.rings.texture : 0;
+            width = texture ? effect->tiles.rings.width : 0;
+            height = texture ? effect->tiles.rings.height : 0;
             break;
         case GLSSAO_MAP_DEPTH:
             texture = effect->depth_texture;

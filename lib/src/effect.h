@@ -25,6 +25,7 @@ enum glssao__unit {
     UNIT_DISTANCE,
     UNIT_BACK,
     UNIT_SECOND,
+    UNIT_TILES,
     UNIT_COUNT
 };
 
@@ -57,6 +58,10 @@ enum glssao__shader {
     SHADER_PLANAR_BLUR,
     SHADER_UPSAMPLE,
     SHADER_APPLY,
+    SHADER_TILE_ROWS,
+    SHADER_TILE_BOUNDS,
+    SHADER_TILE_CLASS,
+    SHADER_TILE_RINGS,
     SHADER_COUNT
 };
 
@@ -75,7 +80,10 @@ enum glssao__variant {
     VARIANT_SLICES_2 = 1024,
     VARIANT_ACCUMULATE = 2048,
     VARIANT_LAYERS = 4096,
-    VARIANT_FLAGS = 13, /* how many there are */
+    VARIANT_OPEN = 8192,
+    VARIANT_PLANES = 16384,
+    VARIANT_FROM_DEPTH = 32768,
+    VARIANT_FLAGS = 16, /* how many there are */
     VARIANT_COUNT = 1 << VARIANT_FLAGS
 };
 
@@ -86,6 +94,7 @@ enum {
     PROBE_SIZE = 128,
     TRANSFER_PARAMETERS = 12,
     TILE_ESTIMATES = 16,
+    TILE_PASSES = 4,
     TIMER_FRAMES = 4,
     MAX_DRAW_BUFFERS = 8,
     TOGGLE_CAPACITY = 32
@@ -114,6 +123,9 @@ typedef struct glssao__frame_constants {
     float gNoise[2];
     float gAccumulation[4];
     float gProbe[4];
+    float gTiles[4];
+    float gTileRings;
+    float gPadding[3]; /* std140 rounds the block up */
 } glssao__frame_constants;
 
 /* glsl/cb_hemisphere.glsl in C. */
@@ -142,6 +154,15 @@ typedef struct glssao__target {
     gl_enum format;
 } glssao__target;
 
+/* What tells the tiles that need an estimate; made when first needed. */
+typedef struct glssao__tiles {
+    glssao__target rows, bounds; /* RGBA32F, as glsl/tile_rows.frag has it */
+    glssao__target needed;       /* R32F, 1: needs an estimate */
+    glssao__target rings;        /* R32F, as glsl/tile_rings.frag has it */
+    bool used;                   /* by the last frame */
+    int drawn;                   /* quads that a draw takes with the program in use: 1, or as many as there are tiles */
+} glssao__tiles;
+
 /* A rectangle of a map, in its pixels. */
 typedef struct glssao__region {
     int x, y, width, height;
@@ -150,7 +171,12 @@ typedef struct glssao__region {
 typedef struct glssao__program_object {
     gl_uint name;
     gl_int horizontal_location, origin_location; /* of gHorizontalBlur and gOrigin, -1 where there is none */
+    gl_int tile_range_location;                  /* of gTileRange */
 } glssao__program_object;
+
+typedef struct glssao__tile_programs {
+    glssao__program_object rows, bounds, needed, rings;
+} glssao__tile_programs;
 
 typedef struct glssao__timer_frame {
     gl_uint queries[GLSSAO_PASS_COUNT][2]; /* timestamps before and after */
@@ -206,6 +232,7 @@ struct glssao_effect {
     glssao__ambient_maps ambient;
     glssao__ambient_maps paired; /* accessibility and the linear quantity of distance; made when first needed */
     bool is_paired;              /* the last frame's passes drew into them */
+    glssao__tiles tiles;
     bool ambient_is_one;         /* both ambient maps hold 1 everywhere: nothing to clear */
     gl_uint random_vector_map;
     gl_uint depth_texture; /* the host's, as last handed over */
@@ -282,6 +309,25 @@ glssao__region glssao__plan_region(const glssao_effect *effect, const glssao_fra
 glssao__region glssao__plan_result(const glssao_effect *effect, const glssao_frame *frame,
                                    const glssao_settings *settings, const glssao_plan *plan);
 
+/* How many texels of the estimate beyond a pixel the passes after it read. */
+int glssao__plan_reach(const glssao_settings *settings, const glssao_plan *plan);
+/* Whether a pass reads the linear quantity of distance beside accessibility. */
+bool glssao__plan_is_paired(const glssao_settings *settings, const glssao_plan *plan);
+
+/* tiles.c */
+void glssao__tiles_size(int width, int height, int *out_columns, int *out_rows);
+/* Why tiles are not sorted where the estimate has this size; NULL where they are. */
+const char *glssao__tiles_refusal(const glssao_settings *settings, int width, int height);
+unsigned glssao__tiles_variant(const glssao_settings *settings);
+/* In how many tiles around one that needs an estimate passes that read so many pixels find something to do. */
+int glssao__tiles_rings(int reach);
+void glssao__tiles_fill_constants(glssao__frame_constants *c, const glssao_settings *settings, int rings);
+void glssao__tiles_run(glssao_effect *effect, const glssao__tile_programs *programs);
+/* The program in use draws tiles that are `least` to `most` away from one that needs an estimate, until the next
+ * glssao__draw_use. */
+void glssao__tiles_select(glssao_effect *effect, const glssao__program_object *program, int least, int most);
+void glssao__tiles_destroy(glssao_effect *effect);
+
 /* state.c: saves what the passes touch, then sets what they need; and puts all of it back. */
 void glssao__state_save(const glssao__gl *gl, glssao__host_state *out_state);
 void glssao__state_restore(const glssao__gl *gl, const glssao__host_state *state);
@@ -294,7 +340,7 @@ void glssao__state_set_viewport(const glssao__gl *gl, const gl_float viewport[4]
 /* draw.c */
 void glssao__draw_bind(const glssao_effect *effect, enum glssao__unit unit, gl_uint texture,
                        enum glssao__sampler sampler);
-void glssao__draw_use(const glssao_effect *effect, const glssao__program_object *program);
+void glssao__draw_use(glssao_effect *effect, const glssao__program_object *program);
 /* Covers width x height of the framebuffer with the bound program. */
 void glssao__draw(const glssao_effect *effect, gl_uint framebuffer, int width, int height);
 /* The same, but draws no pixel outside of the region. */
@@ -333,7 +379,10 @@ void glssao__maps_delete_target(const glssao__gl *gl, glssao__target *target);
 /* The texture that holds the result. */
 gl_uint glssao__maps_result(const glssao_effect *effect, int *out_width, int *out_height);
 glssao_result glssao__maps_make_random_vector(glssao_effect *effect);
+glssao_result glssao__maps_fit_tiles(glssao_effect *effect, int width, int height, bool from_depth);
 void glssao__maps_clear_result(glssao_effect *effect);
+/* 1 into all maps that the frame's passes after the tiles draw into. */
+void glssao__maps_clear_all(glssao_effect *effect);
 void glssao__maps_make_samplers(glssao_effect *effect);
 glssao_result glssao__maps_check_texture(glssao_effect *effect, gl_uint texture, bool needs_depth, const char *field);
 

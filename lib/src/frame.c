@@ -5,7 +5,8 @@
 #include "effect.h"
 
 typedef struct frame_programs {
-    glssao__program_object normals, distance, estimate, resolve, probe, blur, upsample;
+    glssao__program_object normals, distance, estimate, open, resolve, probe, blur, upsample;
+    glssao__tile_programs tiles;
 } frame_programs;
 
 /* How the host stores what the passes read. */
@@ -65,6 +66,7 @@ static glssao_result get_programs(glssao_effect *effect, const glssao_frame *fra
     unsigned inputs = input_variant(frame);
     unsigned blur = inputs | (settings->blur == GLSSAO_BLUR_BILATERAL ? VARIANT_EDGE_AWARE : 0u) |
                     (settings->blur == GLSSAO_BLUR_BOX ? VARIANT_BOX : 0u);
+    unsigned tiles = inputs | glssao__tiles_variant(settings);
     const struct {
         glssao_pass pass;
         enum glssao__shader shader;
@@ -73,6 +75,10 @@ static glssao_result get_programs(glssao_effect *effect, const glssao_frame *fra
     } needed[] = {
         {GLSSAO_PASS_NORMALS, SHADER_NORMALS, inputs, &out->normals},
         {GLSSAO_PASS_DISTANCE, SHADER_DISTANCE, inputs, &out->distance},
+        {GLSSAO_PASS_TILES, SHADER_TILE_ROWS, tiles, &out->tiles.rows},
+        {GLSSAO_PASS_TILES, SHADER_TILE_BOUNDS, tiles, &out->tiles.bounds},
+        {GLSSAO_PASS_TILES, SHADER_TILE_CLASS, tiles, &out->tiles.needed},
+        {GLSSAO_PASS_TILES, SHADER_TILE_RINGS, 0, &out->tiles.rings},
         {GLSSAO_PASS_ESTIMATE, estimate_shader(settings),
          inputs | estimate_variant(settings) | (plan->passes[GLSSAO_PASS_RESOLVE].run ? VARIANT_ACCUMULATE : 0u),
          &out->estimate},
@@ -85,14 +91,9 @@ static glssao_result get_programs(glssao_effect *effect, const glssao_frame *fra
     for (size_t i = 0; i < sizeof needed / sizeof *needed && result == GLSSAO_OK; ++i)
         if (plan->passes[needed[i].pass].run)
             result = glssao__program_get(effect, needed[i].shader, needed[i].variant, needed[i].out);
+    if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_TILES].run && glssao__plan_is_paired(settings, plan))
+        result = glssao__program_get(effect, estimate_shader(settings), inputs | VARIANT_OPEN, &out->open);
     return result;
-}
-
-/* Whether a pass reads the linear quantity of distance beside accessibility. */
-static bool is_paired(const glssao_settings *settings, const glssao_plan *plan)
-{
-    return plan->passes[GLSSAO_PASS_UPSAMPLE].run ||
-           (plan->passes[GLSSAO_PASS_BLUR].run && settings->blur == GLSSAO_BLUR_PLANAR);
 }
 
 /* Whether the result goes to a map of its own: the passes draw into maps of the estimate's size. */
@@ -111,11 +112,13 @@ static glssao_result fit_maps(glssao_effect *effect, const glssao_frame *frame, 
     glssao_result result = GLSSAO_OK;
     if (plan->passes[GLSSAO_PASS_DISTANCE].run)
         result = glssao__maps_fit_distance(effect, width, height, frame->back_texture != 0);
+    if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_TILES].run)
+        result = glssao__maps_fit_tiles(effect, width, height, glssao__tiles_variant(settings) & VARIANT_FROM_DEPTH);
     if (result == GLSSAO_OK && is_apart(plan, frame))
         result = glssao__maps_fit_result(effect, delivered.width, delivered.height);
     if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_RESOLVE].run)
         result = glssao__maps_fit_accumulation(effect);
-    if (result == GLSSAO_OK && is_paired(settings, plan))
+    if (result == GLSSAO_OK && glssao__plan_is_paired(settings, plan))
         result = glssao__maps_fit_paired(effect, width, height);
     if (result != GLSSAO_OK || (width == effect->ambient.width && height == effect->ambient.height))
         return result;
@@ -152,6 +155,7 @@ typedef struct frame_run {
     const glssao_plan *plan;
     frame_programs programs;
     glssao__region delivered; /* what of the last pass's map is the result */
+    int rings;                /* tiles around one that needs an estimate in which blur and upsampling may change something */
 } frame_run;
 
 static bool runs(const frame_run *r, glssao_pass pass)
@@ -181,6 +185,20 @@ static void map_distance(const frame_run *r)
     }
     glssao__draw(effect, effect->distance_map.framebuffer, effect->distance_map.width, effect->distance_map.height);
     glssao__draw_bind(effect, UNIT_DISTANCE, effect->distance_map.texture, SAMPLER_POINT_CLAMP);
+}
+
+static void sort_tiles(const frame_run *r)
+{
+    glssao__tiles_run(r->effect, &r->programs.tiles);
+    /* Before the rest draws on top: what no pass draws is 1. */
+    glssao__maps_clear_all(r->effect);
+}
+
+/* Draws what lies `least` to `most` tiles from one that needs an estimate; everything, without tiles. */
+static void select_tiles(const frame_run *r, const glssao__program_object *program, int least, int most)
+{
+    if (runs(r, GLSSAO_PASS_TILES))
+        glssao__tiles_select(r->effect, program, least, most);
 }
 
 /* The two maps that the passes of a frame draw into by turns, and read from. */
@@ -221,6 +239,11 @@ static void estimate(const frame_run *r)
     if (!runs(r, GLSSAO_PASS_RESOLVE)) {
         draw_turn(r, &r->programs.estimate, GLSSAO_PASS_ESTIMATE, 0,
                   !runs(r, GLSSAO_PASS_BLUR) && !runs(r, GLSSAO_PASS_UPSAMPLE));
+        if (r->plan->passes[GLSSAO_PASS_ESTIMATE].draw_calls > 1) {
+            glssao__draw_use(effect, &r->programs.open);
+            select_tiles(r, &r->programs.open, 1, r->rings + 2);
+            draw_turn(r, &r->programs.open, GLSSAO_PASS_ESTIMATE, 0, false);
+        }
         return;
     }
     /* Added to the sum of its replicate. */
@@ -246,6 +269,8 @@ static void blur(const frame_run *r)
     for (int i = 1; i <= count; ++i) {
         /* Horizontal 0 to 1, vertical 1 to 0. */
         r->effect->gl.Uniform1i(r->programs.blur.horizontal_location, i % 2);
+        /* The vertical pass reads a tile farther than it draws. */
+        select_tiles(r, &r->programs.blur, 0, r->rings + i % 2);
         draw_turn(r, &r->programs.blur, GLSSAO_PASS_BLUR, i, i == count && !runs(r, GLSSAO_PASS_UPSAMPLE));
     }
 }
@@ -254,6 +279,7 @@ static void upsample(const frame_run *r)
 {
     glssao_effect *effect = r->effect;
     glssao__draw_use(effect, &r->programs.upsample);
+    select_tiles(r, &r->programs.upsample, 0, r->rings);
     glssao__draw_bind(effect, UNIT_DEPTH, depth_source(r->frame), SAMPLER_POINT_CLAMP);
     glssao__draw_bind(effect, UNIT_AMBIENT, turns(effect)->texture[0], SAMPLER_POINT_CLAMP);
     glssao__draw_crop(effect, &r->programs.upsample, &effect->result_map, effect->width, effect->height, &r->delivered);
@@ -265,6 +291,7 @@ static void run_passes(const frame_run *r)
     static void (*const passes[GLSSAO_PASS_COUNT])(const frame_run *) = {
         [GLSSAO_PASS_NORMALS] = rebuild_normals,
         [GLSSAO_PASS_DISTANCE] = map_distance,
+        [GLSSAO_PASS_TILES] = sort_tiles,
         [GLSSAO_PASS_ESTIMATE] = estimate,
         [GLSSAO_PASS_RESOLVE] = resolve,
         [GLSSAO_PASS_BLUR] = blur,
@@ -275,7 +302,7 @@ static void run_passes(const frame_run *r)
         if (!planned->run)
             continue;
         glssao__stats_begin_pass(r->effect, (glssao_pass)i);
-        if (i == GLSSAO_PASS_ESTIMATE)
+        if (i == GLSSAO_PASS_ESTIMATE || i == GLSSAO_PASS_TILES)
             glssao__draw_bind(r->effect, UNIT_NORMAL,
                               r->frame->normal_texture ? r->frame->normal_texture : r->effect->normal_map.texture,
                               SAMPLER_POINT_CLAMP);
@@ -312,7 +339,8 @@ static glssao_result run(glssao_effect *effect, const glssao_frame *frame, const
                    .frame = frame,
                    .settings = settings,
                    .plan = plan,
-                   .delivered = glssao__plan_result(effect, frame, settings, plan)};
+                   .delivered = glssao__plan_result(effect, frame, settings, plan),
+                   .rings = glssao__tiles_rings(glssao__plan_reach(settings, plan))};
     glssao_result result = check_textures(effect, frame);
     if (result == GLSSAO_OK)
         result = get_programs(effect, frame, settings, plan, &r.programs);
@@ -326,6 +354,7 @@ static glssao_result run(glssao_effect *effect, const glssao_frame *frame, const
     glssao__constants_fill(&effect->constants, frame, settings, projection, effect->ambient.width,
                            effect->ambient.height);
     glssao__constants_fill_frame(&effect->frame_constants, frame, settings, projection);
+    glssao__tiles_fill_constants(&effect->frame_constants, settings, r.rings);
     if (settings->technique == GLSSAO_HEMISPHERE)
         glssao__constants_fill_kernel(&effect->hemisphere_constants, effect->seed, settings->sample_count);
     if (plan->passes[GLSSAO_PASS_RESOLVE].run) {
@@ -336,8 +365,9 @@ static glssao_result run(glssao_effect *effect, const glssao_frame *frame, const
     }
     upload_constants(effect, settings->technique == GLSSAO_HEMISPHERE ? BLOCK_COUNT : BLOCK_HEMISPHERE);
     glssao__stats_begin_frame(effect);
-    effect->is_paired = is_paired(settings, plan);
+    effect->is_paired = glssao__plan_is_paired(settings, plan);
     effect->has_result_map = is_apart(plan, frame);
+    effect->tiles.used = plan->passes[GLSSAO_PASS_TILES].run;
     if (!plan->passes[GLSSAO_PASS_ESTIMATE].run) {
         glssao__maps_clear_result(effect);
         return GLSSAO_OK;
@@ -408,7 +438,7 @@ static glssao_result apply(glssao_effect *effect, gl_uint framebuffer)
     }
     glssao__stats_begin_pass(effect, GLSSAO_PASS_APPLY);
     glssao__state_set_blend(gl, GL_ZERO, GL_SRC_COLOR);
-    gl->UseProgram(program.name);
+    glssao__draw_use(effect, &program);
     int width, height;
     glssao__draw_bind(effect, UNIT_AMBIENT, glssao__maps_result(effect, &width, &height), SAMPLER_LINEAR_CLAMP);
     glssao__draw(effect, framebuffer, effect->width - 2 * effect->margin, effect->height - 2 * effect->margin);

@@ -249,6 +249,7 @@ enum {
        gl_enum format, gl_enum type, const void *pixels))                                                              \
     X(void, TexParameteri, (gl_enum target, gl_enum name, gl_int value))                                               \
     X(void, Uniform2f, (gl_int location, gl_float x, gl_float y))                                                      \
+    X(void, Uniform4f, (gl_int location, gl_float x, gl_float y, gl_float z, gl_float w))                              \
     X(void, Uniform1i, (gl_int location, gl_int value))                                                                \
     X(void, UniformBlockBinding, (gl_uint program, gl_uint block, gl_uint binding))                                    \
     X(void, UseProgram, (gl_uint program))                                                                             \

@@ -27,12 +27,17 @@ static glssao__region grown(glssao__region r, int by, int width, int height)
     return r;
 }
 
-/* How many texels of the estimate beyond a pixel the passes after it read. */
-static int reach(const glssao_settings *settings, const glssao_plan *plan)
+int glssao__plan_reach(const glssao_settings *settings, const glssao_plan *plan)
 {
     int taps = settings->blur == GLSSAO_BLUR_BOX || settings->blur == GLSSAO_BLUR_PLANAR ? 2 : 5;
     return (plan->passes[GLSSAO_PASS_BLUR].run ? taps * settings->blur_rounds : 0) +
            (plan->passes[GLSSAO_PASS_UPSAMPLE].run ? 1 : 0);
+}
+
+bool glssao__plan_is_paired(const glssao_settings *settings, const glssao_plan *plan)
+{
+    return plan->passes[GLSSAO_PASS_UPSAMPLE].run ||
+           (plan->passes[GLSSAO_PASS_BLUR].run && settings->blur == GLSSAO_BLUR_PLANAR);
 }
 
 glssao__region glssao__plan_result(const glssao_effect *effect, const glssao_frame *frame,
@@ -48,13 +53,13 @@ glssao__region glssao__plan_result(const glssao_effect *effect, const glssao_fra
 glssao__region glssao__plan_region(const glssao_effect *effect, const glssao_frame *frame,
                                    const glssao_settings *settings, const glssao_plan *plan, glssao_pass pass)
 {
-    int width, height, factor = settings->half_resolution ? 2 : 1, by = reach(settings, plan);
+    int width, height, factor = settings->half_resolution ? 2 : 1, by = glssao__plan_reach(settings, plan);
     glssao__plan_ambient_size(effect, settings, &width, &height);
     if (pass == GLSSAO_PASS_UPSAMPLE)
         return inner(effect->width, effect->height, frame->margin);
     if (pass == GLSSAO_PASS_NORMALS)
         return grown(inner(effect->width, effect->height, frame->margin), factor * by, effect->width, effect->height);
-    if (pass == GLSSAO_PASS_DISTANCE) /* occluders are looked for in the margin */
+    if (pass == GLSSAO_PASS_DISTANCE || pass == GLSSAO_PASS_TILES) /* occluders are looked for in the margin */
         return inner(width, height, 0);
     return grown(inner(width, height, frame->margin / factor), by, width, height);
 }
@@ -123,12 +128,24 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
     else
         *distance = planned(GLSSAO_PASS_DISTANCE, false, "no pass reads it");
 
+    int width, height;
+    glssao__plan_ambient_size(effect, settings, &width, &height);
+    const char *refusal = glssao__tiles_refusal(settings, width, height);
+    struct glssao_planned_pass *tiles = &plan.passes[GLSSAO_PASS_TILES];
+    *tiles = refusal ? planned(GLSSAO_PASS_TILES, false, refusal)
+                     : planned(GLSSAO_PASS_TILES, true, "what no occluder can reach is left out below");
+
     for (int i = 0; i < GLSSAO_PASS_COUNT; ++i) {
         struct glssao_planned_pass *pass = &plan.passes[i];
         if (i == GLSSAO_PASS_APPLY || i == GLSSAO_PASS_RESOLVE)
             continue;
         const glssao__region region = glssao__plan_region(effect, frame, settings, &plan, (glssao_pass)i);
-        pass->draw_calls = !pass->run ? 0 : pass == blur ? 2 * settings->blur_rounds : 1;
+        const bool fills = tiles->run && glssao__plan_is_paired(settings, &plan); /* what neighbours read */
+        pass->draw_calls = !pass->run                 ? 0
+                           : pass == blur             ? 2 * settings->blur_rounds
+                           : pass == tiles            ? TILE_PASSES
+                           : pass == estimate && fills ? 2
+                                                      : 1;
         pass->width = region.width;
         pass->height = region.height;
     }

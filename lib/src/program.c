@@ -22,11 +22,15 @@ static const char *const macros[VARIANT_FLAGS] = {
     "SLICES_2",
     "ACCUMULATE",
     "LAYERS",
+    "OPEN",
+    "PLANES",
+    "FROM_DEPTH",
 };
 
 enum {
     NORMAL_FLAGS = VARIANT_UNSIGNED_NORMALS | VARIANT_OCTAHEDRAL_NORMALS,
     DEPTH_FLAGS = VARIANT_DEPTH_IS_DISTANCE | VARIANT_DEPTH_IN_ALPHA,
+    TILE_FLAGS = NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_PLANES | VARIANT_FROM_DEPTH,
     STEP_FLAGS = VARIANT_STEPS_8 | VARIANT_STEPS_12 | VARIANT_STEPS_16
 };
 
@@ -38,14 +42,15 @@ static const struct shader {
 } shaders[SHADER_COUNT] = {
     [SHADER_NORMALS] = {"normals", DEPTH_FLAGS, {shader_view_glsl, shader_normals_frag}},
     [SHADER_CLASSIC] = {"classic",
-                        NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_NO_ANGLE_WEIGHT,
+                        NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_NO_ANGLE_WEIGHT | VARIANT_OPEN,
                         {shader_view_glsl, shader_normal_map_glsl, shader_classic_frag}},
     [SHADER_HEMISPHERE] = {"hemisphere",
-                           NORMAL_FLAGS | DEPTH_FLAGS,
+                           NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_OPEN,
                            {shader_view_glsl, shader_normal_map_glsl, shader_hemisphere_frag}},
     [SHADER_DISTANCE] = {"distance", DEPTH_FLAGS | VARIANT_LAYERS, {shader_view_glsl, shader_distance_frag}},
     [SHADER_HORIZON] = {"horizon",
-                        NORMAL_FLAGS | STEP_FLAGS | VARIANT_SLICES_2 | VARIANT_ACCUMULATE | VARIANT_LAYERS,
+                        NORMAL_FLAGS | STEP_FLAGS | VARIANT_SLICES_2 | VARIANT_ACCUMULATE | VARIANT_LAYERS |
+                            VARIANT_OPEN,
                         {shader_view_glsl, shader_normal_map_glsl, shader_horizon_frag}},
     [SHADER_RESOLVE] = {"resolve", 0, {shader_view_glsl, shader_resolve_frag}},
     [SHADER_PROBE] = {"probe", 0, {shader_view_glsl, shader_probe_frag}},
@@ -55,6 +60,16 @@ static const struct shader {
                      NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_BOX | VARIANT_EDGE_AWARE,
                      {shader_view_glsl, shader_normal_map_glsl, shader_blur_frag}},
     [SHADER_APPLY] = {"apply", 0, {shader_apply_frag}},
+    [SHADER_TILE_ROWS] = {"tile-rows",
+                          TILE_FLAGS,
+                          {shader_view_glsl, shader_normal_map_glsl, shader_tile_map_glsl, shader_tile_rows_frag}},
+    [SHADER_TILE_BOUNDS] = {"tile-bounds",
+                            TILE_FLAGS,
+                            {shader_view_glsl, shader_normal_map_glsl, shader_tile_map_glsl, shader_tile_bounds_frag}},
+    [SHADER_TILE_CLASS] = {"tile-class",
+                           TILE_FLAGS,
+                           {shader_view_glsl, shader_normal_map_glsl, shader_tile_map_glsl, shader_tile_class_frag}},
+    [SHADER_TILE_RINGS] = {"tile-rings", 0, {shader_tile_rings_frag}},
 };
 
 const char *glssao__program_shader_name(enum glssao__shader shader)
@@ -177,6 +192,8 @@ static const struct member {
     FRAME(gNoise),
     FRAME(gAccumulation),
     FRAME(gProbe),
+    FRAME(gTiles),
+    FRAME(gTileRings),
 #undef FRAME
     {BLOCK_HEMISPHERE, "gKernel", offsetof(glssao__hemisphere_constants, gKernel)},
     {BLOCK_HEMISPHERE, "gRotations", offsetof(glssao__hemisphere_constants, gRotations)},
@@ -253,7 +270,7 @@ static void tie_samplers(const glssao__gl *gl, gl_uint program)
     } samplers[] = {
         {"u_normal_map", UNIT_NORMAL},   {"u_depth_map", UNIT_DEPTH},       {"u_random_vector_map", UNIT_RANDOM_VECTOR},
         {"u_ambient_map", UNIT_AMBIENT}, {"u_distance_map", UNIT_DISTANCE}, {"u_back_map", UNIT_BACK},
-        {"u_second_map", UNIT_SECOND},
+        {"u_second_map", UNIT_SECOND},   {"u_tile_map", UNIT_TILES},
     };
     gl->UseProgram(program);
     for (size_t i = 0; i < sizeof samplers / sizeof *samplers; ++i)
@@ -281,6 +298,7 @@ static glssao_result make(glssao_effect *effect, enum glssao__shader shader, uns
         return GLSSAO_SHADER_ERROR;
     tie_samplers(gl, out->name);
     out->horizontal_location = gl->GetUniformLocation(out->name, "gHorizontalBlur");
+    out->tile_range_location = gl->GetUniformLocation(out->name, "gTileRange");
     out->origin_location = gl->GetUniformLocation(out->name, "gOrigin");
     return GLSSAO_OK;
 }

@@ -118,6 +118,8 @@ bool glssao__settings_check(const glssao_settings *settings, const glssao__log_s
     int n = settings->sample_count;
     if (settings->technique == GLSSAO_HORIZON && n != 12 && n != 16 && n != 24 && n != 32 && n != 48 && n != 64)
         return refuse(log, "settings.sample_count", n, "horizon takes 12, 16, 24, 32, 48 or 64");
+    if ((unsigned)settings->tiles > GLSSAO_TILES_ON)
+        return refuse(log, "settings.tiles", settings->tiles, "unknown");
     if (settings->fade_end < settings->fade_start) {
         glssao__log_write(log, GLSSAO_LOG_ERROR, "settings.fade_end = %g: less than fade_start = %g",
                           (double)settings->fade_end, (double)settings->fade_start);
@@ -153,7 +155,8 @@ static bool check_frame(const glssao_effect *effect, const glssao_frame *frame, 
         return refuse(log, frame->back_texture ? "frame.second_texture" : "frame.back_texture", 0,
                       "no texture, but the other is there");
     const gl_uint written[] = {effect->ambient.texture[0], effect->ambient.texture[1],   effect->paired.texture[0],
-                               effect->paired.texture[1],  effect->distance_map.texture, effect->result_map.texture};
+                               effect->paired.texture[1],  effect->distance_map.texture, effect->result_map.texture,
+                               effect->tiles.rings.texture};
     for (size_t i = 0; i < sizeof written / sizeof *written; ++i)
         if (written[i] && (frame->depth_texture == written[i] || frame->normal_texture == written[i] ||
                            frame->back_texture == written[i] || frame->second_texture == written[i]))

@@ -101,6 +101,12 @@ typedef enum glssao_blur {  /* how noise is taken out of the estimate */
     GLSSAO_BLUR_PLANAR     /* separable box over a 4 x 4 tile that follows surfaces: the horizon technique's own */
 } glssao_blur;
 
+typedef enum glssao_tiles { /* whether tiles of the picture where nothing can occlude are looked for and left out */
+    GLSSAO_TILES_AUTO = 0,  /* where it can pay */
+    GLSSAO_TILES_OFF,
+    GLSSAO_TILES_ON
+} glssao_tiles;
+
 typedef struct glssao_settings {   /* fill with glssao_default_settings() first, then change what you like */
     glssao_technique technique;    /* decides which of the fields below count */
     float radius;                  /* scene units, >= 0: how far away an occluder can be. 0 occludes nothing */
@@ -119,6 +125,7 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     float blur_sigma;              /* pixels of the ambient map, above 0 to 2.5 */
     float blur_normal_threshold;   /* cosine, -1 to 1: taps whose normals' dot product is below are dropped */
     float blur_depth_threshold;    /* scene units, >= 0: taps farther off in view distance are dropped */
+    glssao_tiles tiles;            /* the picture is the same with and without, within a step of R16 */
     bool no_angle_weight;          /* classic, for teaching: occluders count at any angle, so flat surfaces darken */
 } glssao_settings;
 
@@ -160,7 +167,9 @@ typedef enum glssao_map_id { /* textures to look at */
                                  with distance in green, after upsampling or the planar blur */
     GLSSAO_MAP_NORMAL,        /* the effect's own normal map, RGBA16F, full size */
     GLSSAO_MAP_RANDOM_VECTOR, /* RGBA8, 256 x 256 */
-    GLSSAO_MAP_DEPTH          /* the host's depth texture as last handed over; 0 before the first */
+    GLSSAO_MAP_DEPTH,         /* the host's depth texture as last handed over; 0 before the first */
+    GLSSAO_MAP_TILES          /* one texel a tile, R32F: 0: estimated; above: left out, 1/16 for each tile that lies between
+                                 it and an estimated one, itself included; 0 where the last frame had no tiles */
 } glssao_map_id;
 
 /* The uniform block cbSsao, std140, with the D3D12 demo's members and names. Matrices are column-major. */
@@ -178,6 +187,7 @@ typedef struct glssao_constants {
 typedef enum glssao_pass { /* in the order of the frame */
     GLSSAO_PASS_NORMALS = 0, /* normals rebuilt from depth */
     GLSSAO_PASS_DISTANCE,    /* view distance at the estimate's size */
+    GLSSAO_PASS_TILES,       /* tiles without any occlusion looked for, so that later passes leave them out */
     GLSSAO_PASS_ESTIMATE,    /* raw accessibility */
     GLSSAO_PASS_RESOLVE,     /* the mean of accumulated estimates and its error, by glssao_accumulate */
     GLSSAO_PASS_BLUR,        /* all rounds */
