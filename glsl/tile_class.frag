@@ -101,6 +101,10 @@ bool needs_estimate(ivec2 tile)
     vec3 plane = normal_at(middle);
     vec3 point = position_view_from_uv(uv_at(vec2(middle)), distances_at(middle).x);
     flat_all = own.z <= gTiles.z;
+#if !FROM_DEPTH
+    // On the picture's edge a sample is clamped to a texel that can lie at right angles to its slice, where rounding is all.
+    flat_all = flat_all && all(greaterThan(tile, ivec2(0))) && all(lessThan(tile, tiles - 1));
+#endif
     for (int i = 0; i < 4; ++i) {
         vec3 ray = ray_at(corner_of(tile, i));
         flat_all = flat_all && -dot(plane, ray) >= FACING * length(ray);

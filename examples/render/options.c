@@ -94,8 +94,8 @@ static const option table[] = {
     {0, "specular-occlusion", NULL, "occlusion darkens reflections by their lobe", KIND_FLAG, AT(specular_occlusion), 0,
      0, NULL},
     {0, "multi-bounce", NULL, "occluded light takes on the surface's colour", KIND_FLAG, AT(multi_bounce), 0, 0, NULL},
-    {0, "debug-map", "NAME", "in the picture's lower right: ao, normals, depth, random or shadow", KIND_WORD,
-     AT(debug_map), 0, 0, "none|ao|normals|depth|random|shadow"},
+    {0, "debug-map", "NAME", "in the picture's lower right: ao, normals, depth, random, shadow or tiles", KIND_WORD,
+     AT(debug_map), 0, 0, "none|ao|normals|depth|random|shadow|tiles"},
     {0, "seed", "N", "of every random input (0)", KIND_SEED, AT(seed), 0, 4294967295.0,
      "a whole number from 0 to 4294967295"},
     {'h', "help", NULL, "prints this", KIND_FLAG, AT(help), 0, 0, NULL},
@@ -368,8 +368,9 @@ static bool check_together(const options *o, const program *p, char *error, size
         snprintf(error, error_size, "--no-ao and --ao %s exclude each other", o->ao);
     } else if (o->no_shadows && (o->shadow_size || o->debug_map == OPTIONS_MAP_SHADOW)) {
         snprintf(error, error_size, "--no-shadows excludes --shadow-size and --debug-map shadow");
-    } else if (o->debug_map == OPTIONS_MAP_AO && o->no_ao) {
-        snprintf(error, error_size, "--no-ao and --debug-map ao exclude each other");
+    } else if ((o->debug_map == OPTIONS_MAP_AO || o->debug_map == OPTIONS_MAP_TILES) && o->no_ao) {
+        snprintf(error, error_size, "--no-ao and --debug-map %s exclude each other",
+                 o->debug_map == OPTIONS_MAP_AO ? "ao" : "tiles");
     } else if (o->debug_map && !o->output && !p->is_viewer) {
         snprintf(error, error_size, "--debug-map: needs a picture, -o FILE.png");
     } else if (o->frames && o->bench) {
