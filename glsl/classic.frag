@@ -28,9 +28,7 @@ void main()
     float depth = fetched_depth(texel);
     float distance = is_sky(depth) ? FAR_AWAY : distance_from_depth(depth);
     o_ambient = vec2(1.0, linear_from_distance(distance));
-#if OPEN
-    return;
-#endif
+#if !OPEN
     // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
     if (distance == FAR_AWAY || normal_view == vec3(0.0))
         return;
@@ -62,4 +60,5 @@ void main()
     float accessibility = 1.0 - occlusion / float(gSampleCount);
     // pow() is undefined for a base of 0 with power 0, and for the negative that rounding can leave.
     o_ambient = vec2(clamp(pow(max(accessibility, 1e-6), gPower), 0.0, 1.0), linear_from_distance(distance));
+#endif
 }

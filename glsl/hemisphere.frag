@@ -28,9 +28,7 @@ void main()
     float depth = fetched_depth(texel);
     float center_distance = is_sky(depth) ? FAR_AWAY : distance_from_depth(depth);
     o_ambient = vec2(1.0, linear_from_distance(center_distance));
-#if OPEN
-    return;
-#endif
+#if !OPEN
     // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
     if (center_distance == FAR_AWAY || normal_view == vec3(0.0))
         return;
@@ -58,4 +56,5 @@ void main()
     float accessibility = 1.0 - occlusion / max(counted, 1.0);
     // pow() is undefined for a base of 0 with power 0.
     o_ambient = vec2(clamp(pow(max(accessibility, 1e-6), gPower), 0.0, 1.0), linear_from_distance(center_distance));
+#endif
 }

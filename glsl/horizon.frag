@@ -274,9 +274,7 @@ void main()
 #else
     o_ambient = vec2(1.0, linear_from_distance(distance));
 #endif
-#if OPEN
-    return;
-#endif
+#if !OPEN
     // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
     if (distance >= FAR_AWAY || normal_view == vec3(0.0))
         return;
@@ -301,5 +299,6 @@ void main()
     o_ambient = gAccumulation.xy * pow(open, CALIBRATION);
 #else
     o_ambient.x = clamp(pow(open, CALIBRATION * gPower), 0.0, 1.0);
+#endif
 #endif
 }

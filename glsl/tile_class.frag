@@ -42,14 +42,17 @@ vec2 corner_of(ivec2 tile, int i)
 // Whether nothing of the other tile rises above the plane through `point`.
 bool lies_below(ivec2 tile, float nearest, vec3 plane, vec3 point)
 {
-    bool below = nearest > 0.0;
-    for (int i = 0; i < 4; ++i) {
-        vec2 uv = corner_of(tile, i);
-        vec3 to_corner = position_view_from_uv(uv, nearest) - point;
-        // Seen from its front, the plane is left downwards along every ray.
-        below = below && dot(plane, ray_at(uv)) < 0.0 && dot(plane, to_corner) < -gTiles.z * length(to_corner);
-    }
-    return below;
+    float side = float(tile_side());
+    vec2 middle = uv_at((vec2(tile) + 0.5) * side - 0.5);
+    vec2 half_uv = 0.5 * side * (uv_at(vec2(1.0)) - uv_at(vec2(0.0)));
+    // Heights over the parallel plane through the eye, at the corner where they are greatest. Seen from its front, the
+    // plane is left downwards along every ray, so that the nearest surface is the highest.
+    vec3 ray = ray_at(middle);
+    float along = dot(plane, ray) + dot(abs(plane.xy * gRayDirection.xy), half_uv);
+    float origin = dot(plane.xy, middle * gRayOrigin.xy + gRayOrigin.zw) + dot(abs(plane.xy * gRayOrigin.xy), half_uv);
+    // All of the other tile is nearer to the point than by way of the eye; the rays of a tile are alike.
+    float farthest = length(point) + 2.0 * nearest * length(ray) + length(point.xy);
+    return nearest > 0.0 && along < 0.0 && origin + along * nearest - dot(plane, point) < -gTiles.z * farthest;
 }
 
 bool lies_in_plane(ivec2 tile, vec3 bounds, vec3 plane, vec3 point)
@@ -111,14 +114,15 @@ bool needs_estimate(ivec2 tile)
     }
 #endif
     float nearest = own.x;
-    for (int y = first.y; y <= last.y; ++y)
-        for (int x = first.x; x <= last.x; ++x) {
+    bool may_be_open = flat_all || gTiles.w > 0.0;
+    for (int y = first.y; y <= last.y && may_be_open; ++y)
+        for (int x = first.x; x <= last.x && may_be_open; ++x) {
             vec3 other = bounds_of(ivec2(x, y));
             nearest = min(nearest, other.x);
 #if PLANES
-            if (flat_all)
-                flat_all = is_open_sky(other, own.y) || lies_in_plane(ivec2(x, y), other, plane, point) ||
-                           lies_below(ivec2(x, y), other.x, plane, point);
+            flat_all = flat_all && (is_open_sky(other, own.y) || lies_in_plane(ivec2(x, y), other, plane, point) ||
+                                    lies_below(ivec2(x, y), other.x, plane, point));
+            may_be_open = flat_all || gTiles.w > 0.0;
 #endif
         }
     // The difference of two distances is off by their rounding.

@@ -10,35 +10,54 @@ out vec4 o_bounds;
 
 void main()
 {
-    ivec2 size = map_size();
+    ivec2 last = map_size() - 1;
     ivec2 tile = ivec2(int(gl_FragCoord.x), int(gl_FragCoord.y) / tile_side());
     int left = tile.x * tile_side();
-    int right = min(left + tile_side(), size.x);
+    int right = min(left + tile_side(), last.x + 1);
     int y = int(gl_FragCoord.y);
     vec2 bounds = vec2(FAR_AWAY, 0.0);
-    float off = 0.0;
+    vec2 own = distances_at(ivec2(left, y));
 #if PLANES
+    // Of a texel, the height over the parallel plane through the eye is its origin's share and its ray's times distance;
+    // both are linear across the picture.
     vec3 plane = normal_at(middle_of_tile(tile));
-    vec2 texel = texel_view();
-    float step_view = min(texel.x, texel.y);
+    vec2 uv = uv_at(vec2(left, y));
+    vec2 texel_uv = uv_at(vec2(left + 1, y + 1)) - uv;
+    vec2 origin_step = plane.xy * gRayOrigin.xy * texel_uv;
+    vec2 ray_step = plane.xy * gRayDirection.xy * texel_uv;
+    float origin = dot(plane.xy, uv * gRayOrigin.xy + gRayOrigin.zw);
+    float along = dot(plane, ray_at(uv));
+    bool has_upper = y < last.y;
+    float rise = 0.0;
+    float turn = 0.0;
+    float gaps = 0.0;
 #endif
     for (int x = left; x < right; ++x) {
-        vec2 distances = distances_at(ivec2(x, y));
-        bounds = vec2(min(bounds.x, distances.x), max(bounds.y, distances.y));
+        vec2 after = distances_at(ivec2(min(x + 1, last.x), y));
+        bounds = vec2(min(bounds.x, own.x), max(bounds.y, own.y));
 #if PLANES
-        vec2 uv = uv_at(vec2(x, y));
-        vec3 ray = ray_at(uv);
-        float own = dot(plane, position_view_from_uv(uv, distances.y));
-        // The shortest way from one texel's ray to the next's.
-        float shortest = step_view * (orthographic() ? 1.0 : distances.y) * inversesqrt(dot(ray, ray));
+        float upper = distances_at(ivec2(x, min(y + 1, last.y))).y;
         vec3 deviation = normal_at(ivec2(x, y)) - plane;
-        vec2 after = distances_at(min(ivec2(x + 1, y), size - 1));
-        vec2 above = distances_at(min(ivec2(x, y + 1), size - 1));
-        float right_height = x + 1 < size.x && after.y > 0.0 ? dot(plane, position_view_from_uv(uv_at(vec2(x + 1, y)), after.y)) : own;
-        float upper_height = y + 1 < size.y && above.y > 0.0 ? dot(plane, position_view_from_uv(uv_at(vec2(x, y + 1)), above.y)) : own;
-        float rise = max(abs(right_height - own), abs(upper_height - own));
-        off = max(off, distances.y > 0.0 ? max(rise / shortest, length(deviation)) : 1.0);
+        turn = max(turn, dot(deviation, deviation));
+        float height = origin + along * own.y;
+        float upper_height = origin + origin_step.y + (along + ray_step.y) * upper;
+        float upper_rise = upper > 0.0 && has_upper ? abs(upper_height - height) : 0.0;
+        origin += origin_step.x;
+        along += ray_step.x;
+        float right_height = origin + along * after.y;
+        float right_rise = after.y > 0.0 && x < last.x ? abs(right_height - height) : 0.0;
+        rise = max(rise, max(upper_rise, right_rise) / (orthographic() ? 1.0 : own.y));
+        gaps = own.y > 0.0 ? gaps : 1.0;
 #endif
+        own = after;
     }
-    o_bounds = vec4(bounds, min(off, 1.0), 0.0);
+    float off = 0.0;
+#if PLANES
+    // The shortest way from a texel's ray to the next's, over the distance.
+    vec2 texel = texel_view();
+    vec3 widest = max(abs(ray_at(uv)), abs(ray_at(uv + vec2(float(tile_side()), 0.0) * texel_uv)));
+    float shortest = min(texel.x, texel.y) / (orthographic() ? 1.0 : length(widest));
+    off = min(max(max(rise / shortest, sqrt(turn)), gaps), 1.0);
+#endif
+    o_bounds = vec4(bounds, off, 0.0);
 }

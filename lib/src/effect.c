@@ -72,7 +72,6 @@ glssao_result glssao_create(const glssao_config *config, glssao_effect **out_eff
     effect->seed = config->seed;
     effect->has_timers = !config->no_timers;
     effect->accumulation.sampling_error = -1.0;
-    effect->tiles.drawn = 1;
     effect->width = config->width;
     effect->height = config->height;
 

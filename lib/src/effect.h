@@ -160,7 +160,7 @@ typedef struct glssao__tiles {
     glssao__target needed;       /* R32F, 1: needs an estimate */
     glssao__target rings;        /* R32F, as glsl/tile_rings.frag has it */
     bool used;                   /* by the last frame */
-    int drawn;                   /* quads that a draw takes with the program in use: 1, or as many as there are tiles */
+    int point;                   /* side of a tile in the target that is drawn to next, pixels; 0: all of it is drawn */
 } glssao__tiles;
 
 /* A rectangle of a map, in its pixels. */
@@ -317,15 +317,15 @@ bool glssao__plan_is_paired(const glssao_settings *settings, const glssao_plan *
 /* tiles.c */
 void glssao__tiles_size(int width, int height, int *out_columns, int *out_rows);
 /* Why tiles are not sorted where the estimate has this size; NULL where they are. */
-const char *glssao__tiles_refusal(const glssao_settings *settings, int width, int height);
+const char *glssao__tiles_refusal(const glssao_effect *effect, const glssao_settings *settings, int width, int height);
 unsigned glssao__tiles_variant(const glssao_settings *settings);
 /* In how many tiles around one that needs an estimate passes that read so many pixels find something to do. */
 int glssao__tiles_rings(int reach);
 void glssao__tiles_fill_constants(glssao__frame_constants *c, const glssao_settings *settings, int rings);
 void glssao__tiles_run(glssao_effect *effect, const glssao__tile_programs *programs);
 /* The program in use draws tiles that are `least` to `most` away from one that needs an estimate, until the next
- * glssao__draw_use. */
-void glssao__tiles_select(glssao_effect *effect, const glssao__program_object *program, int least, int most);
+ * glssao__draw_use, over a target that has `factor` pixels to one of the estimate. */
+void glssao__tiles_select(glssao_effect *effect, const glssao__program_object *program, int factor, int least, int most);
 void glssao__tiles_destroy(glssao_effect *effect);
 
 /* state.c: saves what the passes touch, then sets what they need; and puts all of it back. */

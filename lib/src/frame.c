@@ -195,10 +195,10 @@ static void sort_tiles(const frame_run *r)
 }
 
 /* Draws what lies `least` to `most` tiles from one that needs an estimate; everything, without tiles. */
-static void select_tiles(const frame_run *r, const glssao__program_object *program, int least, int most)
+static void select_tiles(const frame_run *r, const glssao__program_object *program, int factor, int least, int most)
 {
     if (runs(r, GLSSAO_PASS_TILES))
-        glssao__tiles_select(r->effect, program, least, most);
+        glssao__tiles_select(r->effect, program, factor, least, most);
 }
 
 /* The two maps that the passes of a frame draw into by turns, and read from. */
@@ -237,11 +237,12 @@ static void estimate(const frame_run *r)
     glssao__draw_bind(effect, UNIT_RANDOM_VECTOR, effect->random_vector_map, SAMPLER_LINEAR_WRAP);
     glssao__draw_use(effect, &r->programs.estimate);
     if (!runs(r, GLSSAO_PASS_RESOLVE)) {
+        select_tiles(r, &r->programs.estimate, 1, 0, 0);
         draw_turn(r, &r->programs.estimate, GLSSAO_PASS_ESTIMATE, 0,
                   !runs(r, GLSSAO_PASS_BLUR) && !runs(r, GLSSAO_PASS_UPSAMPLE));
         if (r->plan->passes[GLSSAO_PASS_ESTIMATE].draw_calls > 1) {
             glssao__draw_use(effect, &r->programs.open);
-            select_tiles(r, &r->programs.open, 1, r->rings + 2);
+            select_tiles(r, &r->programs.open, 1, 1, r->rings + 2);
             draw_turn(r, &r->programs.open, GLSSAO_PASS_ESTIMATE, 0, false);
         }
         return;
@@ -270,7 +271,7 @@ static void blur(const frame_run *r)
         /* Horizontal 0 to 1, vertical 1 to 0. */
         r->effect->gl.Uniform1i(r->programs.blur.horizontal_location, i % 2);
         /* The vertical pass reads a tile farther than it draws. */
-        select_tiles(r, &r->programs.blur, 0, r->rings + i % 2);
+        select_tiles(r, &r->programs.blur, 1, 0, r->rings + i % 2);
         draw_turn(r, &r->programs.blur, GLSSAO_PASS_BLUR, i, i == count && !runs(r, GLSSAO_PASS_UPSAMPLE));
     }
 }
@@ -279,7 +280,7 @@ static void upsample(const frame_run *r)
 {
     glssao_effect *effect = r->effect;
     glssao__draw_use(effect, &r->programs.upsample);
-    select_tiles(r, &r->programs.upsample, 0, r->rings);
+    select_tiles(r, &r->programs.upsample, 2, 0, r->rings);
     glssao__draw_bind(effect, UNIT_DEPTH, depth_source(r->frame), SAMPLER_POINT_CLAMP);
     glssao__draw_bind(effect, UNIT_AMBIENT, turns(effect)->texture[0], SAMPLER_POINT_CLAMP);
     glssao__draw_crop(effect, &r->programs.upsample, &effect->result_map, effect->width, effect->height, &r->delivered);

@@ -76,6 +76,9 @@ bool glssao__gl_load(glssao__gl *gl, glssao__gl_load_fn load, void *user, const 
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &texture_size);
     gl->GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
     gl->max_size = smaller(texture_size, smaller(viewport[0], viewport[1]));
+    gl_float point_sizes[2] = {1.0f, 1.0f};
+    gl->GetFloatv(GL_POINT_SIZE_RANGE, point_sizes);
+    gl->max_point_size = point_sizes[1];
     gl->GetIntegerv(GL_MAX_DRAW_BUFFERS, &gl->max_draw_buffers);
     gl->GetIntegerv(GL_MAX_CLIP_DISTANCES, &gl->max_clip_distances);
     return true;

@@ -32,12 +32,15 @@ typedef void *gl_sync;
 enum {
     GL_ZERO = 0,
     GL_ONE = 1,
+    GL_POINTS = 0x0000,
     GL_TRIANGLES = 0x0004,
     GL_SRC_COLOR = 0x0300,
     GL_FRONT = 0x0404,
     GL_BACK = 0x0405,
     GL_FRONT_AND_BACK = 0x0408,
     GL_POLYGON_MODE = 0x0B40,
+    GL_POINT_SMOOTH = 0x0B10,
+    GL_POINT_SIZE_RANGE = 0x0B12,
     GL_POLYGON_SMOOTH = 0x0B41,
     GL_POLYGON_STIPPLE = 0x0B42,
     GL_CULL_FACE = 0x0B44,
@@ -152,6 +155,7 @@ enum {
     GL_TIMESTAMP = 0x8E28,
     GL_SAMPLE_MASK = 0x8E51,
     GL_EXTENSIONS = 0x1F03,
+    GL_PROGRAM_POINT_SIZE = 0x8642,
     GL_PRIMITIVE_RESTART = 0x8F9D,
     GL_CLIP_ORIGIN = 0x935C,
     GL_CLIP_DEPTH_MODE = 0x935D,
@@ -249,7 +253,7 @@ enum {
        gl_enum format, gl_enum type, const void *pixels))                                                              \
     X(void, TexParameteri, (gl_enum target, gl_enum name, gl_int value))                                               \
     X(void, Uniform2f, (gl_int location, gl_float x, gl_float y))                                                      \
-    X(void, Uniform4f, (gl_int location, gl_float x, gl_float y, gl_float z, gl_float w))                              \
+    X(void, Uniform3f, (gl_int location, gl_float x, gl_float y, gl_float z))                                          \
     X(void, Uniform1i, (gl_int location, gl_int value))                                                                \
     X(void, UniformBlockBinding, (gl_uint program, gl_uint block, gl_uint binding))                                    \
     X(void, UseProgram, (gl_uint program))                                                                             \
@@ -274,6 +278,7 @@ typedef struct glssao__gl {
     bool depth_bounds_test; /* GL_EXT_depth_bounds_test */
     int max_size;           /* largest texture and viewport side, pixels */
     int max_draw_buffers;
+    float max_point_size;   /* pixels */
     int max_clip_distances;
 } glssao__gl;
 

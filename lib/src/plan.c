@@ -130,7 +130,7 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
 
     int width, height;
     glssao__plan_ambient_size(effect, settings, &width, &height);
-    const char *refusal = glssao__tiles_refusal(settings, width, height);
+    const char *refusal = glssao__tiles_refusal(effect, settings, width, height);
     struct glssao_planned_pass *tiles = &plan.passes[GLSSAO_PASS_TILES];
     *tiles = refusal ? planned(GLSSAO_PASS_TILES, false, refusal)
                      : planned(GLSSAO_PASS_TILES, true, "what no occluder can reach is left out below");

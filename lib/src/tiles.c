@@ -21,12 +21,16 @@ void glssao__tiles_size(int width, int height, int *out_columns, int *out_rows)
 /* Fewer tiles than this cost more in passes than they can save. */
 enum { LEAST_TILES = 300 };
 
-const char *glssao__tiles_refusal(const glssao_settings *s, int width, int height)
+const char *glssao__tiles_refusal(const glssao_effect *effect, const glssao_settings *s, int width, int height)
 {
     int columns, rows;
     glssao__tiles_size(width, height, &columns, &rows);
     if (s->tiles == GLSSAO_TILES_OFF)
         return "the settings say off: every pixel is estimated";
+    /* Points as large as a tile, and a viewport for all of them, at full size. */
+    const int most = effect->gl.max_size - 2 * TILE_SIDE;
+    if (effect->gl.max_point_size < 2.0f * TILE_SIDE || effect->width > most || effect->height > most)
+        return "the driver draws no points or viewports that large";
     if (s->tiles == GLSSAO_TILES_AUTO && columns * rows < LEAST_TILES)
         return "so few tiles cost more to sort than they save";
     return NULL;
@@ -74,13 +78,12 @@ void glssao__tiles_run(glssao_effect *effect, const glssao__tile_programs *progr
     }
 }
 
-void glssao__tiles_select(glssao_effect *effect, const glssao__program_object *program, int least, int most)
+void glssao__tiles_select(glssao_effect *effect, const glssao__program_object *program, int factor, int least, int most)
 {
-    const glssao__target *rings = &effect->tiles.rings;
-    effect->gl.Uniform4f(program->tile_range_location, (float)least / 16.0f, (float)most / 16.0f,
-                         (float)TILE_SIDE / (float)effect->ambient.width,
-                         (float)TILE_SIDE / (float)effect->ambient.height);
-    effect->tiles.drawn = rings->width * rings->height;
+    effect->tiles.point = factor * TILE_SIDE;
+    effect->gl.Enable(GL_PROGRAM_POINT_SIZE);
+    effect->gl.Uniform3f(program->tile_range_location, (float)least / 16.0f, (float)most / 16.0f,
+                         (float)effect->tiles.point);
 }
 
 void glssao__tiles_destroy(glssao_effect *effect)
@@ -89,5 +92,5 @@ void glssao__tiles_destroy(glssao_effect *effect)
     glssao__target *const targets[] = {&t->rows, &t->bounds, &t->needed, &t->rings};
     for (size_t i = 0; i < sizeof targets / sizeof *targets; ++i)
         glssao__maps_delete_target(&effect->gl, targets[i]);
-    *t = (glssao__tiles){.drawn = 1};
+    *t = (glssao__tiles){0};
 }

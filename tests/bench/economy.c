@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * glssao-economy: what a frame costs as the plan leaves out what the scene does not call for. Takes times with and
+ * without, in turns, and writes tables and charts. No rays are traced.
+ */
+#define _POSIX_C_SOURCE 200809L
+#include "economy.h"
+
+#include "clock.h"
+#include "configs.h"
+#include "gbuffer.h"
+#include "gl_counter.h"
+#include "measure.h"
+#include "scenes.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, WARM_UP_FRAMES = 2 };
+
+static const struct {
+    const char *name;
+    glssao_technique technique;
+    glssao_quality quality;
+} configs[ECONOMY_CONFIGS] = {{"horizon-medium", GLSSAO_HORIZON, GLSSAO_MEDIUM},
+                              {"horizon-high", GLSSAO_HORIZON, GLSSAO_HIGH},
+                              {"horizon-ultra", GLSSAO_HORIZON, GLSSAO_ULTRA},
+                              {"classic-high", GLSSAO_CLASSIC, GLSSAO_HIGH},
+                              {"hemisphere-high", GLSSAO_HEMISPHERE, GLSSAO_HIGH}};
+
+glssao_settings economy_settings(int config)
+{
+    return glssao_default_settings(configs[config].technique, configs[config].quality);
+}
+
+const char *economy_config_name(int config)
+{
+    return configs[config].name;
+}
+
+/* Share of the picture whose tiles were left out. */
+static double skipped_share(const glssao_effect *effect)
+{
+    int width, height;
+    const uint32_t map = glssao_map(effect, GLSSAO_MAP_TILES, &width, &height);
+    float *rings = map ? malloc((size_t)width * (size_t)height * sizeof *rings) : NULL;
+    if (!rings)
+        return 0;
+    gl.BindTexture(GL_TEXTURE_2D, map);
+    gl.GetTexImage(GL_TEXTURE_2D, 0, GL_RED, GL_FLOAT, rings);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    int skipped = 0;
+    for (int i = 0; i < width * height; i++)
+        skipped += rings[i] > 0;
+    free(rings);
+    return (double)skipped / (width * height);
+}
+
+/* CPU time of all threads where the rasteriser is software, else the GPU's. */
+static bool run_once(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings, bool software,
+                     double *out_ms, char *error, size_t error_size)
+{
+    gl.Finish();
+    const double start = clock_cpu_ms();
+    const glssao_result result = glssao_compute(effect, frame, settings);
+    gl.Finish();
+    *out_ms = clock_cpu_ms() - start;
+    if (result != GLSSAO_OK)
+        snprintf(error, error_size, "glssao_compute: %s", glssao_result_string(result));
+    else if (!software && glssao_get_stats(effect).gpu_ms >= 0)
+        *out_ms = glssao_get_stats(effect).gpu_ms;
+    return result == GLSSAO_OK;
+}
+
+bool economy_compare(const economy *e, const gbuffer *g, const glssao_settings *settings, economy_row *out, char *error,
+                     size_t error_size)
+{
+    static const glssao_tiles tiles[2] = {GLSSAO_TILES_OFF, GLSSAO_TILES_ON};
+    const int frames = e->options->frames > 0 ? e->options->frames : 1;
+    glssao_effect *effects[2] = {NULL, NULL};
+    double *ms = calloc((size_t)frames * 2, sizeof *ms);
+    const glssao_frame frame = gbuffer_frame(g);
+    bool done = ms != NULL;
+    for (int i = 0; done && i < 2; i++) {
+        gl_counter_start(context_load, e->context);
+        const glssao_config config = {.load = gl_counter_load,
+                                      .log = glssao_log_to_stderr,
+                                      .width = g->view.width,
+                                      .height = g->view.height,
+                                      .no_timers = e->software};
+        glssao_settings s = *settings;
+        s.tiles = tiles[i];
+        gl.Finish();
+        const double start = clock_wall_ms();
+        done = glssao_create(&config, &effects[i]) == GLSSAO_OK &&
+               glssao_compute(effects[i], &frame, &s) == GLSSAO_OK;
+        gl.Finish();
+        out->first_ms[i] = clock_wall_ms() - start;
+        const gl_counts counts = gl_counter_take();
+        out->programs[i] = counts.programs;
+        out->bytes[i] = counts.bytes;
+    }
+    if (!done)
+        snprintf(error, error_size, "no first frame of %dx%d", g->view.width, g->view.height);
+    for (int f = -WARM_UP_FRAMES; done && f < frames; f++)
+        for (int i = 0; done && i < 2; i++) {
+            glssao_settings s = *settings;
+            s.tiles = tiles[i];
+            double one;
+            done = run_once(effects[i], &frame, &s, e->software, &one, error, error_size);
+            if (f >= 0)
+                ms[i * frames + f] = one;
+        }
+    for (int i = 0; done && i < 2; i++)
+        out->ms[i] = measure_percentile(ms + i * frames, frames, 50);
+    out->skipped = done ? skipped_share(effects[1]) : 0;
+    glssao_destroy(effects[0]);
+    glssao_destroy(effects[1]);
+    free(ms);
+    return done;
+}
+
+static bool measure_scene(economy *e, const bench_scene *b, char *error, size_t error_size)
+{
+    scene_view view;
+    float radius;
+    gbuffer g = {.depth = 0};
+    scene *s = bench_scene_open(b, e->options->time_size[0], e->options->time_size[1], &view, &radius, error, error_size);
+    bool done = s && gbuffer_draw(&g, s, &view, 0, error, error_size);
+    for (int t = 0; done && t < ECONOMY_CONFIGS; t++) {
+        economy_row *row = &e->rows[e->row_count++];
+        *row = (economy_row){.config = t};
+        snprintf(row->name, sizeof row->name, "%s", b->name);
+        const glssao_settings settings = economy_settings(t);
+        const glssao_settings scaled = bench_scale_settings(&settings, radius);
+        done = economy_compare(e, &g, &scaled, row, error, error_size);
+        fprintf(stderr, "%-24s %-18s off %8.2f ms, on %8.2f ms, ratio %.3f, skipped %.3f\n", row->name,
+                economy_config_name(t), row->ms[0], row->ms[1], row->ms[1] / row->ms[0], row->skipped);
+    }
+    gbuffer_destroy(&g);
+    scene_destroy(s);
+    return done;
+}
+
+static bool measure(economy *e, char *error, size_t error_size)
+{
+    static bench_scene scenes[BENCH_SCENES_MAX];
+    const int count = bench_scenes_list(e->options, scenes);
+    e->context = context_create(&(context_options){.kind = (context_kind)e->options->context}, error, error_size);
+    if (!e->context || !gl_load(context_load, e->context, error, error_size))
+        return false;
+    e->software = context_is_software(e->context);
+    fprintf(stderr, "context: %s\n", context_description(e->context));
+    e->rows = calloc((size_t)(count + 1) * ECONOMY_CONFIGS, sizeof *e->rows);
+    for (int i = 0; e->rows && i < count; i++)
+        if (!measure_scene(e, &scenes[i], error, error_size))
+            return false;
+    return e->rows != NULL;
+}
+
+int main(int argc, char **argv)
+{
+    static options o;
+    static char error[4096];
+    const options_result parsed = options_parse(argc, argv, &o, error, sizeof error);
+    if (parsed != OPTIONS_RUN) {
+        if (parsed == OPTIONS_WRONG)
+            fprintf(stderr, "glssao-economy: %s\n", error);
+        return parsed == OPTIONS_WRONG ? EXIT_USAGE : EXIT_DONE;
+    }
+    economy e = {.options = &o};
+    const bool done = measure(&e, error, sizeof error);
+    if (!done)
+        fprintf(stderr, "glssao-economy: %s\n", error);
+    free(e.rows);
+    context_destroy(e.context);
+    return done ? EXIT_DONE : EXIT_FAILED;
+}
