@@ -27,9 +27,9 @@ const char *glssao__tiles_refusal(const glssao_effect *effect, const glssao_sett
     glssao__tiles_size(width, height, &columns, &rows);
     if (s->tiles == GLSSAO_TILES_OFF)
         return "the settings say off: every pixel is estimated";
-    /* Points as large as a tile, and a viewport for all of them, at full size. */
+    /* Points as large as a block of 4 x 4 tiles, and a viewport for all of them, at full size. */
     const int most = effect->gl.max_size - 2 * TILE_SIDE;
-    if (effect->gl.max_point_size < 2.0f * TILE_SIDE || effect->width > most || effect->height > most)
+    if (effect->gl.max_point_size < 8.0f * TILE_SIDE || effect->width > most || effect->height > most)
         return "the driver draws no points or viewports that large";
     if (s->tiles == GLSSAO_TILES_AUTO && columns * rows < LEAST_TILES)
         return "so few tiles cost more to sort than they save";
