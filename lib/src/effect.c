@@ -5,6 +5,7 @@
 #include "effect.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static bool check_size(const glssao__log_sink *log, int width, int height, int max_size)
 {
@@ -29,9 +30,9 @@ static glssao_result make_sized(glssao_effect *effect, int width, int height, gl
 static glssao_result make_objects(glssao_effect *effect)
 {
     const glssao__gl *gl = &effect->gl;
-    /* Compiling a pass checks the driver's layout of the blocks that it reads. */
+    /* Compiling a pass checks the driver's layout of the blocks; this one takes the least time. */
     glssao__program_object program;
-    glssao_result result = glssao__program_get(effect, SHADER_CLASSIC, 0, &program);
+    glssao_result result = glssao__program_get(effect, SHADER_APPLY, 0, &program);
     if (result == GLSSAO_OK)
         result = glssao__maps_make_random_vector(effect);
     if (result == GLSSAO_OK)
@@ -85,6 +86,12 @@ glssao_result glssao_create(const glssao_config *config, glssao_effect **out_eff
         free(effect);
         return GLSSAO_INVALID_ARGUMENT;
     }
+    if (config->program_cache) {
+        const size_t size = strlen(config->program_cache) + 1;
+        effect->cache_folder = malloc(size);
+        if (effect->cache_folder) /* without it, programs are compiled */
+            memcpy(effect->cache_folder, config->program_cache, size);
+    }
     glssao__constants_init(&effect->constants, effect->seed);
     glssao__constants_init_hemisphere(&effect->hemisphere_constants, effect->seed);
 
@@ -110,6 +117,7 @@ void glssao_destroy(glssao_effect *effect)
     for (int i = 0; i < effect->program_count; ++i)
         gl->DeleteProgram(effect->programs[i].object.name);
     free(effect->programs);
+    free(effect->cache_folder);
     glssao__maps_delete_target(gl, &effect->normal_map); /* names of 0 are ignored, here and below */
     glssao__maps_delete_ambient(gl, &effect->ambient);
     glssao__maps_delete_ambient(gl, &effect->paired);

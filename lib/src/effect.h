@@ -222,6 +222,7 @@ struct glssao_effect {
     glssao__log_sink log;
     uint32_t seed;
     bool has_timers;
+    char *cache_folder; /* of linked programs; NULL: not kept */
     int width, height;
 
     glssao__target normal_map;
@@ -397,6 +398,10 @@ const char *glssao__program_shader_name(enum glssao__shader shader);
 /* The program, compiled on first use; flags that the shader does not test are dropped. */
 glssao_result glssao__program_get(glssao_effect *effect, enum glssao__shader shader, unsigned variant,
                                   glssao__program_object *out);
+
+/* cache.c: a linked program from the host's folder, 0 where there is none; and one put there. */
+gl_uint glssao__cache_read(const glssao_effect *effect, enum glssao__shader shader, unsigned variant);
+void glssao__cache_write(const glssao_effect *effect, enum glssao__shader shader, unsigned variant, gl_uint program);
 
 /* stats.c */
 void glssao__stats_begin_frame(glssao_effect *effect);

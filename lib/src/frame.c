@@ -384,6 +384,24 @@ static glssao_result run(glssao_effect *effect, const glssao_frame *frame, const
     return GLSSAO_OK;
 }
 
+glssao_result glssao_prepare(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
+{
+    glssao__projection projection;
+    if (!effect || glssao__draw_is_between_normals(effect, "glssao_prepare") ||
+        !glssao__settings_check_frame(effect, frame, settings, &effect->log, &projection))
+        return GLSSAO_INVALID_ARGUMENT;
+    frame_programs programs;
+    glssao__host_state host;
+    glssao__state_save(&effect->gl, &host);
+    const glssao_plan plan = glssao_plan_frame(effect, frame, settings);
+    glssao_result result = get_programs(effect, frame, settings, &plan, &programs);
+    if (result == GLSSAO_OK)
+        result = fit_maps(effect, frame, settings, &plan);
+    glssao__state_restore(&effect->gl, &host);
+    glssao__draw_check(effect, "glssao_prepare");
+    return result;
+}
+
 glssao_result glssao_compute(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
 {
     glssao__projection projection;

@@ -68,6 +68,11 @@ bool glssao__gl_load(glssao__gl *gl, glssao__gl_load_fn load, void *user, const 
         gl->ViewportIndexedf = NULL;
     if (gl->version < 45 && !has_extension(gl, "GL_ARB_clip_control"))
         gl->ClipControl = NULL;
+    gl_int formats = 0;
+    if ((gl->version >= 41 || has_extension(gl, "GL_ARB_get_program_binary")) && gl->GetProgramBinary &&
+        gl->ProgramBinary && gl->ProgramParameteri)
+        gl->GetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
+    gl->program_binaries = formats > 0;
     gl->depth_bounds_test = has_extension(gl, "GL_EXT_depth_bounds_test");
 
     gl_int mask = 0, texture_size = 0, viewport[2] = {0, 0};

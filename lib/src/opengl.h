@@ -140,6 +140,9 @@ enum {
     GL_VERTEX_SHADER = 0x8B31,
     GL_COMPILE_STATUS = 0x8B81,
     GL_LINK_STATUS = 0x8B82,
+    GL_PROGRAM_BINARY_RETRIEVABLE_HINT = 0x8257,
+    GL_PROGRAM_BINARY_LENGTH = 0x8741,
+    GL_NUM_PROGRAM_BINARY_FORMATS = 0x87FE,
     GL_CURRENT_PROGRAM = 0x8B8D,
     GL_VERTEX_ARRAY_BINDING = 0x85B5,
     GL_RASTERIZER_DISCARD = 0x8C89,
@@ -259,11 +262,15 @@ enum {
     X(void, UseProgram, (gl_uint program))                                                                             \
     X(void, Viewport, (gl_int x, gl_int y, gl_sizei width, gl_sizei height))
 
-/* Of later versions, asked for only so that a host that uses them gets its state back exactly. */
+/* Of later versions: so that a host that uses them gets its state back exactly, and to keep linked programs. */
 #define GLSSAO_GL_OPTIONAL_FUNCTIONS(X)                                                                                \
     X(void, BlendEquationSeparatei, (gl_uint index, gl_enum rgb, gl_enum alpha))                                       \
     X(void, BlendFuncSeparatei,                                                                                        \
       (gl_uint index, gl_enum src_rgb, gl_enum dst_rgb, gl_enum src_alpha, gl_enum dst_alpha))                         \
+    X(void, GetProgramBinary,                                                                                          \
+      (gl_uint program, gl_sizei size, gl_sizei * length, gl_enum * format, void *binary))                             \
+    X(void, ProgramBinary, (gl_uint program, gl_enum format, const void *binary, gl_sizei length))                     \
+    X(void, ProgramParameteri, (gl_uint program, gl_enum name, gl_int value))                                          \
     X(void, ClipControl, (gl_enum origin, gl_enum depth))                                                              \
     X(void, ScissorIndexed, (gl_uint index, gl_int x, gl_int y, gl_sizei width, gl_sizei height))                      \
     X(void, ViewportIndexedf, (gl_uint index, gl_float x, gl_float y, gl_float width, gl_float height))
@@ -275,6 +282,7 @@ typedef struct glssao__gl {
 #undef GLSSAO_GL_MEMBER
     int version;            /* 10 * major + minor: 33 for 3.3 */
     bool compatibility;     /* a compatibility profile: fixed-function toggles exist */
+    bool program_binaries;  /* linked programs can be read back */
     bool depth_bounds_test; /* GL_EXT_depth_bounds_test */
     int max_size;           /* largest texture and viewport side, pixels */
     int max_draw_buffers;

@@ -65,8 +65,12 @@ glssao__region glssao__plan_region(const glssao_effect *effect, const glssao_fra
 }
 
 /* Why every pixel would come out as 1; NULL where one may not. */
-static const char *nothing_to_occlude(const glssao_settings *s)
+static const char *nothing_to_occlude(const glssao_frame *frame, const glssao_settings *s)
 {
+    if (frame->only_sky)
+        return "the host sees nothing but sky: no surface is occluded";
+    if (frame->no_ambient_light)
+        return "the host has no ambient light: nothing to scale";
     if (s->radius <= 0.0f)
         return "radius is 0: no occluder is in reach";
     if (s->power <= 0.0f)
@@ -96,7 +100,7 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
     glssao__projection projection;
     if (!effect || !glssao__settings_check_frame(effect, frame, settings, &silent, &projection))
         return plan_of_skips("glssao_compute would refuse these arguments");
-    const char *nothing = nothing_to_occlude(settings);
+    const char *nothing = nothing_to_occlude(frame, settings);
     if (nothing)
         return plan_of_skips(nothing);
 

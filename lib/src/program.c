@@ -248,6 +248,8 @@ static gl_uint link(const glssao_effect *effect, enum glssao__shader id, gl_uint
     gl_uint program = gl->CreateProgram();
     gl->AttachShader(program, vertex);
     gl->AttachShader(program, fragment);
+    if (effect->cache_folder && gl->program_binaries)
+        gl->ProgramParameteri(program, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, 1);
     gl->LinkProgram(program);
     gl_int ok = 0;
     gl->GetProgramiv(program, GL_LINK_STATUS, &ok);
@@ -285,15 +287,31 @@ static const glssao__program_object *find(const glssao_effect *effect, enum glss
     return NULL;
 }
 
-static glssao_result make(glssao_effect *effect, enum glssao__shader shader, unsigned variant,
-                          glssao__program_object *out)
+/* From source. The name stays 0 where it fails. */
+static void build(glssao_effect *effect, enum glssao__shader shader, unsigned variant, glssao__program_object *out)
 {
     const glssao__gl *gl = &effect->gl;
     gl_uint vertex = compile(effect, shader, variant, GL_VERTEX_SHADER);
     gl_uint fragment = vertex ? compile(effect, shader, variant, GL_FRAGMENT_SHADER) : 0;
-    *out = (glssao__program_object){.name = fragment ? link(effect, shader, vertex, fragment) : 0};
+    out->name = fragment ? link(effect, shader, vertex, fragment) : 0;
     gl->DeleteShader(vertex); /* names of 0 are ignored; an attached shader lives as long as its program */
     gl->DeleteShader(fragment);
+    if (out->name)
+        glssao__cache_write(effect, shader, variant, out->name);
+}
+
+static glssao_result make(glssao_effect *effect, enum glssao__shader shader, unsigned variant,
+                          glssao__program_object *out)
+{
+    const glssao__gl *gl = &effect->gl;
+    *out = (glssao__program_object){.name = glssao__cache_read(effect, shader, variant)};
+    /* Bindings are no part of what was kept. */
+    if (out->name && !bind_blocks(effect, out->name)) {
+        gl->DeleteProgram(out->name);
+        out->name = 0;
+    }
+    if (!out->name)
+        build(effect, shader, variant, out);
     if (!out->name)
         return GLSSAO_SHADER_ERROR;
     tie_samplers(gl, out->name);

@@ -80,6 +80,8 @@ typedef struct glssao_config { /* zero means default */
     int width, height;   /* full size in pixels: the size of the depth maps handed over. 1 to GL_MAX_TEXTURE_SIZE */
     uint32_t seed;       /* of every random input: the same seed gives the same bits */
     bool no_timers;      /* true: no timer queries; glssao_stats then holds no times */
+    const char *program_cache; /* a folder that exists, where linked programs are kept for the next run if the driver
+                            can (GL 4.1 or ARB_get_program_binary); NULL: none. What does not fit is compiled anew */
 } glssao_config;
 
 /* ---- settings: may change every frame ------------------------------------------------------------------- */
@@ -153,6 +155,8 @@ typedef struct glssao_frame { /* zero a field that you don't use */
     bool clip_zero_to_one;     /* true where the host called glClipControl(..., GL_ZERO_TO_ONE) */
     int margin;                /* pixels on each side, even: drawn so that occluders beyond the picture's edge are found,
                                   but not delivered. The result is that much smaller; projection is that of the whole */
+    bool no_ambient_light;     /* there is none that the result could scale: nothing is drawn, the result is 1 */
+    bool only_sky;             /* nothing but sky is seen: the same */
     uint32_t back_texture;     /* horizon; both or neither. A second layer, stored as depth_texture is (view distance in */
     uint32_t second_texture;   /* red where depth is in the normal map): the nearest back face at or behind the surface
                                   seen, where surfaces that have two sides count as back faces; and the nearest front
@@ -248,6 +252,11 @@ GLSSAO_API glssao_result glssao_end_normals(glssao_effect *effect);
 /* Runs the passes of glssao_plan_frame; the result is GLSSAO_MAP_AMBIENT. May fail with INVALID_ARGUMENT, and with
  * the rest when a map or program needed for the first time can't be made. */
 GLSSAO_API glssao_result glssao_compute(glssao_effect *effect, const glssao_frame *frame,
+                                        const glssao_settings *settings);
+
+/* Makes what glssao_compute needs for these, programs above all, without drawing: compile while a level loads. May fail
+ * as glssao_compute. */
+GLSSAO_API glssao_result glssao_prepare(glssao_effect *effect, const glssao_frame *frame,
                                         const glssao_settings *settings);
 
 /* Horizon, a still view: adds one more estimate, at full size and with noise of its own, to a mean that is kept in 32-bit
