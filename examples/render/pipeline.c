@@ -236,6 +236,15 @@ static bool draw_prepass(pipeline *p, const scene_view *view, char *error, size_
     return true;
 }
 
+static bool has_ambient(const scene_lighting *l)
+{
+    bool any = false;
+    for (int i = 0; i < 3; i++) {
+        any = any || l->ambient[i] != 0 || l->ambient_tilt[i] != 0;
+    }
+    return any;
+}
+
 static glssao_frame make_frame(const pipeline *p, const scene_view *view)
 {
     glssao_frame frame = {.depth_texture = p->depth,
@@ -244,6 +253,9 @@ static glssao_frame make_frame(const pipeline *p, const scene_view *view)
                           .second_texture = p->layers[1],
                           .normal_texture = glssao_map(p->effect, GLSSAO_MAP_NORMAL, NULL, NULL)};
     memcpy(frame.projection, view->clip_from_view, sizeof frame.projection);
+    frame.only_sky = scene_find_seen(p->renderer, view).opaque == 0;
+    /* Accessibility scales nothing else; but a map that was asked for itself is made. */
+    frame.no_ambient_light = p->wants.picture && !p->wants.ao_map && !has_ambient(&p->lighting);
     return frame;
 }
 
@@ -427,6 +439,12 @@ void pipeline_print_plan(const pipeline *p, const scene_view *view)
               !p->wants.picture ? "no shaded picture is wanted"
               : p->wants.ao     ? "shades, ambient light scaled by accessibility"
                                 : "shades, ambient light in full");
+    const scene_seen seen = scene_find_seen(p->renderer, view);
+    const unsigned hidden = seen.opaque_total + seen.blended_total - seen.opaque - seen.blended;
+    char text[128];
+    snprintf(text, sizeof text, "%u of %u draw calls lie outside the view and are not issued", hidden,
+             seen.opaque_total + seen.blended_total);
+    print_row("culling", hidden > 0, (int)(seen.opaque + seen.blended), p->width, p->height, text);
     scene_effect effects[SCENE_EFFECT_COUNT];
     scene_renderer_effects(p->renderer, &p->lighting, effects);
     for (int i = 0; p->wants.picture && i < SCENE_EFFECT_COUNT; i++) {

@@ -226,6 +226,8 @@ void scene_renderer_destroy(scene_renderer *r)
     for (int i = 0; i < r->variant_count; i++)
         gl.DeleteProgram(r->variants[i].program.name);
     draw_shadow_free(&r->shadow);
+    if (r->sky_seen.query)
+        gl.DeleteQueries(1, &r->sky_seen.query);
     gl.DeleteProgram(r->map.name);
     gl.DeleteProgram(r->view_distance.name);
     gl.DeleteProgram(r->sky.name);
