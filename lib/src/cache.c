@@ -15,7 +15,7 @@ enum { PATH_LENGTH = 4096, MOST_BYTES = 1 << 26 };
 typedef struct file_head {
     char magic[8];
     uint64_t key;
-    uint64_t sum; /* of the bytes that follow */
+    uint64_t sum; /* of format, length and the bytes that follow */
     uint32_t format, length;
 } file_head;
 
@@ -30,6 +30,14 @@ static uint64_t hash_bytes(uint64_t hash, const void *data, size_t length)
     return hash;
 }
 
+static const uint64_t hash_start = 14695981039346656037u;
+
+static uint64_t sum_of(const file_head *head, const void *data)
+{
+    const uint32_t numbers[2] = {head->format, head->length};
+    return hash_bytes(hash_bytes(hash_start, numbers, sizeof numbers), data, head->length);
+}
+
 static uint64_t hash_text(uint64_t hash, const char *text)
 {
     return text ? hash_bytes(hash, text, strlen(text) + 1) : hash; /* with its end, so that texts do not run together */
@@ -39,7 +47,7 @@ static uint64_t key_of(const glssao_effect *effect, enum glssao__shader shader, 
 {
     const glssao__gl *gl = &effect->gl;
     const uint32_t version = glssao_version();
-    uint64_t hash = hash_bytes(14695981039346656037u, &version, sizeof version);
+    uint64_t hash = hash_bytes(hash_start, &version, sizeof version);
     const gl_enum names[] = {GL_VENDOR, GL_RENDERER, GL_VERSION};
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
         hash = hash_text(hash, (const char *)gl->GetString(names[i]));
@@ -74,7 +82,7 @@ static void *read_file(const char *path, uint64_t key, file_head *out_head)
         out_head->key == key && out_head->length > 0 && out_head->length <= MOST_BYTES)
         data = malloc(out_head->length);
     const bool whole = data && fread(data, 1, out_head->length, file) == out_head->length &&
-                       hash_bytes(14695981039346656037u, data, out_head->length) == out_head->sum;
+                       sum_of(out_head, data) == out_head->sum;
     fclose(file);
     if (whole)
         return data;
@@ -118,7 +126,7 @@ void glssao__cache_write(const glssao_effect *effect, enum glssao__shader shader
     gl_sizei written = 0;
     gl->GetProgramBinary(program, length, &written, &head.format, data);
     head.length = (uint32_t)written;
-    head.sum = hash_bytes(14695981039346656037u, data, head.length);
+    head.sum = sum_of(&head, data);
     memcpy(head.magic, magic, sizeof magic);
     /* Under another name first: who reads meanwhile finds all of it or nothing. */
     snprintf(part, sizeof part, "%s.part", path);
