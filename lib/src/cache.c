@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * Linked programs kept on disk between runs, in a folder that the host names. A file's name tells the driver, the
- * library's version and the program's sources; what does not fit, or is damaged, is not there. Nothing fails for want of
- * a file.
+ * library's version and the program's sources; what does not fit, or is damaged, is not there. Nothing fails for want
+ * of a file.
  */
 #include "effect.h"
 
@@ -66,9 +66,9 @@ static bool find_path(const glssao_effect *effect, enum glssao__shader shader, u
 {
     if (!effect->cache_folder || !effect->gl.program_binaries)
         return false;
-    const int length = snprintf(out, PATH_LENGTH, "%s/glssao-%s-%08lx%08lx.bin", effect->cache_folder,
-                                glssao__program_shader_name(shader), (unsigned long)(key >> 32),
-                                (unsigned long)(key & 0xFFFFFFFFu));
+    const int length =
+        snprintf(out, PATH_LENGTH, "%s/glssao-%s-%08lx%08lx.bin", effect->cache_folder,
+                 glssao__program_shader_name(shader), (unsigned long)(key >> 32), (unsigned long)(key & 0xFFFFFFFFu));
     return length > 0 && length < PATH_LENGTH;
 }
 
@@ -81,8 +81,8 @@ static void *read_file(const char *path, uint64_t key, file_head *out_head)
     if (fread(out_head, sizeof *out_head, 1, file) == 1 && memcmp(out_head->magic, magic, sizeof magic) == 0 &&
         out_head->key == key && out_head->length > 0 && out_head->length <= MOST_BYTES)
         data = malloc(out_head->length);
-    const bool whole = data && fread(data, 1, out_head->length, file) == out_head->length &&
-                       sum_of(out_head, data) == out_head->sum;
+    const bool whole =
+        data && fread(data, 1, out_head->length, file) == out_head->length && sum_of(out_head, data) == out_head->sum;
     fclose(file);
     if (whole)
         return data;

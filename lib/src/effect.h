@@ -234,7 +234,7 @@ struct glssao_effect {
     glssao__ambient_maps paired; /* accessibility and the linear quantity of distance; made when first needed */
     bool is_paired;              /* the last frame's passes drew into them */
     glssao__tiles tiles;
-    bool ambient_is_one;         /* both ambient maps hold 1 everywhere: nothing to clear */
+    bool ambient_is_one; /* both ambient maps hold 1 everywhere: nothing to clear */
     gl_uint random_vector_map;
     gl_uint depth_texture; /* the host's, as last handed over */
     gl_uint samplers[SAMPLER_COUNT];
@@ -326,7 +326,8 @@ void glssao__tiles_fill_constants(glssao__frame_constants *c, const glssao_setti
 void glssao__tiles_run(glssao_effect *effect, const glssao__tile_programs *programs);
 /* The program in use draws tiles that are `least` to `most` away from one that needs an estimate, until the next
  * glssao__draw_use, over a target that has `factor` pixels to one of the estimate. */
-void glssao__tiles_select(glssao_effect *effect, const glssao__program_object *program, int factor, int least, int most);
+void glssao__tiles_select(glssao_effect *effect, const glssao__program_object *program, int factor, int least,
+                          int most);
 void glssao__tiles_destroy(glssao_effect *effect);
 
 /* state.c: saves what the passes touch, then sets what they need; and puts all of it back. */

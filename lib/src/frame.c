@@ -155,7 +155,7 @@ typedef struct frame_run {
     const glssao_plan *plan;
     frame_programs programs;
     glssao__region delivered; /* what of the last pass's map is the result */
-    int rings;                /* tiles around one that needs an estimate in which blur and upsampling may change something */
+    int rings; /* tiles around one that needs an estimate in which blur and upsampling may change something */
 } frame_run;
 
 static bool runs(const frame_run *r, glssao_pass pass)
@@ -290,12 +290,9 @@ static void upsample(const frame_run *r)
 static void run_passes(const frame_run *r)
 {
     static void (*const passes[GLSSAO_PASS_COUNT])(const frame_run *) = {
-        [GLSSAO_PASS_NORMALS] = rebuild_normals,
-        [GLSSAO_PASS_DISTANCE] = map_distance,
-        [GLSSAO_PASS_TILES] = sort_tiles,
-        [GLSSAO_PASS_ESTIMATE] = estimate,
-        [GLSSAO_PASS_RESOLVE] = resolve,
-        [GLSSAO_PASS_BLUR] = blur,
+        [GLSSAO_PASS_NORMALS] = rebuild_normals, [GLSSAO_PASS_DISTANCE] = map_distance,
+        [GLSSAO_PASS_TILES] = sort_tiles,        [GLSSAO_PASS_ESTIMATE] = estimate,
+        [GLSSAO_PASS_RESOLVE] = resolve,         [GLSSAO_PASS_BLUR] = blur,
         [GLSSAO_PASS_UPSAMPLE] = upsample,
     };
     for (int i = 0; i < GLSSAO_PASS_COUNT; ++i) {

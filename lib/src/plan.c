@@ -145,11 +145,11 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
             continue;
         const glssao__region region = glssao__plan_region(effect, frame, settings, &plan, (glssao_pass)i);
         const bool fills = tiles->run && glssao__plan_is_paired(settings, &plan); /* what neighbours read */
-        pass->draw_calls = !pass->run                 ? 0
-                           : pass == blur             ? 2 * settings->blur_rounds
-                           : pass == tiles            ? TILE_PASSES
+        pass->draw_calls = !pass->run                  ? 0
+                           : pass == blur              ? 2 * settings->blur_rounds
+                           : pass == tiles             ? TILE_PASSES
                            : pass == estimate && fills ? 2
-                                                      : 1;
+                                                       : 1;
         pass->width = region.width;
         pass->height = region.height;
     }

@@ -49,7 +49,8 @@ int glssao__tiles_rings(int reach)
 
 void glssao__tiles_fill_constants(glssao__frame_constants *c, const glssao_settings *s, int rings)
 {
-    /* Classic reflects its offsets about vectors that are not unit: one as long as the root of 3 stretches them by 5. */
+    /* Classic reflects its offsets about vectors that are not unit: one as long as the root of 3 stretches them by 5.
+     */
     const bool classic = s->technique == GLSSAO_CLASSIC, hemisphere = s->technique == GLSSAO_HEMISPHERE;
     /* A sample above a plane that is off by FLAT lies this little behind what is seen there, at most. */
     const bool hidden = hemisphere && s->surface_epsilon < 16.0f * FLAT * s->radius;

@@ -189,7 +189,8 @@ static bool measure_scene(economy *e, const bench_scene *b, char *error, size_t 
     scene_view view;
     float radius;
     gbuffer g = {.depth = 0};
-    scene *s = bench_scene_open(b, e->options->time_size[0], e->options->time_size[1], &view, &radius, error, error_size);
+    scene *s =
+        bench_scene_open(b, e->options->time_size[0], e->options->time_size[1], &view, &radius, error, error_size);
     bool done = s && gbuffer_draw(&g, s, &view, 0, error, error_size);
     for (int t = 0; done && t < ECONOMY_CONFIGS; t++) {
         economy_row *row = &e->rows[e->row_count++];

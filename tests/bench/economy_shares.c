@@ -17,8 +17,8 @@ static const float WALL = 8, ROUGHNESS = 0.2f, WAVE = 0.35f; /* scene units */
 /* View distance of the rough wall seen along a ray. */
 static double distance_at(double x_ray, double y_ray)
 {
-    return (double)WALL + (double)ROUGHNESS * sin((double)WALL * x_ray / (double)WAVE) *
-                              sin((double)WALL * y_ray / (double)WAVE);
+    return (double)WALL +
+           (double)ROUGHNESS * sin((double)WALL * x_ray / (double)WAVE) * sin((double)WALL * y_ray / (double)WAVE);
 }
 
 static bool make_picture(gbuffer *g, int kind, double share)
@@ -57,11 +57,7 @@ static bool make_picture(gbuffer *g, int kind, double share)
 
 bool economy_measure_shares(economy *e, char *error, size_t error_size)
 {
-    const camera c = {.target = {0, 0, -1},
-                      .up = {0, 1, 0},
-                      .fov_y_rad = 0.8f,
-                      .near_plane = 1,
-                      .far_plane = 100};
+    const camera c = {.target = {0, 0, -1}, .up = {0, 1, 0}, .fov_y_rad = 0.8f, .near_plane = 1, .far_plane = 100};
     const int w = e->options->time_size[0], h = e->options->time_size[1];
     glssao_settings settings = economy_settings(1);
     settings.radius = 0.5f;

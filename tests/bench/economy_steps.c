@@ -52,9 +52,12 @@ static bool open_stage(const economy *e, stage *s, char *error, size_t error_siz
     s->renderer = s->scene ? scene_renderer_create(s->scene, error, error_size) : NULL;
     if (!s->renderer)
         return false;
-    const glssao_config config = {
-        .load = context_load, .load_user = e->context, .log = glssao_log_to_stderr, .width = w, .height = h,
-        .no_timers = true};
+    const glssao_config config = {.load = context_load,
+                                  .load_user = e->context,
+                                  .log = glssao_log_to_stderr,
+                                  .width = w,
+                                  .height = h,
+                                  .no_timers = true};
     if (glssao_create(&config, &s->effect) != GLSSAO_OK) {
         snprintf(error, error_size, "no effect of %dx%d", w, h);
         return false;
@@ -123,9 +126,8 @@ bool economy_measure_steps(economy *e, char *error, size_t error_size)
         s.lighting = scene_default_lighting();
         for (int k = 0; !steps[step].sky && k < 3; k++)
             s.lighting.sky_tilt[k] = 0;
-        const scene_draw_options draws = {.shadows = steps[step].shadows,
-                                          .no_picture = !steps[step].main,
-                                          .multi_bounce = steps[step].multi_bounce};
+        const scene_draw_options draws = {
+            .shadows = steps[step].shadows, .no_picture = !steps[step].main, .multi_bounce = steps[step].multi_bounce};
         done = scene_renderer_configure(s.renderer, &s.lighting, &draws, error, error_size);
         economy_step *out = &e->steps[step];
         out->what = steps[step].what;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Settings and frames, and the passes, draws, compilations and textures that each must cause and no more, counted at the
- * table of GL functions.
+ * Settings and frames, and the passes, draws, compilations and textures that each must cause and no more, counted at
+ * the table of GL functions.
  */
 #include "analytic.h"
 #include "camera.h"
@@ -217,11 +217,8 @@ static void each_scene_causes_these_calls(void **state)
         bool dark;
         int draws;
     } scenes[] = {
-        {"columns", false, false, 5},
-        {"plane", false, false, 5},
-        {"plane", true, false, 0},
-        {"columns", false, true, 0},
-        {"", false, false, 0}, /* no meshes at all */
+        {"columns", false, false, 5}, {"plane", false, false, 5}, {"plane", true, false, 0},
+        {"columns", false, true, 0},  {"", false, false, 0}, /* no meshes at all */
     };
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; ++i) {
         fixture *f = *state;

@@ -27,8 +27,7 @@ static glssao_frame draw_scene(glssao_effect *effect, const scene *s, const came
     scene_draw_normals(renderer, &view);
     assert_int_equal(glssao_end_normals(effect), GLSSAO_OK);
     scene_renderer_destroy(renderer);
-    glssao_frame frame = {.depth_texture = depth,
-                          .normal_texture = glssao_map(effect, GLSSAO_MAP_NORMAL, NULL, NULL)};
+    glssao_frame frame = {.depth_texture = depth, .normal_texture = glssao_map(effect, GLSSAO_MAP_NORMAL, NULL, NULL)};
     memcpy(frame.projection, view.clip_from_view, sizeof frame.projection);
     return frame;
 }
@@ -50,8 +49,7 @@ static double left_out(const glssao_effect *effect)
 static void set_radius(glssao_settings *s, float radius)
 {
     const float scale = radius / s->radius;
-    float *const lengths[] = {&s->radius,     &s->fade_start,          &s->fade_end, &s->surface_epsilon,
-                              &s->blur_depth_threshold};
+    float *const lengths[] = {&s->radius, &s->fade_start, &s->fade_end, &s->surface_epsilon, &s->blur_depth_threshold};
     for (size_t i = 0; i < sizeof lengths / sizeof *lengths; ++i)
         *lengths[i] *= scale;
 }
@@ -252,7 +250,8 @@ static void range_within_epsilon_is_left_out(void **state)
 /* What rises from a plane takes the tiles in its reach along. */
 static void a_plane_near_an_occluder_is_estimated(void **state)
 {
-    const analytic_shape shapes[2] = {{ANALYTIC_PLANE, {0, 0, -8}, {0, 0, 1}}, {ANALYTIC_SPHERE, {0, 0, -8}, {1, 1, 1}}};
+    const analytic_shape shapes[2] = {{ANALYTIC_PLANE, {0, 0, -8}, {0, 0, 1}},
+                                      {ANALYTIC_SPHERE, {0, 0, -8}, {1, 1, 1}}};
     const double small = share_of(*state, shapes, 2, GLSSAO_HORIZON, 0.2f);
     const double large = share_of(*state, shapes, 2, GLSSAO_HORIZON, 1.5f);
     assert_true(large > 0.0 && large < small && small < 1.0);

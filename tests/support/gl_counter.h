@@ -9,13 +9,13 @@
 #include <stdint.h>
 
 typedef struct gl_counts {
-    int draws;      /* glDrawArrays */
-    int shaders;    /* glCompileShader */
-    int programs;   /* glLinkProgram */
-    int binaries;   /* glProgramBinary */
-    int textures;   /* glTexImage2D with a size */
-    int64_t bytes;  /* of those, as their formats say */
-    int clears;     /* glClearBufferfv */
+    int draws;     /* glDrawArrays */
+    int shaders;   /* glCompileShader */
+    int programs;  /* glLinkProgram */
+    int binaries;  /* glProgramBinary */
+    int textures;  /* glTexImage2D with a size */
+    int64_t bytes; /* of those, as their formats say */
+    int clears;    /* glClearBufferfv */
 } gl_counts;
 
 /* Counts from now on; what is loaded comes from `load`. */
