@@ -39,7 +39,7 @@ typedef struct economy {
     const char *step_scene;
     economy_step steps[ECONOMY_STEPS];
     economy_row shares[2][ECONOMY_SHARES]; /* of sky, of a plane; the rest is rough */
-    double first_ms[ECONOMY_FIRSTS];       /* wall time of glssao_create and a frame: see economy_first_name */
+    double first_ms[ECONOMY_FIRSTS];       /* of glssao_create and a frame: see economy_first_name */
     double seconds;
 } economy;
 

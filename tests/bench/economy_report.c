@@ -131,8 +131,10 @@ static const char *const rules =
     "Tiles are drawn as square points, a block of 4 x 4 or 2 x 2 as one: two triangles would shade the pixels along "
     "their "
     "diagonal twice, a quarter of a tile's. The class is fetched by the vertex shader; nothing is read back.\n\n"
-    "By default tiles are sorted where there are 300 or more, which is from about 640x480 at full size and 1280x720 at "
-    "half size. The library cannot know beforehand what a picture holds: `settings.tiles` says off for hosts that draw "
+    "By default tiles are sorted where there are 300 or more: for estimates of some 320x240 pixels and up, which is "
+    "640x480 "
+    "at half size. The library cannot know beforehand what a picture holds: `settings.tiles` says off for hosts that "
+    "draw "
     "closed rooms without large planes, where the pass is paid for nothing.\n\n";
 
 static void print_rows(FILE *f, const economy *e)
@@ -196,10 +198,10 @@ static void print_document(FILE *f, const economy *e, bool has_steps, bool has_s
     fputs("\n", f);
     fputs(rules, f);
     print_rows(f, e);
-    fputs(
-        "## The first frame\n\nWall time of `glssao_create` and one frame of the scene \"columns\", horizon at medium "
-        "quality, in one process, in this order:\n\n| kept from before | ms |\n|---|---:|\n",
-        f);
+    fputs("## The first frame\n\nProcessor time (on a GPU: wall time) of `glssao_create` and one frame of the scene "
+          "\"columns\", horizon at medium "
+          "quality, in one process, in this order:\n\n| kept from before | ms |\n|---|---:|\n",
+          f);
     for (int i = 0; i < ECONOMY_FIRSTS; i++)
         fprintf(f, "| %s | %.0f |\n", economy_first_name(i), e->first_ms[i]);
     fputs("\nA program comes from `config.program_cache` where the driver keeps binaries; what it translates when it "
