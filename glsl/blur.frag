@@ -2,12 +2,10 @@
 // One direction of the separable blur: 11 taps of cbSsao's weights, or with BOX 1 the 4 taps that cover one period of
 // a 4x4 tile. With EDGE_AWARE 1, a tap counts only where its normal and view distance agree with the centre's, and the
 // weights that are left are scaled to sum to 1.
-// in  v_uv           0..1
 // in  u_ambient_map  accessibility, with PAIRED 1 the paired map; point sampled
 // in  u_normal_map, u_depth_map  as for the estimate, fetched (EDGE_AWARE 1)
 // out o_ambient      the same
 
-in vec2 v_uv;
 uniform sampler2D u_ambient_map;
 uniform bool gHorizontalBlur;
 out AMBIENT o_ambient;
@@ -21,7 +19,7 @@ float center_distance;
 // Adds the tap `i` pixels from the centre.
 void add_tap(int i, float weight, vec2 step_uv, inout float sum, inout float weights)
 {
-    vec2 uv = v_uv + float(i) * step_uv;
+    vec2 uv = pixel_uv() + float(i) * step_uv;
 #if EDGE_AWARE
     ivec2 tap = texel_from_uv(uv);
     ivec2 inside = clamp(tap, ivec2(0), last);
@@ -45,7 +43,7 @@ void main()
     vec2 step_uv = gHorizontalBlur ? vec2(gInvRenderTargetSize.x, 0.0) : vec2(0.0, gInvRenderTargetSize.y);
 #if EDGE_AWARE
     last = textureSize(u_depth_map, 0) - 1;
-    ivec2 center = texel_from_uv(v_uv);
+    ivec2 center = texel_from_uv(pixel_uv());
     center_normal = normal_view_from_map(center);
     center_distance = distance_from_depth(fetched_depth(center));
 #endif
@@ -70,6 +68,6 @@ void main()
     add_tap(4, gBlurWeights[2].y, step_uv, sum, weights);
     add_tap(5, gBlurWeights[2].z, step_uv, sum, weights);
 #endif
-    vec2 own = texture(u_ambient_map, v_uv).rg;
+    vec2 own = texture(u_ambient_map, pixel_uv()).rg;
     o_ambient = ambient(sum / weights, own.g, normal_code(own));
 }

@@ -14,3 +14,6 @@ vec4 gAccumulation;         // xy: 1 for the replicate that the estimate belongs
 vec4 gProbe;                // pixels: lower left corner of what is probed, size of a cell
 vec4 gDepthStep;            // what a step of the depth format comes to in view distance t: x + y t + z t^2
 vec4 gLogDepth;             // logarithmic depth: x: log2(c far + 1), y: 1 / c
+vec4 gTiles;                // x: side of a tile, pixels of the estimate; y: how far samples reach, in radii; z: sine of
+                            // the angle that still is flat, 0: no plane counts; w: scene units of range that do not occlude
+float gTileRings;           // how far tiles are told from the nearest that needs an estimate

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The classic estimate (Luna, Introduction to 3D Game Programming with DirectX 12, chapter 21): 14 offset vectors,
 // reflected about a random vector, flipped to the normal's side; what is seen through each is a possible occluder.
-// in  v_uv              0..1
 // in  u_normal_map      view space, fetched
 // in  u_depth_map       stored depth, fetched for the pixel; for occluders linearly sampled, border: sky
 // in  u_random_vector_map  RGBA8, each channel uniform in 0..1, repeated 4 times across the target
 // out o_ambient         accessibility, with PAIRED 1 what passes after this one read
-// NO_ANGLE_WEIGHT 1: an occluder counts fully at any angle to the normal, which shows the self-occlusion of flat
+// OPEN 1: nothing occludes. NO_ANGLE_WEIGHT 1: an occluder counts fully at any angle to the normal, which shows the self-occlusion of
+// flat
 // surfaces that the weight prevents.
 
-in vec2 v_uv;
 uniform sampler2D u_random_vector_map;
 out AMBIENT o_ambient;
 
@@ -25,19 +24,20 @@ float weight_from_distance(float nearer, float least)
 
 void main()
 {
-    ivec2 texel = texel_from_uv(v_uv);
+    ivec2 texel = texel_from_uv(pixel_uv());
     vec3 normal_view = normal_view_from_map(texel);
     float depth = fetched_depth(texel);
     float distance = is_sky(depth) ? FAR_AWAY : distance_from_depth(depth);
     float linear = linear_from_distance(distance);
     uint code = normal_code(normal_view);
     o_ambient = ambient(1.0, linear, code);
+#if !OPEN
     // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
     if (distance == FAR_AWAY || normal_view == vec3(0.0))
         return;
     vec3 position_view = position_view_from_uv(uv_from_texel(texel), distance);
     // Not normalised, as in the reference; a vector of length 0 leaves every offset as it is.
-    vec3 random_vector = 2.0 * texture(u_random_vector_map, 4.0 * v_uv).rgb - 1.0;
+    vec3 random_vector = 2.0 * texture(u_random_vector_map, 4.0 * pixel_uv()).rgb - 1.0;
 
     // What depth's format and its filter can't tell from the point's own surface is no occluder.
     float least = gSurfaceEpsilon + depth_step(distance) + filter_error(uv_from_texel(texel), distance, normal_view);
@@ -65,4 +65,5 @@ void main()
     float accessibility = 1.0 - occlusion / float(gSampleCount);
     // pow() is undefined for a base of 0 with power 0, and for the negative that rounding can leave.
     o_ambient = ambient(clamp(pow(max(accessibility, 1e-6), gPower), 0.0, 1.0), linear, code);
+#endif
 }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The hemisphere estimate (J. Chapman, "SSAO Tutorial", 2013; J. de Vries, "Learn OpenGL", 2020, SSAO): samples in the
 // half ball about the normal, of which those count as occluded that lie behind the surface seen at their pixel.
-// in  v_uv             0..1
 // in  u_normal_map     view space, fetched
 // in  u_depth_map      stored depth, fetched for the pixel; for occluders linearly sampled, border: sky
 // out o_ambient        accessibility, with PAIRED 1 what passes after this one read
+// OPEN 1: nothing occludes.
 
-in vec2 v_uv;
 out AMBIENT o_ambient;
 
 // Two unit vectors that span the plane across the normal, turned by the pixel's place in the 4x4 tile.
@@ -24,13 +23,14 @@ mat3 view_from_tangent(vec3 normal_view)
 
 void main()
 {
-    ivec2 texel = texel_from_uv(v_uv);
+    ivec2 texel = texel_from_uv(pixel_uv());
     vec3 normal_view = normal_view_from_map(texel);
     float depth = fetched_depth(texel);
     float center_distance = is_sky(depth) ? FAR_AWAY : distance_from_depth(depth);
     float linear = linear_from_distance(center_distance);
     uint code = normal_code(normal_view);
     o_ambient = ambient(1.0, linear, code);
+#if !OPEN
     // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
     if (center_distance == FAR_AWAY || normal_view == vec3(0.0))
         return;
@@ -61,4 +61,5 @@ void main()
     float accessibility = 1.0 - occlusion / max(counted, 1.0);
     // pow() is undefined for a base of 0 with power 0.
     o_ambient = ambient(clamp(pow(max(accessibility, 1e-6), gPower), 0.0, 1.0), linear, code);
+#endif
 }

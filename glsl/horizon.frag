@@ -10,6 +10,7 @@
 // out o_ambient       accessibility, with PAIRED 1 what passes after this one read; with ACCUMULATE 1 the linear
 //                     accessibility, to be added to the sum of its replicate
 // STEPS_8, STEPS_12, STEPS_16 1: that many samples on each side of a slice, else 6. SLICES_2 1: two slices, else one.
+// OPEN 1: nothing occludes.
 //
 // In a slice, x is the distance along it from the point, outwards on either side, and y the height towards the eye, both
 // in units of the radius; angles are measured from y. Loops are written out by macros: Mesa's software rasteriser does
@@ -303,6 +304,7 @@ void main()
     uint code = normal_code(normal_view);
     o_ambient = ambient(1.0, linear, code);
 #endif
+#if !OPEN
     // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
     if (distance >= FAR_AWAY || normal_view == vec3(0.0))
         return;
@@ -329,5 +331,6 @@ void main()
     o_ambient = gAccumulation.xy * min(pow(open, CALIBRATION), 1.0);
 #else
     o_ambient = ambient(clamp(pow(open, CALIBRATION * gPower), 0.0, 1.0), linear, code);
+#endif
 #endif
 }

@@ -13,6 +13,12 @@ vec2 pixel_center()
     return gl_FragCoord.xy + gOrigin;
 }
 
+// The same in uv, as every pass has it, whatever geometry it is drawn with.
+vec2 pixel_uv()
+{
+    return pixel_center() * gInvRenderTargetSize;
+}
+
 // Farther than any surface: stands for sky and for depths that are no number. Its square still fits a float.
 const float FAR_AWAY = 1e15;
 

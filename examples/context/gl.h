@@ -16,6 +16,7 @@
     X(ACTIVETEXTURE, ActiveTexture) \
     X(ATTACHSHADER, AttachShader) \
     X(BINDATTRIBLOCATION, BindAttribLocation) \
+    X(BEGINQUERY, BeginQuery) \
     X(BINDBUFFER, BindBuffer) \
     X(BINDBUFFERBASE, BindBufferBase) \
     X(BINDBUFFERRANGE, BindBufferRange) \
@@ -67,6 +68,7 @@
     X(ENABLE, Enable) \
     X(ENABLEI, Enablei) \
     X(ENABLEVERTEXATTRIBARRAY, EnableVertexAttribArray) \
+    X(ENDQUERY, EndQuery) \
     X(FENCESYNC, FenceSync) \
     X(FINISH, Finish) \
     X(FRAMEBUFFERRENDERBUFFER, FramebufferRenderbuffer) \
@@ -91,6 +93,7 @@
     X(GETINTEGERV, GetIntegerv) \
     X(GETPROGRAMINFOLOG, GetProgramInfoLog) \
     X(GETPROGRAMIV, GetProgramiv) \
+    X(GETQUERYOBJECTUIV, GetQueryObjectuiv) \
     X(GETQUERYOBJECTUI64V, GetQueryObjectui64v) \
     X(GETSHADERINFOLOG, GetShaderInfoLog) \
     X(GETSHADERIV, GetShaderiv) \

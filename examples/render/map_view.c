@@ -53,6 +53,9 @@ void map_view_draw(pipeline *p, const scene_view *view, options_map map, scene_r
     case OPTIONS_MAP_RANDOM:
         texture = glssao_map(p->effect, GLSSAO_MAP_RANDOM_VECTOR, NULL, NULL);
         break;
+    case OPTIONS_MAP_TILES:
+        texture = glssao_map(p->effect, GLSSAO_MAP_TILES, NULL, NULL);
+        break;
     case OPTIONS_MAP_SHADOW:
         texture = scene_shadow_map(p->renderer, NULL);
         break;
@@ -60,7 +63,11 @@ void map_view_draw(pipeline *p, const scene_view *view, options_map map, scene_r
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     if (texture) {
         const bool signed_values = map == OPTIONS_MAP_NORMALS;
-        scene_draw_map_in(p->renderer, texture, place, map == OPTIONS_MAP_AO || map == OPTIONS_MAP_SHADOW,
-                          signed_values ? 0.5f : 1, signed_values ? 0.5f : 0);
+        const bool tiles = map == OPTIONS_MAP_TILES;
+        scene_draw_map_in(p->renderer, texture, place, map == OPTIONS_MAP_AO || map == OPTIONS_MAP_SHADOW || tiles,
+                          signed_values ? 0.5f
+                          : tiles       ? 16
+                                        : 1, /* so that estimated ones are black, the others white */
+                          signed_values ? 0.5f : 0);
     }
 }

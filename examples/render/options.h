@@ -57,7 +57,8 @@ typedef enum options_map {
     OPTIONS_MAP_NORMALS,
     OPTIONS_MAP_DEPTH,
     OPTIONS_MAP_RANDOM,
-    OPTIONS_MAP_SHADOW
+    OPTIONS_MAP_SHADOW,
+    OPTIONS_MAP_TILES
 } options_map;
 
 typedef enum options_result { OPTIONS_RUN, OPTIONS_DONE, OPTIONS_WRONG } options_result;

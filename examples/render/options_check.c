@@ -70,8 +70,9 @@ static bool check_together(const options *o, bool is_viewer, char *error, size_t
         snprintf(error, error_size, "--no-ao and --ao %s exclude each other", o->ao);
     } else if (o->no_shadows && (o->shadow_size || o->debug_map == OPTIONS_MAP_SHADOW)) {
         snprintf(error, error_size, "--no-shadows excludes --shadow-size and --debug-map shadow");
-    } else if (o->debug_map == OPTIONS_MAP_AO && o->no_ao) {
-        snprintf(error, error_size, "--no-ao and --debug-map ao exclude each other");
+    } else if ((o->debug_map == OPTIONS_MAP_AO || o->debug_map == OPTIONS_MAP_TILES) && o->no_ao) {
+        snprintf(error, error_size, "--no-ao and --debug-map %s exclude each other",
+                 o->debug_map == OPTIONS_MAP_AO ? "ao" : "tiles");
     } else if (o->debug_map && !o->output && !is_viewer) {
         snprintf(error, error_size, "--debug-map: needs a picture, -o FILE.png");
     } else if (o->frames && o->bench) {

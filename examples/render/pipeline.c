@@ -162,6 +162,15 @@ static bool draw_prepass(pipeline *p, const scene_view *view, char *error, size_
     return true;
 }
 
+static bool has_ambient(const scene_lighting *l)
+{
+    bool any = false;
+    for (int i = 0; i < 3; i++) {
+        any = any || l->ambient[i] != 0 || l->ambient_tilt[i] != 0;
+    }
+    return any;
+}
+
 glssao_frame pipeline_frame(const pipeline *p, const scene_view *view)
 {
     glssao_frame frame = {.depth_texture = p->depth,
@@ -170,6 +179,9 @@ glssao_frame pipeline_frame(const pipeline *p, const scene_view *view)
                           .second_texture = p->draw_options.layers ? p->layers[1] : 0,
                           .normal_texture = glssao_map(p->effect, GLSSAO_MAP_NORMAL, NULL, NULL)};
     memcpy(frame.projection, view->clip_from_view, sizeof frame.projection);
+    frame.only_sky = scene_find_seen(p->renderer, view).opaque == 0;
+    /* Accessibility scales nothing else; but a map that was asked for itself is made. */
+    frame.no_ambient_light = p->wants.picture && !p->wants.ao_map && !has_ambient(&p->lighting);
     return frame;
 }
 

@@ -19,6 +19,7 @@
 /* What the command line makes necessary. */
 typedef struct pipeline_wants {
     bool picture; /* the main pass */
+    bool ao_map;  /* accessibility for its own sake, not only for the picture */
     bool ao;      /* accessibility: the occlusion passes, or */
     bool traced;  /* rays */
     bool prepass; /* depth, and with it: */

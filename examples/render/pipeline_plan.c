@@ -45,6 +45,12 @@ void pipeline_print_plan(const pipeline *p, const scene_view *view)
               !p->wants.picture ? "no shaded picture is wanted"
               : p->wants.ao     ? "shades, ambient light scaled by accessibility"
                                 : "shades, ambient light in full");
+    const scene_seen seen = scene_find_seen(p->renderer, view);
+    const unsigned hidden = seen.opaque_total + seen.blended_total - seen.opaque - seen.blended;
+    char text[128];
+    snprintf(text, sizeof text, "%u of %u draw calls lie outside the view and are not issued", hidden,
+             seen.opaque_total + seen.blended_total);
+    print_row("culling", hidden > 0, (int)(seen.opaque + seen.blended), p->width, p->height, text);
     scene_effect effects[SCENE_EFFECT_COUNT];
     scene_renderer_effects(p->renderer, &p->lighting, effects);
     for (int i = 0; p->wants.picture && i < SCENE_EFFECT_COUNT; i++) {

@@ -44,6 +44,7 @@ static pipeline_wants choose_wants(const options *o)
     const bool maps_alone = !o->output && (o->ao || o->normals || o->depth);
     pipeline_wants wants = {.picture = o->bench || !maps_alone};
     wants.ao = !o->no_ao && (wants.picture || o->ao);
+    wants.ao_map = o->ao || o->debug_map == OPTIONS_MAP_AO || o->debug_map == OPTIONS_MAP_TILES;
     wants.traced = wants.ao && o->technique == OPTIONS_RAYTRACE;
     wants.normals = (wants.ao && !wants.traced) || o->normals || o->debug_map == OPTIONS_MAP_NORMALS ||
                     o->debug_map == OPTIONS_MAP_RANDOM;

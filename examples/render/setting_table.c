@@ -40,6 +40,8 @@ const setting setting_table[] = {
      AT(blur_normal_threshold), -1, 1, false, NULL, ALL},
     {"blur-depth", "scene units", "bilateral: taps farther off in view distance are dropped", SETTING_NUMBER,
      AT(blur_depth_threshold), 0, FLT_MAX, true, NULL, ALL},
+    {"tiles", "", "tiles where nothing can occlude are looked for, and left out", SETTING_WORD, AT(tiles), 0, 2, false,
+     "auto|off|on", ALL},
     {"no-angle-weight", "", "for teaching: occluders count at any angle", SETTING_SWITCH, AT(no_angle_weight), 0, 1,
      false, NULL, CLASSIC},
 };

@@ -65,15 +65,22 @@ void draw_bind_texture(unsigned unit, unsigned texture, unsigned sampler)
     gl.BindSampler(unit, sampler);
 }
 
+static void find_clip_from_world(const scene_view *view, double out[16])
+{
+    for (int c = 0; c < 4; c++)
+        for (int row = 0; row < 4; row++) {
+            out[4 * c + row] = 0;
+            for (int k = 0; k < 4; k++)
+                out[4 * c + row] +=
+                    (double)view->clip_from_view[4 * k + row] * (double)view->view_from_world[4 * c + k];
+        }
+}
+
 static triangle_pass begin_triangles(const scene_renderer *r, const scene_view *view, draw_kind kind)
 {
     triangle_pass pass = {.renderer = r, .view = view, .kind = kind, .material = -1, .first_instance = UINT32_MAX};
     draw_normal_matrix(view->view_from_world, pass.normal_view_from_world);
-    for (int c = 0; c < 4; c++)
-        for (int row = 0; row < 4; row++)
-            for (int k = 0; k < 4; k++)
-                pass.clip_from_world[4 * c + row] +=
-                    (double)view->clip_from_view[4 * k + row] * (double)view->view_from_world[4 * c + k];
+    find_clip_from_world(view, pass.clip_from_world);
     draw_set_defaults();
     gl.Viewport(0, 0, view->width, view->height);
     gl.Enable(GL_DEPTH_TEST);
@@ -240,6 +247,17 @@ void scene_draw_normals(scene_renderer *r, const scene_view *view)
     r->counts.normals = draw_opaque_items(r, view, DRAW_NORMALS, &r->counts.culled);
 }
 
+scene_seen scene_find_seen(const scene_renderer *r, const scene_view *view)
+{
+    scene_seen seen = {.opaque_total = r->opaque_count, .blended_total = r->item_count - r->opaque_count};
+    double clip_from_world[16];
+    find_clip_from_world(view, clip_from_world);
+    for (uint32_t i = 0; i < r->item_count; i++)
+        if (draw_item_is_seen(&r->items[i], clip_from_world))
+            *(i < r->opaque_count ? &seen.opaque : &seen.blended) += 1;
+    return seen;
+}
+
 void scene_draw_layer(scene_renderer *r, const scene_view *view, unsigned depth_texture, scene_layer layer)
 {
     /* Two steps of a 24-bit depth buffer: the same triangle, drawn again, has the same depth but for rounding. */
@@ -345,6 +363,20 @@ static bool is_gradient(const scene_lighting *lighting)
     return lighting->sky_tilt[0] != 0 || lighting->sky_tilt[1] != 0 || lighting->sky_tilt[2] != 0;
 }
 
+/* Whether the sky of this view was drawn before and no pixel of it passed: the scene stands still, so none will. Never
+ * waits; where it is not known, the sky may be seen. */
+static bool is_sky_hidden(scene_renderer *r, const scene_view *view)
+{
+    draw_sky_seen *seen = &r->sky_seen;
+    GLuint known = 0, samples = 1;
+    if (!seen->asked || memcmp(&seen->view, view, sizeof *view) != 0 || gl.IsEnabled(GL_SCISSOR_TEST))
+        return false;
+    gl.GetQueryObjectuiv(seen->query, GL_QUERY_RESULT_AVAILABLE, &known);
+    if (known)
+        gl.GetQueryObjectuiv(seen->query, GL_QUERY_RESULT, &samples);
+    return samples == 0;
+}
+
 /* At the far plane, where opaque surfaces left it to be seen. */
 static void draw_sky(scene_renderer *r, const scene_view *view, const scene_lighting *lighting)
 {
@@ -363,7 +395,17 @@ static void draw_sky(scene_renderer *r, const scene_view *view, const scene_ligh
     gl.Disable(GL_CULL_FACE);
     gl.FrontFace(GL_CCW);
     gl.DepthFunc(GL_LEQUAL);
+    /* Through scissors less may pass than the next drawing shows. */
+    r->sky_seen.asked = !gl.IsEnabled(GL_SCISSOR_TEST);
+    if (r->sky_seen.asked) {
+        if (!r->sky_seen.query)
+            gl.GenQueries(1, &r->sky_seen.query);
+        r->sky_seen.view = *view;
+        gl.BeginQuery(GL_SAMPLES_PASSED, r->sky_seen.query);
+    }
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    if (r->sky_seen.asked)
+        gl.EndQuery(GL_SAMPLES_PASSED);
     r->counts.sky = 1;
 }
 
@@ -385,7 +427,7 @@ void scene_draw_main(scene_renderer *r, const scene_view *view, const scene_ligh
     gl.DepthMask(GL_FALSE);
     gl.DepthFunc(GL_EQUAL);
     r->counts.main = draw_opaque(&pass, &r->counts.culled);
-    if (is_gradient(lighting)) {
+    if (is_gradient(lighting) && !is_sky_hidden(r, view)) {
         draw_sky(r, view, lighting);
         gl.BindVertexArray(r->vertex_array);
         pass.program = NULL;

@@ -85,6 +85,12 @@ typedef struct scene_draw_counts {
 } scene_draw_counts;
 scene_draw_counts scene_renderer_counts(const scene_renderer *r);
 
+/* Draw calls of the scene, and those that lie within the view; the rest is not issued. */
+typedef struct scene_seen {
+    unsigned opaque, opaque_total, blended, blended_total;
+} scene_seen;
+scene_seen scene_find_seen(const scene_renderer *r, const scene_view *view);
+
 /* Draws the shadow map where one is called for and the light has another direction than last time. Leaves framebuffer
  * 0 bound where it did. */
 void scene_draw_shadow(scene_renderer *r, const scene_lighting *lighting);
@@ -102,7 +108,8 @@ typedef enum scene_layer { SCENE_LAYER_BACK, SCENE_LAYER_SECOND } scene_layer;
 void scene_draw_layer(scene_renderer *r, const scene_view *view, unsigned depth_texture, scene_layer layer);
 
 /* Draws the picture into the bound framebuffer, whose depth buffer holds the pre-pass's depth: clears colour to
- * the sky at the horizon, opaque with depth EQUAL, the sky where it is no single colour with depth LEQUAL, then blended
+ * the sky at the horizon, opaque with depth EQUAL, the sky where it is no single colour with depth LEQUAL (unless the last drawing of the same
+ * view, without scissors, showed none of it), then blended
  * materials back to front with depth LEQUAL and no depth write.
  * Output is linear; the caller's framebuffer is GL_SRGB8_ALPHA8 with GL_FRAMEBUFFER_SRGB enabled by this call.
  * `ambient_map` is an accessibility texture (red; any size, sampled linearly by uv), 0: fully accessible. */

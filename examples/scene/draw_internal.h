@@ -69,6 +69,13 @@ typedef struct draw_shadow {
     float view_from_world[16], clip_from_view[16], shadow_from_world[16]; /* the last: uv and depth, 0..1 */
 } draw_shadow;
 
+/* How much of the sky the last drawing of a view showed. */
+typedef struct draw_sky_seen {
+    unsigned query; /* 0: not made */
+    bool asked;     /* of this view: */
+    scene_view view;
+} draw_sky_seen;
+
 struct scene_renderer {
     const scene *scene;
     unsigned vertex_array, empty_vertex_array;
@@ -85,6 +92,7 @@ struct scene_renderer {
     bool configured;
     draw_program map, view_distance, sky; /* the pool's */
     draw_shadow shadow;
+    draw_sky_seen sky_seen;
     scene_draw_counts counts;
 };
 

@@ -157,7 +157,7 @@ void scene_renderer_effects(const scene_renderer *r, const scene_lighting *light
         {"blending", blended ? "blended materials, back to front" : "no material is blended", blended},
         {"lights", lighting->light_count ? "the file has more than the shadow's" : "none beside the directional one",
          lighting->light_count > 0},
-        {"sky", gradient ? "a gradient, last, at the far plane" : "one colour: the clear's", gradient},
+        {"sky", gradient ? "a gradient, last, at the far plane, until a view shows none of it" : "one colour: the clear's", gradient},
     };
     for (int i = 0; i < SCENE_EFFECT_COUNT; i++)
         out[i] = effects[i];

@@ -229,6 +229,8 @@ void scene_renderer_destroy(scene_renderer *r)
     if (r->samplers)
         gl.DeleteSamplers((GLsizei)r->scene->texture_count, r->samplers);
     draw_shadow_free(&r->shadow);
+    if (r->sky_seen.query)
+        gl.DeleteQueries(1, &r->sky_seen.query);
     draw_pool_leave(r);
     free(r->images[0]);
     free(r->images[1]);

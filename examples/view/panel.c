@@ -76,7 +76,7 @@ static void draw_drawing(viewer *v)
     changed = gui_check("occlusion sees normal maps (K)", &o->mapped_normals) || changed;
     changed = gui_check("specular occlusion (L)", &o->specular_occlusion) || changed;
     changed = gui_check("multi-bounce tint (B)", &o->multi_bounce) || changed;
-    changed = gui_choice("map in the corner (I)", &o->debug_map, "none|ao|normals|depth|random|shadow") || changed;
+    changed = gui_choice("map in the corner (I)", &o->debug_map, "none|ao|normals|depth|random|shadow|tiles") || changed;
     o->no_shadows = !shadows;
     o->shadow_size = size == 2048 ? 0 : size;
     if (changed)

@@ -102,7 +102,7 @@ bool viewer_command_line(const viewer *v, char *out, size_t out_size)
 {
     static const char *const techniques[] = {"classic", "hemisphere", "horizon"};
     static const char *const qualities[] = {"low", "medium", "high", "ultra"};
-    static const char *const maps[] = {"none", "ao", "normals", "depth", "random", "shadow"};
+    static const char *const maps[] = {"none", "ao", "normals", "depth", "random", "shadow", "tiles"};
     const options *o = &v->options;
     char settings[1024];
     line l = {out, out_size, 0, false};

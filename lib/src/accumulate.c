@@ -14,6 +14,7 @@ glssao_settings glssao__accumulate_settings(const glssao_settings *settings)
     glssao_settings s = *settings;
     s.half_resolution = false;
     s.upsample = false;
+    s.tiles = GLSSAO_TILES_OFF; /* every pixel is added to the sums */
     if (s.blur != GLSSAO_BLUR_NONE)
         s.blur = GLSSAO_BLUR_PLANAR;
     s.blur_rounds = s.blur_rounds > 0 ? 1 : 0;

@@ -23,19 +23,36 @@ void glssao__draw_bind(const glssao_effect *effect, enum glssao__unit unit, gl_u
     effect->gl.BindSampler((gl_uint)unit, effect->samplers[sampler]);
 }
 
-void glssao__draw_use(const glssao_effect *effect, const glssao__program_object *program)
+void glssao__draw_use(glssao_effect *effect, const glssao__program_object *program)
 {
+    effect->tiles.point = 0;
     effect->gl.UseProgram(program->name);
     effect->gl.Uniform2f(program->origin_location, 0.0f, 0.0f); /* a location of -1 is ignored */
+    effect->gl.Uniform3f(program->tile_range_location, 0.0f, 0.0f, 0.0f);
+}
+
+/* Draws over a picture of that size whose lower left corner lies there. */
+static void draw_over(const glssao_effect *effect, int x, int y, int width, int height)
+{
+    const glssao__gl *gl = &effect->gl;
+    const glssao__target *tiles = &effect->tiles.rings;
+    const int point = effect->tiles.point;
+    gl->BindVertexArray(effect->vertex_array);
+    if (point > 0) {
+        width = tiles->width * point;
+        height = tiles->height * point;
+    }
+    glssao__state_set_viewport(gl, (const gl_float[4]){(gl_float)x, (gl_float)y, (gl_float)width, (gl_float)height});
+    if (point > 0)
+        gl->DrawArrays(GL_POINTS, 0, tiles->width * tiles->height);
+    else
+        gl->DrawArrays(GL_TRIANGLES, 0, 6);
 }
 
 void glssao__draw(const glssao_effect *effect, gl_uint framebuffer, int width, int height)
 {
-    const glssao__gl *gl = &effect->gl;
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-    glssao__state_set_viewport(gl, (const gl_float[4]){0.0f, 0.0f, (gl_float)width, (gl_float)height});
-    gl->BindVertexArray(effect->vertex_array);
-    gl->DrawArrays(GL_TRIANGLES, 0, 6);
+    effect->gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    draw_over(effect, 0, 0, width, height);
 }
 
 void glssao__draw_region(const glssao_effect *effect, const glssao__target *target, const glssao__region *region)
@@ -55,10 +72,7 @@ void glssao__draw_crop(const glssao_effect *effect, const glssao__program_object
     gl->Uniform2f(program->origin_location, (gl_float)region->x, (gl_float)region->y);
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, target->framebuffer);
     /* The maps' picture, moved so that the region comes to lie on the target: uv runs over the maps as ever. */
-    glssao__state_set_viewport(
-        gl, (const gl_float[4]){(gl_float)-region->x, (gl_float)-region->y, (gl_float)width, (gl_float)height});
-    gl->BindVertexArray(effect->vertex_array);
-    gl->DrawArrays(GL_TRIANGLES, 0, 6);
+    draw_over(effect, -region->x, -region->y, width, height);
 }
 
 bool glssao__draw_is_between_normals(const glssao_effect *effect, const char *function)

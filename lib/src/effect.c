@@ -5,6 +5,7 @@
 #include "effect.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static bool check_size(const glssao__log_sink *log, int width, int height, int max_size)
 {
@@ -29,9 +30,9 @@ static glssao_result make_sized(glssao_effect *effect, int width, int height, gl
 static glssao_result make_objects(glssao_effect *effect)
 {
     const glssao__gl *gl = &effect->gl;
-    /* Compiling a pass checks the driver's layout of the blocks that it reads. */
+    /* Compiling a pass checks the driver's layout of the blocks; this one takes the least time. */
     glssao__program_object program;
-    glssao_result result = glssao__program_get(effect, SHADER_CLASSIC, 0, &program);
+    glssao_result result = glssao__program_get(effect, SHADER_APPLY, 0, &program);
     if (result == GLSSAO_OK)
         result = glssao__maps_make_random_vector(effect);
     if (result == GLSSAO_OK)
@@ -85,6 +86,12 @@ glssao_result glssao_create(const glssao_config *config, glssao_effect **out_eff
         free(effect);
         return GLSSAO_INVALID_ARGUMENT;
     }
+    if (config->program_cache) {
+        const size_t size = strlen(config->program_cache) + 1;
+        effect->cache_folder = malloc(size);
+        if (effect->cache_folder) /* without it, programs are compiled */
+            memcpy(effect->cache_folder, config->program_cache, size);
+    }
     glssao__constants_init(&effect->constants, effect->seed);
     glssao__constants_init_hemisphere(&effect->hemisphere_constants, effect->seed);
 
@@ -110,6 +117,7 @@ void glssao_destroy(glssao_effect *effect)
     for (int i = 0; i < effect->program_count; ++i)
         gl->DeleteProgram(effect->programs[i].object.name);
     free(effect->programs);
+    free(effect->cache_folder);
     for (int i = 0; i < INPUT_COUNT; ++i)
         glssao__maps_delete_target(gl, &effect->inputs[i]); /* names of 0 are ignored, here and below */
     glssao__maps_delete_target(gl, &effect->normal_map);
@@ -117,6 +125,7 @@ void glssao_destroy(glssao_effect *effect)
     glssao__maps_delete_ambient(gl, &effect->paired);
     glssao__maps_delete_target(gl, &effect->distance_map);
     glssao__maps_delete_target(gl, &effect->result_map);
+    glssao__tiles_destroy(effect);
     glssao__accumulate_destroy(effect);
     gl->DeleteTextures(1, &effect->random_vector_map);
     gl->DeleteSamplers(SAMPLER_COUNT, effect->samplers);
@@ -154,6 +163,7 @@ glssao_result glssao_resize(glssao_effect *effect, int width, int height)
     glssao__maps_delete_ambient(&effect->gl, &effect->paired); /* made again when next needed, as are these: */
     glssao__maps_delete_target(&effect->gl, &effect->distance_map);
     glssao__maps_delete_target(&effect->gl, &effect->result_map);
+    glssao__tiles_destroy(effect);
     glssao__accumulate_destroy(effect);
     effect->has_result_map = false;
     effect->margin = 0;
@@ -188,6 +198,11 @@ uint32_t glssao_map(const glssao_effect *effect, glssao_map_id id, int *out_widt
         case GLSSAO_MAP_RANDOM_VECTOR:
             texture = effect->random_vector_map;
             width = height = RANDOM_VECTOR_MAP_SIZE;
+            break;
+        case GLSSAO_MAP_TILES:
+            texture = effect->tiles.used ? effect->tiles.rings.texture : 0;
+            width = texture ? effect->tiles.rings.width : 0;
+            height = texture ? effect->tiles.rings.height : 0;
             break;
         case GLSSAO_MAP_DEPTH:
             texture = effect->depth_texture;

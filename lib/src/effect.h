@@ -25,6 +25,7 @@ enum glssao__unit {
     UNIT_DISTANCE,
     UNIT_BACK,
     UNIT_SECOND,
+    UNIT_TILES,
     UNIT_COUNT
 };
 
@@ -58,6 +59,10 @@ enum glssao__shader {
     SHADER_PLANAR_BLUR,
     SHADER_UPSAMPLE,
     SHADER_APPLY,
+    SHADER_TILE_ROWS,
+    SHADER_TILE_BOUNDS,
+    SHADER_TILE_CLASS,
+    SHADER_TILE_RINGS,
     SHADER_COUNT
 };
 
@@ -79,7 +84,10 @@ enum glssao__variant {
     VARIANT_PAIRED = 8192,
     VARIANT_MULTISAMPLE = 16384,
     VARIANT_LOGARITHMIC = 32768,
-    VARIANT_FLAGS = 16, /* how many there are */
+    VARIANT_OPEN = 65536,
+    VARIANT_PLANES = 131072,
+    VARIANT_FROM_DEPTH = 262144,
+    VARIANT_FLAGS = 19, /* how many there are */
     VARIANT_COUNT = 1 << VARIANT_FLAGS
 };
 
@@ -90,6 +98,7 @@ enum {
     PROBE_SIZE = 128,
     TRANSFER_PARAMETERS = 12,
     TILE_ESTIMATES = 16,
+    TILE_PASSES = 4,
     TIMER_FRAMES = 4,
     MAX_DRAW_BUFFERS = 8,
     INPUT_COUNT = 4,
@@ -121,6 +130,9 @@ typedef struct glssao__frame_constants {
     float gProbe[4];
     float gDepthStep[4];
     float gLogDepth[4];
+    float gTiles[4];
+    float gTileRings;
+    float gPadding[3]; /* std140 rounds the block up */
 } glssao__frame_constants;
 
 /* glsl/cb_hemisphere.glsl in C. */
@@ -156,6 +168,15 @@ typedef struct glssao__target {
     gl_enum format;
 } glssao__target;
 
+/* What tells the tiles that need an estimate; made when first needed. */
+typedef struct glssao__tiles {
+    glssao__target rows, bounds; /* RGBA32F, as glsl/tile_rows.frag has it */
+    glssao__target needed;       /* R32F, 1: needs an estimate */
+    glssao__target rings;        /* R32F, as glsl/tile_rings.frag has it */
+    bool used;                   /* by the last frame */
+    int point;                   /* side of a tile in the target that is drawn to next, pixels; 0: all of it is drawn */
+} glssao__tiles;
+
 /* A rectangle of a map, in its pixels. */
 typedef struct glssao__region {
     int x, y, width, height;
@@ -164,7 +185,12 @@ typedef struct glssao__region {
 typedef struct glssao__program_object {
     gl_uint name;
     gl_int horizontal_location, origin_location; /* of gHorizontalBlur and gOrigin, -1 where there is none */
+    gl_int tile_range_location;                  /* of gTileRange */
 } glssao__program_object;
+
+typedef struct glssao__tile_programs {
+    glssao__program_object rows, bounds, needed, rings;
+} glssao__tile_programs;
 
 typedef struct glssao__timer_frame {
     gl_uint queries[GLSSAO_PASS_COUNT][2]; /* timestamps before and after */
@@ -210,6 +236,7 @@ struct glssao_effect {
     glssao__log_sink log;
     uint32_t seed;
     bool has_timers;
+    char *cache_folder; /* of linked programs; NULL: not kept */
     int width, height;
 
     glssao__target inputs[INPUT_COUNT]; /* copies of the host's textures; made when first needed */
@@ -221,7 +248,8 @@ struct glssao_effect {
     glssao__ambient_maps ambient;
     glssao__ambient_maps paired; /* RG32F, see paired.glsl; made when first needed */
     bool is_paired;              /* the last frame's passes drew into them */
-    bool ambient_is_one;         /* both ambient maps hold 1 everywhere: nothing to clear */
+    glssao__tiles tiles;
+    bool ambient_is_one; /* both ambient maps hold 1 everywhere: nothing to clear */
     gl_uint random_vector_map;
     gl_uint depth_texture; /* the host's, as last handed over */
     gl_uint samplers[SAMPLER_COUNT];
@@ -271,7 +299,7 @@ void glssao__constants_fill(glssao_constants *c, const glssao_frame *frame, cons
                             const glssao__projection *projection, int ambient_width, int ambient_height);
 void glssao__constants_fill_frame(glssao__frame_constants *c, const glssao_frame *frame,
                                   const glssao_settings *settings, const glssao__projection *projection,
-                                 const glssao__precision *precision);
+                                  const glssao__precision *precision);
 void glssao__constants_gauss_weights(float sigma, float out_weights[3][4]);
 
 /* random.c: PCG32 (O'Neill 2014); the same seed gives the same numbers on every machine. */
@@ -304,6 +332,26 @@ glssao__region glssao__plan_region(const glssao_effect *effect, const glssao_fra
 glssao__region glssao__plan_result(const glssao_effect *effect, const glssao_frame *frame,
                                    const glssao_settings *settings, const glssao_plan *plan);
 
+/* How many texels of the estimate beyond a pixel the passes after it read. */
+int glssao__plan_reach(const glssao_settings *settings, const glssao_plan *plan);
+/* Whether a pass reads the linear quantity of distance beside accessibility. */
+bool glssao__plan_is_paired(const glssao_settings *settings, const glssao_plan *plan);
+
+/* tiles.c */
+void glssao__tiles_size(int width, int height, int *out_columns, int *out_rows);
+/* Why tiles are not sorted where the estimate has this size; NULL where they are. */
+const char *glssao__tiles_refusal(const glssao_effect *effect, const glssao_settings *settings, int width, int height);
+unsigned glssao__tiles_variant(const glssao_settings *settings);
+/* In how many tiles around one that needs an estimate passes that read so many pixels find something to do. */
+int glssao__tiles_rings(int reach);
+void glssao__tiles_fill_constants(glssao__frame_constants *c, const glssao_settings *settings, int rings);
+void glssao__tiles_run(glssao_effect *effect, const glssao__tile_programs *programs);
+/* The program in use draws tiles that are `least` to `most` away from one that needs an estimate, until the next
+ * glssao__draw_use, over a target that has `factor` pixels to one of the estimate. */
+void glssao__tiles_select(glssao_effect *effect, const glssao__program_object *program, int factor, int least,
+                          int most);
+void glssao__tiles_destroy(glssao_effect *effect);
+
 /* state.c: saves what the passes touch, then sets what they need; and puts all of it back. */
 void glssao__state_save(const glssao__gl *gl, glssao__host_state *out_state);
 void glssao__state_restore(const glssao__gl *gl, const glssao__host_state *state);
@@ -316,7 +364,7 @@ void glssao__state_set_viewport(const glssao__gl *gl, const gl_float viewport[4]
 /* draw.c */
 void glssao__draw_bind(const glssao_effect *effect, enum glssao__unit unit, gl_uint texture,
                        enum glssao__sampler sampler);
-void glssao__draw_use(const glssao_effect *effect, const glssao__program_object *program);
+void glssao__draw_use(glssao_effect *effect, const glssao__program_object *program);
 /* Covers width x height of the framebuffer with the bound program. */
 void glssao__draw(const glssao_effect *effect, gl_uint framebuffer, int width, int height);
 /* The same, but draws no pixel outside of the region. */
@@ -369,7 +417,10 @@ void glssao__maps_delete_target(const glssao__gl *gl, glssao__target *target);
 /* The texture that holds the result. */
 gl_uint glssao__maps_result(const glssao_effect *effect, int *out_width, int *out_height);
 glssao_result glssao__maps_make_random_vector(glssao_effect *effect);
+glssao_result glssao__maps_fit_tiles(glssao_effect *effect, int width, int height, bool from_depth);
 void glssao__maps_clear_result(glssao_effect *effect);
+/* 1 into all maps that the frame's passes after the tiles draw into. */
+void glssao__maps_clear_all(glssao_effect *effect);
 void glssao__maps_make_samplers(glssao_effect *effect);
 glssao_result glssao__maps_check_texture(glssao_effect *effect, gl_uint texture, bool needs_depth, const char *field);
 
@@ -384,6 +435,10 @@ const char *glssao__program_shader_name(enum glssao__shader shader);
 /* The program, compiled on first use; flags that the shader does not test are dropped. */
 glssao_result glssao__program_get(glssao_effect *effect, enum glssao__shader shader, unsigned variant,
                                   glssao__program_object *out);
+
+/* cache.c: a linked program from the host's folder, 0 where there is none; and one put there. */
+gl_uint glssao__cache_read(const glssao_effect *effect, enum glssao__shader shader, unsigned variant);
+void glssao__cache_write(const glssao_effect *effect, enum glssao__shader shader, unsigned variant, gl_uint program);
 
 /* stats.c */
 void glssao__stats_begin_frame(glssao_effect *effect);

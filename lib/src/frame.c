@@ -5,7 +5,9 @@
 #include "effect.h"
 
 typedef struct frame_programs {
-    glssao__program_object inputs[INPUT_COUNT], normals, distance, estimate, resolve, probe, blur, last_blur, upsample;
+    glssao__program_object inputs[INPUT_COUNT], normals, distance, estimate, open, resolve, probe, blur, last_blur,
+        upsample;
+    glssao__tile_programs tiles;
 } frame_programs;
 
 /* How the host stores what the passes read. */
@@ -58,22 +60,16 @@ static gl_uint depth_source(const glssao_frame *frame)
     return frame->depth_kind == GLSSAO_DEPTH_NORMAL_ALPHA ? frame->normal_texture : frame->depth_texture;
 }
 
-/* Whether a pass reads distance and normal beside accessibility: then all before the last draw into the paired maps. */
-static bool is_paired(const glssao_settings *settings, const glssao_plan *plan)
-{
-    return plan->passes[GLSSAO_PASS_UPSAMPLE].run ||
-           (plan->passes[GLSSAO_PASS_BLUR].run && settings->blur == GLSSAO_BLUR_PLANAR);
-}
-
 /* Compiles what the plan needs, before anything changes. `host` is the host's frame, `frame` what the passes after the
  * copying of inputs see. */
 static glssao_result get_programs(glssao_effect *effect, const glssao_frame *host, const glssao_frame *frame,
                                   const glssao_settings *settings, const glssao_plan *plan, frame_programs *out)
 {
-    const unsigned inputs = input_variant(frame), paired = is_paired(settings, plan) ? VARIANT_PAIRED : 0u;
+    const unsigned inputs = input_variant(frame), paired = glssao__plan_is_paired(settings, plan) ? VARIANT_PAIRED : 0u;
     const unsigned blur = inputs | (settings->blur == GLSSAO_BLUR_BILATERAL ? VARIANT_EDGE_AWARE : 0u) |
                           (settings->blur == GLSSAO_BLUR_BOX ? VARIANT_BOX : 0u);
     const enum glssao__shader blur_shader = settings->blur == GLSSAO_BLUR_PLANAR ? SHADER_PLANAR_BLUR : SHADER_BLUR;
+    const unsigned tiles = inputs | glssao__tiles_variant(settings);
     const struct {
         glssao_pass pass;
         enum glssao__shader shader;
@@ -82,6 +78,10 @@ static glssao_result get_programs(glssao_effect *effect, const glssao_frame *hos
     } needed[] = {
         {GLSSAO_PASS_NORMALS, SHADER_NORMALS, inputs, &out->normals},
         {GLSSAO_PASS_DISTANCE, SHADER_DISTANCE, inputs, &out->distance},
+        {GLSSAO_PASS_TILES, SHADER_TILE_ROWS, tiles, &out->tiles.rows},
+        {GLSSAO_PASS_TILES, SHADER_TILE_BOUNDS, tiles, &out->tiles.bounds},
+        {GLSSAO_PASS_TILES, SHADER_TILE_CLASS, tiles, &out->tiles.needed},
+        {GLSSAO_PASS_TILES, SHADER_TILE_RINGS, 0, &out->tiles.rings},
         {GLSSAO_PASS_ESTIMATE, estimate_shader(settings),
          inputs | estimate_variant(settings) | (plan->passes[GLSSAO_PASS_RESOLVE].run ? VARIANT_ACCUMULATE : paired),
          &out->estimate},
@@ -96,6 +96,8 @@ static glssao_result get_programs(glssao_effect *effect, const glssao_frame *hos
     for (size_t i = 0; i < sizeof needed / sizeof *needed && result == GLSSAO_OK; ++i)
         if (plan->passes[needed[i].pass].run)
             result = glssao__program_get(effect, needed[i].shader, needed[i].variant, needed[i].out);
+    if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_TILES].run && glssao__plan_is_paired(settings, plan))
+        result = glssao__program_get(effect, estimate_shader(settings), inputs | paired | VARIANT_OPEN, &out->open);
     return result;
 }
 
@@ -115,13 +117,15 @@ static glssao_result fit_maps(glssao_effect *effect, const glssao_frame *frame, 
     glssao_result result = GLSSAO_OK;
     if (plan->passes[GLSSAO_PASS_DISTANCE].run)
         result = glssao__maps_fit_distance(effect, width, height, frame->back_texture != 0);
+    if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_TILES].run)
+        result = glssao__maps_fit_tiles(effect, width, height, glssao__tiles_variant(settings) & VARIANT_FROM_DEPTH);
     if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_RESOLVE].run)
         result = glssao__maps_fit_accumulation(effect);
     if (result != GLSSAO_OK)
         return result;
     const bool apart = is_apart(plan, frame);
-    return glssao__maps_fit_results(effect, width, height, is_paired(settings, plan), apart ? delivered.width : 0,
-                                    apart ? delivered.height : 0);
+    return glssao__maps_fit_results(effect, width, height, glssao__plan_is_paired(settings, plan),
+                                    apart ? delivered.width : 0, apart ? delivered.height : 0);
 }
 
 /* `block_count`: how many blocks the frame reads; only the hemisphere technique needs the last. */
@@ -146,6 +150,7 @@ typedef struct frame_run {
     const glssao_plan *plan;
     frame_programs programs;
     glssao__region delivered; /* what of the last pass's map is the result */
+    int rings; /* tiles around one that needs an estimate in which blur and upsampling may change something */
 } frame_run;
 
 static bool runs(const frame_run *r, glssao_pass pass)
@@ -190,6 +195,20 @@ static void map_distance(const frame_run *r)
     glssao__draw_bind(effect, UNIT_DISTANCE, effect->distance_map.texture, SAMPLER_POINT_CLAMP);
 }
 
+static void sort_tiles(const frame_run *r)
+{
+    glssao__tiles_run(r->effect, &r->programs.tiles);
+    /* Before the rest draws on top: what no pass draws is 1. */
+    glssao__maps_clear_all(r->effect);
+}
+
+/* Draws what lies `least` to `most` tiles from one that needs an estimate; everything, without tiles. */
+static void select_tiles(const frame_run *r, const glssao__program_object *program, int factor, int least, int most)
+{
+    if (runs(r, GLSSAO_PASS_TILES))
+        glssao__tiles_select(r->effect, program, factor, least, most);
+}
+
 /* The two maps that the passes of a frame draw into by turns, and read from. */
 static const glssao__ambient_maps *turns(const glssao_effect *effect)
 {
@@ -226,8 +245,14 @@ static void estimate(const frame_run *r)
     glssao__draw_bind(effect, UNIT_RANDOM_VECTOR, effect->random_vector_map, SAMPLER_LINEAR_WRAP);
     glssao__draw_use(effect, &r->programs.estimate);
     if (!runs(r, GLSSAO_PASS_RESOLVE)) {
+        select_tiles(r, &r->programs.estimate, 1, 0, 0);
         draw_turn(r, &r->programs.estimate, GLSSAO_PASS_ESTIMATE, 0,
                   !runs(r, GLSSAO_PASS_BLUR) && !runs(r, GLSSAO_PASS_UPSAMPLE));
+        if (r->plan->passes[GLSSAO_PASS_ESTIMATE].draw_calls > 1) {
+            glssao__draw_use(effect, &r->programs.open);
+            select_tiles(r, &r->programs.open, 1, 1, r->rings + 2);
+            draw_turn(r, &r->programs.open, GLSSAO_PASS_ESTIMATE, 0, false);
+        }
         return;
     }
     /* Added to the sum of its replicate. */
@@ -254,6 +279,8 @@ static void blur(const frame_run *r)
         glssao__draw_use(r->effect, program);
         /* Horizontal 0 to 1, vertical 1 to 0. */
         r->effect->gl.Uniform1i(program->horizontal_location, i % 2);
+        /* The vertical pass reads a tile farther than it draws. */
+        select_tiles(r, program, 1, 0, r->rings + i % 2);
         draw_turn(r, program, GLSSAO_PASS_BLUR, i, i == count && !runs(r, GLSSAO_PASS_UPSAMPLE));
     }
 }
@@ -262,6 +289,7 @@ static void upsample(const frame_run *r)
 {
     glssao_effect *effect = r->effect;
     glssao__draw_use(effect, &r->programs.upsample);
+    select_tiles(r, &r->programs.upsample, 2, 0, r->rings);
     glssao__draw_bind(effect, UNIT_DEPTH, depth_source(r->frame), SAMPLER_POINT_CLAMP);
     glssao__draw_bind(effect, UNIT_AMBIENT, turns(effect)->texture[0], SAMPLER_POINT_CLAMP);
     glssao__draw_crop(effect, &r->programs.upsample, &effect->result_map, effect->width, effect->height, &r->delivered);
@@ -271,9 +299,13 @@ static void upsample(const frame_run *r)
 static void run_passes(const frame_run *r)
 {
     static void (*const passes[GLSSAO_PASS_COUNT])(const frame_run *) = {
-        [GLSSAO_PASS_INPUTS] = copy_inputs,    [GLSSAO_PASS_NORMALS] = rebuild_normals,
-        [GLSSAO_PASS_DISTANCE] = map_distance, [GLSSAO_PASS_ESTIMATE] = estimate,
-        [GLSSAO_PASS_RESOLVE] = resolve,       [GLSSAO_PASS_BLUR] = blur,
+        [GLSSAO_PASS_INPUTS] = copy_inputs,
+        [GLSSAO_PASS_NORMALS] = rebuild_normals,
+        [GLSSAO_PASS_DISTANCE] = map_distance,
+        [GLSSAO_PASS_TILES] = sort_tiles,
+        [GLSSAO_PASS_ESTIMATE] = estimate,
+        [GLSSAO_PASS_RESOLVE] = resolve,
+        [GLSSAO_PASS_BLUR] = blur,
         [GLSSAO_PASS_UPSAMPLE] = upsample,
     };
     for (int i = 0; i < GLSSAO_PASS_COUNT; ++i) {
@@ -281,7 +313,7 @@ static void run_passes(const frame_run *r)
         if (!planned->run)
             continue;
         glssao__stats_begin_pass(r->effect, (glssao_pass)i);
-        if (i == GLSSAO_PASS_ESTIMATE)
+        if (i == GLSSAO_PASS_ESTIMATE || i == GLSSAO_PASS_TILES)
             glssao__draw_bind(r->effect, UNIT_NORMAL,
                               r->frame->normal_texture ? r->frame->normal_texture : r->effect->normal_map.texture,
                               SAMPLER_POINT_CLAMP);
@@ -299,7 +331,8 @@ static glssao_result run(glssao_effect *effect, const glssao_frame *host, const 
                    .host = host,
                    .settings = settings,
                    .plan = plan,
-                   .delivered = glssao__plan_result(effect, host, settings, plan)};
+                   .delivered = glssao__plan_result(effect, host, settings, plan),
+                   .rings = glssao__tiles_rings(glssao__plan_reach(settings, plan))};
     glssao__precision precision;
     glssao_result result = glssao__inputs_check(effect, host, &precision);
     if (result == GLSSAO_OK)
@@ -317,6 +350,7 @@ static glssao_result run(glssao_effect *effect, const glssao_frame *host, const 
     glssao__constants_fill(&effect->constants, frame, settings, projection, effect->ambient.width,
                            effect->ambient.height);
     glssao__constants_fill_frame(&effect->frame_constants, host, settings, projection, &precision);
+    glssao__tiles_fill_constants(&effect->frame_constants, settings, r.rings);
     if (settings->technique == GLSSAO_HEMISPHERE)
         glssao__constants_fill_kernel(&effect->hemisphere_constants, effect->seed, settings->sample_count);
     if (plan->passes[GLSSAO_PASS_RESOLVE].run) {
@@ -327,8 +361,9 @@ static glssao_result run(glssao_effect *effect, const glssao_frame *host, const 
     }
     upload_constants(effect, settings->technique == GLSSAO_HEMISPHERE ? BLOCK_COUNT : BLOCK_HEMISPHERE);
     glssao__stats_begin_frame(effect);
-    effect->is_paired = is_paired(settings, plan);
+    effect->is_paired = glssao__plan_is_paired(settings, plan);
     effect->has_result_map = is_apart(plan, frame);
+    effect->tiles.used = plan->passes[GLSSAO_PASS_TILES].run;
     if (!plan->passes[GLSSAO_PASS_ESTIMATE].run) {
         glssao__maps_clear_result(effect);
         return GLSSAO_OK;
@@ -340,6 +375,27 @@ static glssao_result run(glssao_effect *effect, const glssao_frame *host, const 
     bind_depth(&r);
     run_passes(&r);
     return GLSSAO_OK;
+}
+
+glssao_result glssao_prepare(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
+{
+    glssao__projection projection;
+    if (!effect || glssao__draw_is_between_normals(effect, "glssao_prepare") ||
+        !glssao__settings_check_frame(effect, frame, settings, &effect->log, &projection))
+        return GLSSAO_INVALID_ARGUMENT;
+    frame_programs programs;
+    glssao__host_state host;
+    glssao__state_save(&effect->gl, &host);
+    const glssao_plan plan = glssao_plan_frame(effect, frame, settings);
+    glssao_result result = glssao__inputs_fit(effect, frame);
+    const glssao_frame read = glssao__inputs_frame(effect, frame);
+    if (result == GLSSAO_OK)
+        result = get_programs(effect, frame, &read, settings, &plan, &programs);
+    if (result == GLSSAO_OK)
+        result = fit_maps(effect, &read, settings, &plan);
+    glssao__state_restore(&effect->gl, &host);
+    glssao__draw_check(effect, "glssao_prepare");
+    return result;
 }
 
 glssao_result glssao_compute(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
@@ -424,7 +480,7 @@ static glssao_result apply(glssao_effect *effect, gl_uint framebuffer)
     }
     glssao__stats_begin_pass(effect, GLSSAO_PASS_APPLY);
     glssao__state_set_blend(gl, GL_ZERO, GL_SRC_COLOR);
-    gl->UseProgram(program.name);
+    glssao__draw_use(effect, &program);
     glssao__draw_bind(effect, UNIT_AMBIENT, map, SAMPLER_LINEAR_CLAMP);
     glssao__draw(effect, framebuffer, effect->width - 2 * effect->margin, effect->height - 2 * effect->margin);
     glssao__stats_end_pass(effect, GLSSAO_PASS_APPLY, 1);

@@ -193,15 +193,43 @@ void glssao__maps_delete_ambient(const glssao__gl *gl, glssao__ambient_maps *map
     *maps = (glssao__ambient_maps){0};
 }
 
+glssao_result glssao__maps_fit_tiles(glssao_effect *effect, int width, int height, bool from_depth)
+{
+    glssao__tiles *t = &effect->tiles;
+    int columns, rows;
+    glssao__tiles_size(width, height, &columns, &rows);
+    glssao_result result =
+        fit_target(effect, GL_RGBA32F, columns, from_depth ? effect->height : height, "tile row", &t->rows);
+    if (result == GLSSAO_OK)
+        result = fit_target(effect, GL_RGBA32F, columns, rows, "tile bound", &t->bounds);
+    if (result == GLSSAO_OK)
+        result = fit_target(effect, GL_R32F, columns, rows, "tile class", &t->needed);
+    return result == GLSSAO_OK ? fit_target(effect, GL_R32F, columns, rows, "tile ring", &t->rings) : result;
+}
+
+static void clear_target(const glssao__gl *gl, const glssao__target *target)
+{
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, target->framebuffer);
+    gl->ClearBufferfv(GL_COLOR, 0, (const gl_float[4]){1.0f, 1.0f, 1.0f, 1.0f});
+}
+
+void glssao__maps_clear_all(glssao_effect *effect)
+{
+    if (effect->is_paired)
+        clear_to_one(&effect->gl, &effect->paired);
+    if (effect->has_result_map)
+        clear_target(&effect->gl, &effect->result_map);
+    if (!effect->is_paired || !effect->has_result_map)
+        clear_to_one(&effect->gl, &effect->ambient);
+}
+
 void glssao__maps_clear_result(glssao_effect *effect)
 {
     if (!effect->ambient_is_one)
         clear_to_one(&effect->gl, &effect->ambient);
     effect->ambient_is_one = true;
-    if (effect->has_result_map) {
-        effect->gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, effect->result_map.framebuffer);
-        effect->gl.ClearBufferfv(GL_COLOR, 0, (const gl_float[4]){1.0f, 1.0f, 1.0f, 1.0f});
-    }
+    if (effect->has_result_map)
+        clear_target(&effect->gl, &effect->result_map);
 }
 
 glssao_result glssao__maps_make_random_vector(glssao_effect *effect)

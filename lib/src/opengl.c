@@ -68,6 +68,11 @@ bool glssao__gl_load(glssao__gl *gl, glssao__gl_load_fn load, void *user, const 
         gl->ViewportIndexedf = NULL;
     if (gl->version < 45 && !has_extension(gl, "GL_ARB_clip_control"))
         gl->ClipControl = NULL;
+    gl_int formats = 0;
+    if ((gl->version >= 41 || has_extension(gl, "GL_ARB_get_program_binary")) && gl->GetProgramBinary &&
+        gl->ProgramBinary && gl->ProgramParameteri)
+        gl->GetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
+    gl->program_binaries = formats > 0;
     gl->depth_bounds_test = has_extension(gl, "GL_EXT_depth_bounds_test");
 
     gl_int mask = 0, texture_size = 0, viewport[2] = {0, 0};
@@ -76,6 +81,9 @@ bool glssao__gl_load(glssao__gl *gl, glssao__gl_load_fn load, void *user, const 
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &texture_size);
     gl->GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
     gl->max_size = smaller(texture_size, smaller(viewport[0], viewport[1]));
+    gl_float point_sizes[2] = {1.0f, 1.0f};
+    gl->GetFloatv(GL_POINT_SIZE_RANGE, point_sizes);
+    gl->max_point_size = point_sizes[1];
     gl->GetIntegerv(GL_MAX_DRAW_BUFFERS, &gl->max_draw_buffers);
     gl->GetIntegerv(GL_MAX_CLIP_DISTANCES, &gl->max_clip_distances);
     return true;

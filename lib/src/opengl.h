@@ -32,12 +32,15 @@ typedef void *gl_sync;
 enum {
     GL_ZERO = 0,
     GL_ONE = 1,
+    GL_POINTS = 0x0000,
     GL_TRIANGLES = 0x0004,
     GL_SRC_COLOR = 0x0300,
     GL_FRONT = 0x0404,
     GL_BACK = 0x0405,
     GL_FRONT_AND_BACK = 0x0408,
     GL_POLYGON_MODE = 0x0B40,
+    GL_POINT_SMOOTH = 0x0B10,
+    GL_POINT_SIZE_RANGE = 0x0B12,
     GL_POLYGON_SMOOTH = 0x0B41,
     GL_POLYGON_STIPPLE = 0x0B42,
     GL_CULL_FACE = 0x0B44,
@@ -144,6 +147,9 @@ enum {
     GL_VERTEX_SHADER = 0x8B31,
     GL_COMPILE_STATUS = 0x8B81,
     GL_LINK_STATUS = 0x8B82,
+    GL_PROGRAM_BINARY_RETRIEVABLE_HINT = 0x8257,
+    GL_PROGRAM_BINARY_LENGTH = 0x8741,
+    GL_NUM_PROGRAM_BINARY_FORMATS = 0x87FE,
     GL_CURRENT_PROGRAM = 0x8B8D,
     GL_VERTEX_ARRAY_BINDING = 0x85B5,
     GL_RASTERIZER_DISCARD = 0x8C89,
@@ -161,6 +167,7 @@ enum {
     GL_TIMESTAMP = 0x8E28,
     GL_SAMPLE_MASK = 0x8E51,
     GL_EXTENSIONS = 0x1F03,
+    GL_PROGRAM_POINT_SIZE = 0x8642,
     GL_PRIMITIVE_RESTART = 0x8F9D,
     GL_TEXTURE_2D_MULTISAMPLE = 0x9100,
     GL_TEXTURE_BINDING_2D_MULTISAMPLE = 0x9104,
@@ -262,16 +269,21 @@ enum {
        gl_enum format, gl_enum type, const void *pixels))                                                              \
     X(void, TexParameteri, (gl_enum target, gl_enum name, gl_int value))                                               \
     X(void, Uniform2f, (gl_int location, gl_float x, gl_float y))                                                      \
+    X(void, Uniform3f, (gl_int location, gl_float x, gl_float y, gl_float z))                                          \
     X(void, Uniform1i, (gl_int location, gl_int value))                                                                \
     X(void, UniformBlockBinding, (gl_uint program, gl_uint block, gl_uint binding))                                    \
     X(void, UseProgram, (gl_uint program))                                                                             \
     X(void, Viewport, (gl_int x, gl_int y, gl_sizei width, gl_sizei height))
 
-/* Of later versions, asked for only so that a host that uses them gets its state back exactly. */
+/* Of later versions: so that a host that uses them gets its state back exactly, and to keep linked programs. */
 #define GLSSAO_GL_OPTIONAL_FUNCTIONS(X)                                                                                \
     X(void, BlendEquationSeparatei, (gl_uint index, gl_enum rgb, gl_enum alpha))                                       \
     X(void, BlendFuncSeparatei,                                                                                        \
       (gl_uint index, gl_enum src_rgb, gl_enum dst_rgb, gl_enum src_alpha, gl_enum dst_alpha))                         \
+    X(void, GetProgramBinary,                                                                                          \
+      (gl_uint program, gl_sizei size, gl_sizei * length, gl_enum * format, void *binary))                             \
+    X(void, ProgramBinary, (gl_uint program, gl_enum format, const void *binary, gl_sizei length))                     \
+    X(void, ProgramParameteri, (gl_uint program, gl_enum name, gl_int value))                                          \
     X(void, ClipControl, (gl_enum origin, gl_enum depth))                                                              \
     X(void, ScissorIndexed, (gl_uint index, gl_int x, gl_int y, gl_sizei width, gl_sizei height))                      \
     X(void, ViewportIndexedf, (gl_uint index, gl_float x, gl_float y, gl_float width, gl_float height))
@@ -283,9 +295,11 @@ typedef struct glssao__gl {
 #undef GLSSAO_GL_MEMBER
     int version;            /* 10 * major + minor: 33 for 3.3 */
     bool compatibility;     /* a compatibility profile: fixed-function toggles exist */
+    bool program_binaries;  /* linked programs can be read back */
     bool depth_bounds_test; /* GL_EXT_depth_bounds_test */
     int max_size;           /* largest texture and viewport side, pixels */
     int max_draw_buffers;
+    float max_point_size;   /* pixels */
     int max_clip_distances;
 } glssao__gl;
 

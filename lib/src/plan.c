@@ -27,12 +27,17 @@ static glssao__region grown(glssao__region r, int by, int width, int height)
     return r;
 }
 
-/* How many texels of the estimate beyond a pixel the passes after it read. */
-static int reach(const glssao_settings *settings, const glssao_plan *plan)
+int glssao__plan_reach(const glssao_settings *settings, const glssao_plan *plan)
 {
     int taps = settings->blur == GLSSAO_BLUR_BOX || settings->blur == GLSSAO_BLUR_PLANAR ? 2 : 5;
     return (plan->passes[GLSSAO_PASS_BLUR].run ? taps * settings->blur_rounds : 0) +
            (plan->passes[GLSSAO_PASS_UPSAMPLE].run ? 1 : 0);
+}
+
+bool glssao__plan_is_paired(const glssao_settings *settings, const glssao_plan *plan)
+{
+    return plan->passes[GLSSAO_PASS_UPSAMPLE].run ||
+           (plan->passes[GLSSAO_PASS_BLUR].run && settings->blur == GLSSAO_BLUR_PLANAR);
 }
 
 glssao__region glssao__plan_result(const glssao_effect *effect, const glssao_frame *frame,
@@ -48,7 +53,7 @@ glssao__region glssao__plan_result(const glssao_effect *effect, const glssao_fra
 glssao__region glssao__plan_region(const glssao_effect *effect, const glssao_frame *frame,
                                    const glssao_settings *settings, const glssao_plan *plan, glssao_pass pass)
 {
-    int width, height, factor = settings->half_resolution ? 2 : 1, by = reach(settings, plan);
+    int width, height, factor = settings->half_resolution ? 2 : 1, by = glssao__plan_reach(settings, plan);
     glssao__plan_ambient_size(effect, settings, &width, &height);
     if (pass == GLSSAO_PASS_INPUTS)
         return inner(effect->width, effect->height, 0);
@@ -56,14 +61,18 @@ glssao__region glssao__plan_region(const glssao_effect *effect, const glssao_fra
         return inner(effect->width, effect->height, frame->margin);
     if (pass == GLSSAO_PASS_NORMALS)
         return grown(inner(effect->width, effect->height, frame->margin), factor * by, effect->width, effect->height);
-    if (pass == GLSSAO_PASS_DISTANCE) /* occluders are looked for in the margin */
+    if (pass == GLSSAO_PASS_DISTANCE || pass == GLSSAO_PASS_TILES) /* occluders are looked for in the margin */
         return inner(width, height, 0);
     return grown(inner(width, height, frame->margin / factor), by, width, height);
 }
 
 /* Why every pixel would come out as 1; NULL where one may not. */
-static const char *nothing_to_occlude(const glssao_settings *s)
+static const char *nothing_to_occlude(const glssao_frame *frame, const glssao_settings *s)
 {
+    if (frame->only_sky)
+        return "the host sees nothing but sky: no surface is occluded";
+    if (frame->no_ambient_light)
+        return "the host has no ambient light: nothing to scale";
     if (s->radius <= 0.0f)
         return "radius is 0: no occluder is in reach";
     if (s->power <= 0.0f)
@@ -93,7 +102,7 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
     glssao__projection projection;
     if (!effect || !glssao__settings_check_frame(effect, frame, settings, &silent, &projection))
         return plan_of_skips("glssao_compute would refuse these arguments");
-    const char *nothing = nothing_to_occlude(settings);
+    const char *nothing = nothing_to_occlude(frame, settings);
     if (nothing)
         return plan_of_skips(nothing);
 
@@ -129,15 +138,25 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
     else
         *distance = planned(GLSSAO_PASS_DISTANCE, false, "no pass reads it");
 
+    int width, height;
+    glssao__plan_ambient_size(effect, settings, &width, &height);
+    const char *refusal = glssao__tiles_refusal(effect, settings, width, height);
+    struct glssao_planned_pass *tiles = &plan.passes[GLSSAO_PASS_TILES];
+    *tiles = refusal ? planned(GLSSAO_PASS_TILES, false, refusal)
+                     : planned(GLSSAO_PASS_TILES, true, "what no occluder can reach is left out below");
+
     for (int i = 0; i < GLSSAO_PASS_COUNT; ++i) {
         struct glssao_planned_pass *pass = &plan.passes[i];
         if (i == GLSSAO_PASS_APPLY || i == GLSSAO_PASS_RESOLVE)
             continue;
         const glssao__region region = glssao__plan_region(effect, frame, settings, &plan, (glssao_pass)i);
-        pass->draw_calls = !pass->run                ? 0
-                           : pass == blur            ? 2 * settings->blur_rounds
-                           : i == GLSSAO_PASS_INPUTS ? copies
-                                                     : 1;
+        const bool fills = tiles->run && glssao__plan_is_paired(settings, &plan); /* what neighbours read */
+        pass->draw_calls = !pass->run                  ? 0
+                           : pass == blur              ? 2 * settings->blur_rounds
+                           : pass == tiles             ? TILE_PASSES
+                           : i == GLSSAO_PASS_INPUTS   ? copies
+                           : pass == estimate && fills ? 2
+                                                       : 1;
         pass->width = region.width;
         pass->height = region.height;
     }

@@ -25,11 +25,15 @@ static const char *const macros[VARIANT_FLAGS] = {
     "PAIRED",
     "MULTISAMPLE",
     "LOGARITHMIC",
+    "OPEN",
+    "PLANES",
+    "FROM_DEPTH",
 };
 
 enum {
     NORMAL_FLAGS = VARIANT_UNSIGNED_NORMALS | VARIANT_OCTAHEDRAL_NORMALS,
     DEPTH_FLAGS = VARIANT_DEPTH_IS_DISTANCE | VARIANT_DEPTH_IN_ALPHA,
+    TILE_FLAGS = NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_PLANES | VARIANT_FROM_DEPTH,
     STEP_FLAGS = VARIANT_STEPS_8 | VARIANT_STEPS_12 | VARIANT_STEPS_16
 };
 
@@ -42,15 +46,15 @@ static const struct shader {
     [SHADER_INPUT] = {"input", VARIANT_MULTISAMPLE | VARIANT_LOGARITHMIC, {shader_view_glsl, shader_input_frag}},
     [SHADER_NORMALS] = {"normals", DEPTH_FLAGS, {shader_view_glsl, shader_normals_frag}},
     [SHADER_CLASSIC] = {"classic",
-                        NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_NO_ANGLE_WEIGHT | VARIANT_PAIRED,
+                        NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_NO_ANGLE_WEIGHT | VARIANT_PAIRED | VARIANT_OPEN,
                         {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_classic_frag}},
     [SHADER_HEMISPHERE] = {"hemisphere",
-                           NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_PAIRED,
+                           NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_PAIRED | VARIANT_OPEN,
                            {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_hemisphere_frag}},
     [SHADER_DISTANCE] = {"distance", DEPTH_FLAGS | VARIANT_LAYERS, {shader_view_glsl, shader_distance_frag}},
     [SHADER_HORIZON] = {"horizon",
                         NORMAL_FLAGS | STEP_FLAGS | VARIANT_SLICES_2 | VARIANT_ACCUMULATE | VARIANT_LAYERS |
-                            VARIANT_PAIRED,
+                            VARIANT_PAIRED | VARIANT_OPEN,
                         {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_horizon_frag}},
     [SHADER_RESOLVE] = {"resolve",
                         NORMAL_FLAGS | VARIANT_PAIRED,
@@ -66,6 +70,16 @@ static const struct shader {
                      NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_BOX | VARIANT_EDGE_AWARE | VARIANT_PAIRED,
                      {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_blur_frag}},
     [SHADER_APPLY] = {"apply", 0, {shader_apply_frag}},
+    [SHADER_TILE_ROWS] = {"tile-rows",
+                          TILE_FLAGS,
+                          {shader_view_glsl, shader_normal_map_glsl, shader_tile_map_glsl, shader_tile_rows_frag}},
+    [SHADER_TILE_BOUNDS] = {"tile-bounds",
+                            TILE_FLAGS,
+                            {shader_view_glsl, shader_normal_map_glsl, shader_tile_map_glsl, shader_tile_bounds_frag}},
+    [SHADER_TILE_CLASS] = {"tile-class",
+                           TILE_FLAGS,
+                           {shader_view_glsl, shader_normal_map_glsl, shader_tile_map_glsl, shader_tile_class_frag}},
+    [SHADER_TILE_RINGS] = {"tile-rings", 0, {shader_tile_rings_frag}},
 };
 
 const char *glssao__program_shader_name(enum glssao__shader shader)
@@ -191,6 +205,8 @@ static const struct member {
     FRAME(gProbe),
     FRAME(gDepthStep),
     FRAME(gLogDepth),
+    FRAME(gTiles),
+    FRAME(gTileRings),
 #undef FRAME
     {BLOCK_HEMISPHERE, "gKernel", offsetof(glssao__hemisphere_constants, gKernel)},
     {BLOCK_HEMISPHERE, "gRotations", offsetof(glssao__hemisphere_constants, gRotations)},
@@ -245,6 +261,8 @@ static gl_uint link(const glssao_effect *effect, enum glssao__shader id, gl_uint
     gl_uint program = gl->CreateProgram();
     gl->AttachShader(program, vertex);
     gl->AttachShader(program, fragment);
+    if (effect->cache_folder && gl->program_binaries)
+        gl->ProgramParameteri(program, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, 1);
     gl->LinkProgram(program);
     gl_int ok = 0;
     gl->GetProgramiv(program, GL_LINK_STATUS, &ok);
@@ -267,7 +285,7 @@ static void tie_samplers(const glssao__gl *gl, gl_uint program)
     } samplers[] = {
         {"u_normal_map", UNIT_NORMAL},   {"u_depth_map", UNIT_DEPTH},       {"u_random_vector_map", UNIT_RANDOM_VECTOR},
         {"u_ambient_map", UNIT_AMBIENT}, {"u_distance_map", UNIT_DISTANCE}, {"u_back_map", UNIT_BACK},
-        {"u_second_map", UNIT_SECOND},   {"u_input_map", UNIT_DEPTH},
+        {"u_second_map", UNIT_SECOND},   {"u_input_map", UNIT_DEPTH},       {"u_tile_map", UNIT_TILES},
     };
     gl->UseProgram(program);
     for (size_t i = 0; i < sizeof samplers / sizeof *samplers; ++i)
@@ -282,19 +300,36 @@ static const glssao__program_object *find(const glssao_effect *effect, enum glss
     return NULL;
 }
 
-static glssao_result make(glssao_effect *effect, enum glssao__shader shader, unsigned variant,
-                          glssao__program_object *out)
+/* From source. The name stays 0 where it fails. */
+static void build(glssao_effect *effect, enum glssao__shader shader, unsigned variant, glssao__program_object *out)
 {
     const glssao__gl *gl = &effect->gl;
     gl_uint vertex = compile(effect, shader, variant, GL_VERTEX_SHADER);
     gl_uint fragment = vertex ? compile(effect, shader, variant, GL_FRAGMENT_SHADER) : 0;
-    *out = (glssao__program_object){.name = fragment ? link(effect, shader, vertex, fragment) : 0};
+    out->name = fragment ? link(effect, shader, vertex, fragment) : 0;
     gl->DeleteShader(vertex); /* names of 0 are ignored; an attached shader lives as long as its program */
     gl->DeleteShader(fragment);
+    if (out->name)
+        glssao__cache_write(effect, shader, variant, out->name);
+}
+
+static glssao_result make(glssao_effect *effect, enum glssao__shader shader, unsigned variant,
+                          glssao__program_object *out)
+{
+    const glssao__gl *gl = &effect->gl;
+    *out = (glssao__program_object){.name = glssao__cache_read(effect, shader, variant)};
+    /* Bindings are no part of what was kept. */
+    if (out->name && !bind_blocks(effect, out->name)) {
+        gl->DeleteProgram(out->name);
+        out->name = 0;
+    }
+    if (!out->name)
+        build(effect, shader, variant, out);
     if (!out->name)
         return GLSSAO_SHADER_ERROR;
     tie_samplers(gl, out->name);
     out->horizontal_location = gl->GetUniformLocation(out->name, "gHorizontalBlur");
+    out->tile_range_location = gl->GetUniformLocation(out->name, "gTileRange");
     out->origin_location = gl->GetUniformLocation(out->name, "gOrigin");
     return GLSSAO_OK;
 }

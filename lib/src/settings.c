@@ -119,6 +119,8 @@ bool glssao__settings_check(const glssao_settings *settings, const glssao__log_s
     int n = settings->sample_count;
     if (settings->technique == GLSSAO_HORIZON && n != 12 && n != 16 && n != 24 && n != 32 && n != 48 && n != 64)
         return refuse(log, "settings.sample_count", n, "horizon takes 12, 16, 24, 32, 48 or 64");
+    if ((unsigned)settings->tiles > GLSSAO_TILES_ON)
+        return refuse(log, "settings.tiles", settings->tiles, "unknown");
     if (settings->fade_end < settings->fade_start) {
         glssao__log_write(log, GLSSAO_LOG_ERROR, "settings.fade_end = %g: less than fade_start = %g",
                           (double)settings->fade_end, (double)settings->fade_start);
@@ -202,6 +204,7 @@ static bool check_frame(const glssao_effect *effect, const glssao_frame *frame, 
         effect->inputs[3].texture,
         effect->accumulation.sum.texture,
         effect->accumulation.probe.texture,
+        effect->tiles.rings.texture,
         frame->normal_texture ? 0 : effect->normal_map.texture, /* normals are rebuilt there */
     };
     for (size_t i = 0; i < sizeof written / sizeof *written; ++i)

@@ -18,7 +18,9 @@ static const struct toggle {
     {GL_SAMPLE_MASK, ALWAYS},
     {GL_SAMPLE_COVERAGE, ALWAYS},
     {GL_POLYGON_SMOOTH, ALWAYS},
-    {GL_PRIMITIVE_RESTART, ALWAYS}, /* early specifications let the index cut DrawArrays too */
+    {GL_PRIMITIVE_RESTART, ALWAYS},  /* early specifications let the index cut DrawArrays too */
+    {GL_PROGRAM_POINT_SIZE, ALWAYS}, /* on only while tiles are drawn */
+    {GL_POINT_SMOOTH, COMPATIBILITY},
     {GL_ALPHA_TEST, COMPATIBILITY},
     {GL_POLYGON_STIPPLE, COMPATIBILITY},
     {GL_DEPTH_BOUNDS_TEST_EXT, DEPTH_BOUNDS},

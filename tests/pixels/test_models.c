@@ -33,12 +33,12 @@ static float *sampled_random_vectors(const glssao_effect *effect, int width, int
 {
     GLuint program = gl.CreateProgram();
     GLuint vertex = compile(GL_VERTEX_SHADER,
-                            "#version 330\nout vec2 v_uv;\nvoid main() {\n"
+                            "#version 330\nvoid main() {\n"
                             "vec2 c[6] = vec2[6](vec2(0,1), vec2(0,0), vec2(1,0), vec2(0,1), vec2(1,0), vec2(1,1));\n"
-                            "v_uv = c[gl_VertexID]; gl_Position = vec4(2.0 * v_uv - 1.0, 0.0, 1.0); }\n");
+                            "gl_Position = vec4(2.0 * c[gl_VertexID] - 1.0, 0.0, 1.0); }\n");
     GLuint fragment =
-        compile(GL_FRAGMENT_SHADER, "#version 330\nin vec2 v_uv;\nuniform sampler2D u_map;\nout vec4 o_color;\n"
-                                    "void main() { o_color = texture(u_map, 4.0 * v_uv); }\n");
+        compile(GL_FRAGMENT_SHADER, "#version 330\nuniform vec2 u_texel;\nuniform sampler2D u_map;\nout vec4 o_color;\n"
+                                    "void main() { o_color = texture(u_map, 4.0 * (gl_FragCoord.xy * u_texel)); }\n");
     gl.AttachShader(program, vertex);
     gl.AttachShader(program, fragment);
     gl.LinkProgram(program);
@@ -53,6 +53,7 @@ static float *sampled_random_vectors(const glssao_effect *effect, int width, int
     gl.BindVertexArray(array);
     gl.Viewport(0, 0, width, height);
     gl.UseProgram(program);
+    gl.Uniform2f(gl.GetUniformLocation(program, "u_texel"), 1.0f / (float)width, 1.0f / (float)height);
     gl.BindTexture(GL_TEXTURE_2D, glssao_map(effect, GLSSAO_MAP_RANDOM_VECTOR, NULL, NULL));
     gl.DrawArrays(GL_TRIANGLES, 0, 6);
     float *vectors = fixture_read_texture(texture, width, height, 3);

@@ -93,6 +93,8 @@ static const struct {
     {"clip distance 0", GL_CLIP_DISTANCE0, false},
     {"clip distance 3", GL_CLIP_DISTANCE3, false},
     {"clip distance 7", GL_CLIP_DISTANCE7, false},
+    {"program point size", GL_PROGRAM_POINT_SIZE, false},
+    {"point smooth", 0x0B10, true},    /* GL_POINT_SMOOTH */
     {"alpha test", 0x0BC0, true},      /* GL_ALPHA_TEST */
     {"polygon stipple", 0x0B42, true}, /* GL_POLYGON_STIPPLE */
 };
@@ -415,7 +417,11 @@ static float *walk(fixture *f, const inputs *in, const host *h, double *out_erro
     const glssao_settings hemisphere = glssao_default_settings(GLSSAO_HEMISPHERE, GLSSAO_LOW);
     CALL(glssao_compute(effect, &rebuilt, &hemisphere));
     const glssao_settings horizon = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW), classic = settings;
-    CALL(glssao_compute(effect, &in->frame, &horizon)); /* makes maps and programs of its own */
+    CALL(glssao_prepare(effect, &in->frame, &horizon)); /* makes maps and programs of its own */
+    CALL(glssao_compute(effect, &in->frame, &horizon));
+    glssao_settings tiled = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
+    tiled.tiles = GLSSAO_TILES_ON; /* points of the shader's size, and a texture more */
+    CALL(glssao_compute(effect, &in->frame, &tiled));
     glssao_frame beyond = in->frame; /* with a scissor, and two textures more */
     beyond.margin = 8;
     beyond.back_texture = beyond.second_texture = in->frame.depth_texture;

@@ -80,6 +80,8 @@ typedef struct glssao_config { /* zero means default */
     int width, height;   /* full size in pixels: the size of the depth maps handed over. 1 to GL_MAX_TEXTURE_SIZE */
     uint32_t seed;       /* of every random input: the same seed gives the same bits */
     bool no_timers;      /* true: no timer queries; glssao_stats then holds no times */
+    const char *program_cache; /* a folder that exists, where linked programs are kept for the next run if the driver
+                            can (GL 4.1 or ARB_get_program_binary); NULL: none. What does not fit is compiled anew */
 } glssao_config;
 
 /* ---- settings: may change every frame ------------------------------------------------------------------- */
@@ -101,6 +103,12 @@ typedef enum glssao_blur {  /* how noise is taken out of the estimate */
     GLSSAO_BLUR_PLANAR     /* separable box over a 4 x 4 tile that follows surfaces: the horizon technique's own */
 } glssao_blur;
 
+typedef enum glssao_tiles { /* whether tiles of the picture where nothing can occlude are looked for and left out */
+    GLSSAO_TILES_AUTO = 0,  /* where it can pay */
+    GLSSAO_TILES_OFF,
+    GLSSAO_TILES_ON
+} glssao_tiles;
+
 typedef struct glssao_settings {   /* fill with glssao_default_settings() first, then change what you like */
     glssao_technique technique;    /* decides which of the fields below count */
     float radius;                  /* scene units, >= 0: how far away an occluder can be. 0 occludes nothing */
@@ -119,6 +127,7 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     float blur_sigma;              /* pixels of the ambient map, above 0 to 2.5 */
     float blur_normal_threshold;   /* cosine, -1 to 1: taps whose normals' dot product is below are dropped */
     float blur_depth_threshold;    /* scene units, >= 0: taps farther off in view distance are dropped */
+    glssao_tiles tiles;            /* the picture is the same with and without, within a step of R16 */
     bool no_angle_weight;          /* classic, for teaching: occluders count at any angle, so flat surfaces darken */
 } glssao_settings;
 
@@ -148,6 +157,8 @@ typedef struct glssao_frame { /* zero a field that you don't use */
     bool clip_zero_to_one;     /* true where the host called glClipControl(..., GL_ZERO_TO_ONE) */
     int margin;                /* pixels on each side, even: drawn so that occluders beyond the picture's edge are found,
                                   but not delivered. The result is that much smaller; projection is that of the whole */
+    bool no_ambient_light;     /* there is none that the result could scale: nothing is drawn, the result is 1 */
+    bool only_sky;             /* nothing but sky is seen: the same */
     uint32_t back_texture;     /* horizon; both or neither. A second layer, stored as depth_texture is (view distance in */
     uint32_t second_texture;   /* red where depth is in the normal map): the nearest back face at or behind the surface
                                   seen, where surfaces that have two sides count as back faces; and the nearest front
@@ -170,7 +181,9 @@ typedef enum glssao_map_id { /* textures to look at */
                                  and red's ten lowest bits hold the normal */
     GLSSAO_MAP_NORMAL,        /* the effect's own normal map, RGBA16F, full size */
     GLSSAO_MAP_RANDOM_VECTOR, /* RGBA8, 256 x 256 */
-    GLSSAO_MAP_DEPTH          /* the host's depth texture as last handed over; 0 before the first */
+    GLSSAO_MAP_DEPTH,         /* the host's depth texture as last handed over; 0 before the first */
+    GLSSAO_MAP_TILES          /* one texel a tile, R32F: 0: estimated; above: left out, 1/16 for each tile that lies between
+                                 it and an estimated one, itself included; 0 where the last frame had no tiles */
 } glssao_map_id;
 
 /* The uniform block cbSsao, std140, with the D3D12 demo's members and names. Matrices are column-major. */
@@ -189,6 +202,7 @@ typedef enum glssao_pass { /* in the order of the frame */
     GLSSAO_PASS_INPUTS = 0,  /* multisample, larger or logarithmic textures copied to plain ones */
     GLSSAO_PASS_NORMALS,     /* normals rebuilt from depth */
     GLSSAO_PASS_DISTANCE,    /* view distance at the estimate's size */
+    GLSSAO_PASS_TILES,       /* tiles without any occlusion looked for, so that later passes leave them out */
     GLSSAO_PASS_ESTIMATE,    /* raw accessibility */
     GLSSAO_PASS_RESOLVE,     /* the mean of accumulated estimates and its error, by glssao_accumulate */
     GLSSAO_PASS_BLUR,        /* all rounds */
@@ -249,6 +263,11 @@ GLSSAO_API glssao_result glssao_end_normals(glssao_effect *effect);
 /* Runs the passes of glssao_plan_frame; the result is GLSSAO_MAP_AMBIENT. May fail with INVALID_ARGUMENT, and with
  * the rest when a map or program needed for the first time can't be made. */
 GLSSAO_API glssao_result glssao_compute(glssao_effect *effect, const glssao_frame *frame,
+                                        const glssao_settings *settings);
+
+/* Makes what glssao_compute needs for these, programs above all, without drawing: compile while a level loads. May fail
+ * as glssao_compute. */
+GLSSAO_API glssao_result glssao_prepare(glssao_effect *effect, const glssao_frame *frame,
                                         const glssao_settings *settings);
 
 /* Horizon, a still view: adds one more estimate, at full size and with noise of its own, to a mean that is kept in 32-bit

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Whether a tile needs an estimate. It needs none where the estimate's own rules leave every pixel at 1 whatever lies
+// between the bounds: no surface is seen; no sample leaves its own texel; everything in reach lies within a range of
+// distance that does not count; or the tile is a plane and what is in reach lies in it or below. docs/economy.md has the
+// proofs, and what they allow for rounding.
+// in  u_ambient_map  bounds of tiles; fetched
+// out o_needed       1: to be estimated, 0: open
+
+uniform sampler2D u_ambient_map;
+out float o_needed;
+
+const int MOST_TILES = 16;    // in reach along an axis; where there are more, the tile is estimated without a look
+const float FACING = 0.25;    // cosine: seen at more of a slant, the estimate of a plane is off 1 by more than its rounding
+
+vec3 bounds_of(ivec2 tile)
+{
+    return texelFetch(u_ambient_map, tile, 0).xyz;
+}
+
+// How far samples reach, in texels; negative: no bound.
+vec2 reach_of(float nearest, vec2 widest_ray)
+{
+    float reach = gTiles.y * gOcclusionRadius;
+#if FROM_DEPTH
+    // Samples lie in a ball, whose picture is wider off the axis and nearer to the eye.
+    float depth = orthographic() ? 1.0 : nearest - reach;
+    vec2 wide = orthographic() ? vec2(reach) : reach * (1.0 + widest_ray);
+#else
+    float depth = orthographic() ? 1.0 : nearest;
+    vec2 wide = vec2(reach);
+#endif
+    return depth > 0.0 ? wide / (texel_view() * depth) : vec2(-1.0);
+}
+
+vec2 corner_of(ivec2 tile, int i)
+{
+    vec2 corner = vec2(tile + ivec2(i & 1, i >> 1)) * float(tile_side());
+    return uv_at(min(corner, vec2(map_size())) - 0.5);
+}
+
+#if PLANES
+// Whether nothing of the other tile rises above the plane through `point`.
+bool lies_below(ivec2 tile, float nearest, vec3 plane, vec3 point)
+{
+    float side = float(tile_side());
+    vec2 middle = uv_at((vec2(tile) + 0.5) * side - 0.5);
+    vec2 half_uv = 0.5 * side * (uv_at(vec2(1.0)) - uv_at(vec2(0.0)));
+    // Heights over the parallel plane through the eye, at the corner where they are greatest. Seen from its front, the
+    // plane is left downwards along every ray, so that the nearest surface is the highest.
+    vec3 ray = ray_at(middle);
+    float along = dot(plane, ray) + dot(abs(plane.xy * gRayDirection.xy), half_uv);
+    float origin = dot(plane.xy, middle * gRayOrigin.xy + gRayOrigin.zw) + dot(abs(plane.xy * gRayOrigin.xy), half_uv);
+    // All of the other tile is nearer to the point than by way of the eye; the rays of a tile are alike.
+    float farthest = length(point) + 2.0 * nearest * length(ray) + length(point.xy);
+    return nearest > 0.0 && along < 0.0 && origin + along * nearest - dot(plane, point) < -gTiles.z * farthest;
+}
+
+bool lies_in_plane(ivec2 tile, vec3 bounds, vec3 plane, vec3 point)
+{
+    ivec2 middle = middle_of_tile(tile);
+    vec3 to_middle = position_view_from_uv(uv_at(vec2(middle)), distances_at(middle).x) - point;
+    return bounds.z <= gTiles.z && length(normal_at(middle) - plane) <= gTiles.z &&
+           abs(dot(plane, to_middle)) <= gTiles.z * length(to_middle);
+}
+
+// No occluder: sky that is out of reach.
+bool is_open_sky(vec3 bounds, float farthest)
+{
+#if FROM_DEPTH
+    return bounds.y == 0.0 && bounds.x > farthest + gOcclusionRadius;
+#else
+    return bounds.y == 0.0;
+#endif
+}
+#endif
+
+bool needs_estimate(ivec2 tile)
+{
+    vec3 own = bounds_of(tile);
+    if (own.y == 0.0)
+        return false;
+    vec2 widest_ray = vec2(0.0);
+    for (int i = 0; i < 4; ++i)
+        widest_ray = max(widest_ray, abs(ray_at(corner_of(tile, i)).xy));
+    vec2 reach = reach_of(own.x, widest_ray);
+    if (reach.x < 0.0)
+        return true;
+#if !FROM_DEPTH
+    if (max(reach.x, reach.y) < 0.49)
+        return false;
+#endif
+    ivec2 tiles = textureSize(u_ambient_map, 0);
+    float side = float(tile_side());
+    // Bounded before they become integers, which large numbers do not fit.
+    vec2 low = max(floor((vec2(tile) * side - reach - 1.0) / side), vec2(-1.0));
+    vec2 high = min(floor((vec2(tile + 1) * side + reach + 1.0) / side), vec2(tiles));
+    ivec2 first = max(ivec2(low), ivec2(0));
+    ivec2 last = min(ivec2(high), tiles - 1);
+    if (any(greaterThan(last - first, ivec2(MOST_TILES))))
+        return true;
+    bool flat_all = false;
+#if PLANES
+    ivec2 middle = middle_of_tile(tile);
+    vec3 plane = normal_at(middle);
+    vec3 point = position_view_from_uv(uv_at(vec2(middle)), distances_at(middle).x);
+    flat_all = own.z <= gTiles.z;
+#if !FROM_DEPTH
+    // On the picture's edge a sample is clamped to a texel that can lie at right angles to its slice, where rounding is all.
+    flat_all = flat_all && all(greaterThan(tile, ivec2(0))) && all(lessThan(tile, tiles - 1));
+#endif
+    for (int i = 0; i < 4; ++i) {
+        vec3 ray = ray_at(corner_of(tile, i));
+        flat_all = flat_all && -dot(plane, ray) >= FACING * length(ray);
+    }
+#endif
+    float nearest = own.x;
+    bool may_be_open = flat_all || gTiles.w > 0.0;
+    for (int y = first.y; y <= last.y && may_be_open; ++y)
+        for (int x = first.x; x <= last.x && may_be_open; ++x) {
+            vec3 other = bounds_of(ivec2(x, y));
+            nearest = min(nearest, other.x);
+#if PLANES
+            flat_all = flat_all && (is_open_sky(other, own.y) || lies_in_plane(ivec2(x, y), other, plane, point) ||
+                                    lies_below(ivec2(x, y), other.x, plane, point));
+            may_be_open = flat_all || gTiles.w > 0.0;
+#endif
+        }
+    // The difference of two distances is off by their rounding.
+    return !flat_all && !(own.y - nearest + 1e-6 * own.y < gTiles.w);
+}
+
+void main()
+{
+    o_needed = needs_estimate(ivec2(gl_FragCoord.xy)) ? 1.0 : 0.0;
+}

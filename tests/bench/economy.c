@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * glssao-economy: what a frame costs as the plan leaves out what the scene does not call for. Takes times with and
+ * without, in turns, and writes tables and charts. No rays are traced.
+ */
+#define _POSIX_C_SOURCE 200809L
+#include "economy.h"
+
+#include "clock.h"
+#include "configs.h"
+#include "gbuffer.h"
+#include "gl_counter.h"
+#include "measure.h"
+#include "scenes.h"
+#include "truth.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, WARM_UP_FRAMES = 2 };
+
+static const struct {
+    const char *name;
+    glssao_technique technique;
+    glssao_quality quality;
+} configs[ECONOMY_CONFIGS] = {{"horizon-medium", GLSSAO_HORIZON, GLSSAO_MEDIUM},
+                              {"horizon-high", GLSSAO_HORIZON, GLSSAO_HIGH},
+                              {"horizon-ultra", GLSSAO_HORIZON, GLSSAO_ULTRA},
+                              {"classic-high", GLSSAO_CLASSIC, GLSSAO_HIGH},
+                              {"hemisphere-high", GLSSAO_HEMISPHERE, GLSSAO_HIGH}};
+
+glssao_settings economy_settings(int config)
+{
+    return glssao_default_settings(configs[config].technique, configs[config].quality);
+}
+
+const char *economy_config_name(int config)
+{
+    return configs[config].name;
+}
+
+/* Share of the picture whose tiles were left out. */
+static double skipped_share(const glssao_effect *effect)
+{
+    int width, height;
+    const uint32_t map = glssao_map(effect, GLSSAO_MAP_TILES, &width, &height);
+    float *rings = map ? malloc((size_t)width * (size_t)height * sizeof *rings) : NULL;
+    if (!rings)
+        return 0;
+    gl.BindTexture(GL_TEXTURE_2D, map);
+    gl.GetTexImage(GL_TEXTURE_2D, 0, GL_RED, GL_FLOAT, rings);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    int skipped = 0;
+    for (int i = 0; i < width * height; i++)
+        skipped += rings[i] > 0;
+    free(rings);
+    return (double)skipped / (width * height);
+}
+
+/* CPU time of all threads where the rasteriser is software, else the GPU's. */
+static bool run_once(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings, bool software,
+                     double *out_ms, char *error, size_t error_size)
+{
+    gl.Finish();
+    const double start = clock_cpu_ms();
+    const glssao_result result = glssao_compute(effect, frame, settings);
+    gl.Finish();
+    *out_ms = clock_cpu_ms() - start;
+    if (result != GLSSAO_OK)
+        snprintf(error, error_size, "glssao_compute: %s", glssao_result_string(result));
+    else if (!software && glssao_get_stats(effect).gpu_ms >= 0)
+        *out_ms = glssao_get_stats(effect).gpu_ms;
+    return result == GLSSAO_OK;
+}
+
+/* The greatest difference of the two results, in steps of R16. */
+static double worst_difference(glssao_effect *const effects[2])
+{
+    float *pictures[2] = {NULL, NULL};
+    double worst = -1;
+    int w = 0, h = 0;
+    for (int i = 0; i < 2; i++) {
+        const uint32_t map = glssao_map(effects[i], GLSSAO_MAP_AMBIENT, &w, &h);
+        pictures[i] = malloc((size_t)w * (size_t)h * sizeof(float));
+        gl.BindTexture(GL_TEXTURE_2D, map);
+        if (pictures[i])
+            gl.GetTexImage(GL_TEXTURE_2D, 0, GL_RED, GL_FLOAT, pictures[i]);
+        gl.BindTexture(GL_TEXTURE_2D, 0);
+    }
+    for (int i = 0; pictures[0] && pictures[1] && i < w * h; i++) {
+        const double off = fabs((double)pictures[0][i] - (double)pictures[1][i]) * 65535;
+        worst = !(off <= worst) ? off : worst; /* also where it is no number */
+    }
+    free(pictures[0]);
+    free(pictures[1]);
+    return worst;
+}
+
+bool economy_compare(const economy *e, const glssao_frame *frame, int width, int height,
+                     const glssao_settings *settings, economy_row *out, char *error, size_t error_size)
+{
+    static const glssao_tiles tiles[2] = {GLSSAO_TILES_OFF, GLSSAO_TILES_ON};
+    const int frames = e->options->frames > 0 ? e->options->frames : 1;
+    glssao_effect *effects[2] = {NULL, NULL};
+    double *ms = calloc((size_t)frames * 2, sizeof *ms);
+    bool done = ms != NULL;
+    for (int i = 0; done && i < 2; i++) {
+        gl_counter_start(context_load, e->context);
+        const glssao_config config = {.load = gl_counter_load,
+                                      .log = glssao_log_to_stderr,
+                                      .width = width,
+                                      .height = height,
+                                      .no_timers = e->software};
+        glssao_settings s = *settings;
+        s.tiles = tiles[i];
+        done = glssao_create(&config, &effects[i]) == GLSSAO_OK && glssao_compute(effects[i], frame, &s) == GLSSAO_OK;
+        const gl_counts counts = gl_counter_take();
+        out->programs[i] = counts.programs;
+        out->bytes[i] = counts.bytes;
+    }
+    if (!done)
+        snprintf(error, error_size, "no first frame of %dx%d", width, height);
+    for (int f = -WARM_UP_FRAMES; done && f < frames; f++)
+        for (int i = 0; done && i < 2; i++) {
+            glssao_settings s = *settings;
+            s.tiles = tiles[i];
+            double one;
+            done = run_once(effects[i], frame, &s, e->software, &one, error, error_size);
+            if (f >= 0)
+                ms[i * frames + f] = one;
+        }
+    for (int i = 0; done && i < 2; i++)
+        out->ms[i] = measure_percentile(ms + i * frames, frames, 50);
+    out->skipped = done ? skipped_share(effects[1]) : 0;
+    out->worst = done ? worst_difference(effects) : -1;
+    glssao_destroy(effects[0]);
+    glssao_destroy(effects[1]);
+    free(ms);
+    return done;
+}
+
+static const char *const first_names[ECONOMY_FIRSTS] = {"nothing kept by anyone", "the driver's own cache is warm",
+                                                        "the same, and programs are written to a folder",
+                                                        "the same, and programs come from that folder"};
+
+const char *economy_first_name(int first)
+{
+    return first_names[first];
+}
+
+/* The driver's cache lies in a folder of this run alone: main sees to that. */
+static bool measure_firsts(economy *e, const char *folder, char *error, size_t error_size)
+{
+    const int w = e->options->time_size[0], h = e->options->time_size[1];
+    scene_view view;
+    float radius;
+    bench_scene b = {.name = "columns", .radius = 1};
+    gbuffer g = {.depth = 0};
+    scene *s = bench_scene_open(&b, w, h, &view, &radius, error, error_size);
+    bool done = s && gbuffer_draw(&g, s, &view, 0, error, error_size);
+    const glssao_frame frame = gbuffer_frame(&g);
+    for (int i = 0; done && i < ECONOMY_FIRSTS; i++) {
+        const glssao_config config = {.load = context_load,
+                                      .load_user = e->context,
+                                      .log = glssao_log_to_stderr,
+                                      .width = w,
+                                      .height = h,
+                                      .program_cache = i >= 2 ? folder : NULL};
+        const glssao_settings settings = economy_settings(0);
+        glssao_effect *effect = NULL;
+        gl.Finish();
+        const double start = e->software ? clock_cpu_ms() : clock_wall_ms();
+        done = glssao_create(&config, &effect) == GLSSAO_OK && glssao_compute(effect, &frame, &settings) == GLSSAO_OK;
+        gl.Finish();
+        e->first_ms[i] = (e->software ? clock_cpu_ms() : clock_wall_ms()) - start;
+        glssao_destroy(effect);
+        fprintf(stderr, "first frame, %s: %.1f ms\n", first_names[i], e->first_ms[i]);
+    }
+    gbuffer_destroy(&g);
+    scene_destroy(s);
+    return done;
+}
+
+static bool measure_scene(economy *e, const bench_scene *b, char *error, size_t error_size)
+{
+    scene_view view;
+    float radius;
+    gbuffer g = {.depth = 0};
+    scene *s =
+        bench_scene_open(b, e->options->time_size[0], e->options->time_size[1], &view, &radius, error, error_size);
+    bool done = s && gbuffer_draw(&g, s, &view, 0, error, error_size);
+    for (int t = 0; done && t < ECONOMY_CONFIGS; t++) {
+        economy_row *row = &e->rows[e->row_count++];
+        *row = (economy_row){.config = t};
+        snprintf(row->name, sizeof row->name, "%s", b->name);
+        const glssao_settings settings = economy_settings(t);
+        const glssao_settings scaled = bench_scale_settings(&settings, radius);
+        const glssao_frame frame = gbuffer_frame(&g);
+        done = economy_compare(e, &frame, view.width, view.height, &scaled, row, error, error_size);
+        fprintf(stderr, "%-24s %-18s off %8.2f ms, on %8.2f ms, ratio %.3f, skipped %.3f, worst %.2f steps\n",
+                row->name, economy_config_name(t), row->ms[0], row->ms[1], row->ms[1] / row->ms[0], row->skipped,
+                row->worst);
+        if (done && e->options->check && !(row->worst <= 1.01)) {
+            snprintf(error, error_size, "%s, %s: the pictures differ by %.1f steps", row->name, economy_config_name(t),
+                     row->worst);
+            done = false;
+        }
+    }
+    gbuffer_destroy(&g);
+    scene_destroy(s);
+    return done;
+}
+
+static bool measure(economy *e, char *error, size_t error_size)
+{
+    static bench_scene scenes[BENCH_SCENES_MAX];
+    static char folder[1024];
+    const double start = clock_wall_ms();
+    /* Before there is a context: Mesa keeps what it compiles, and a first frame must be one. */
+    snprintf(folder, sizeof folder, "%s/shader-cache-%ld", e->options->out, (long)getpid());
+    if (!make_folder(folder)) {
+        snprintf(error, error_size, "%s: no such folder can be made", folder);
+        return false;
+    }
+    setenv("MESA_SHADER_CACHE_DIR", folder, 1);
+    const int count = bench_scenes_list(e->options, scenes);
+    e->context = context_create(&(context_options){.kind = (context_kind)e->options->context}, error, error_size);
+    if (!e->context || !gl_load(context_load, e->context, error, error_size))
+        return false;
+    e->software = context_is_software(e->context);
+    fprintf(stderr, "context: %s\n", context_description(e->context));
+    e->rows = calloc((size_t)(count + 1) * ECONOMY_CONFIGS, sizeof *e->rows);
+    if (!e->rows || !measure_firsts(e, folder, error, error_size))
+        return false;
+    for (int i = 0; i < count; i++)
+        if (!measure_scene(e, &scenes[i], error, error_size))
+            return false;
+    if (!economy_measure_shares(e, error, error_size) || !economy_measure_steps(e, error, error_size))
+        return false;
+    e->seconds = (clock_wall_ms() - start) / 1e3;
+    return !e->options->doc || economy_write(e, e->options->doc, error, error_size);
+}
+
+int main(int argc, char **argv)
+{
+    static options o;
+    static char error[4096];
+    const options_result parsed = options_parse(argc, argv, &o, error, sizeof error);
+    if (parsed != OPTIONS_RUN) {
+        if (parsed == OPTIONS_WRONG)
+            fprintf(stderr, "glssao-economy: %s\n", error);
+        return parsed == OPTIONS_WRONG ? EXIT_USAGE : EXIT_DONE;
+    }
+    static economy e;
+    e.options = &o;
+    e.step_scene = o.time_scene;
+    const bool done = measure(&e, error, sizeof error);
+    if (!done)
+        fprintf(stderr, "glssao-economy: %s\n", error);
+    free(e.rows);
+    context_destroy(e.context);
+    return done ? EXIT_DONE : EXIT_FAILED;
+}

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What glssao-economy measures: scenes without and with tiles left out; a frame as effects are added; pictures of which
+ * a growing share needs nothing; and the first frame.
+ */
+#ifndef GLSSAO_BENCH_ECONOMY_H
+#define GLSSAO_BENCH_ECONOMY_H
+
+#include "context.h"
+#include "gbuffer.h"
+#include "options.h"
+
+/* One scene with one configuration: without and with tiles left out. */
+typedef struct economy_row {
+    char name[64];
+    int config;
+    double ms[2];   /* median of a frame: CPU time of all threads on a software rasteriser, else the GPU's */
+    double skipped; /* share of the picture */
+    double worst;   /* difference of the two pictures, in steps of R16 */
+    int programs[2];
+    int64_t bytes[2]; /* of the effect's textures */
+} economy_row;
+
+enum { ECONOMY_CONFIGS = 5, ECONOMY_STEPS = 8, ECONOMY_SHARES = 9, ECONOMY_FIRSTS = 4 };
+
+/* A frame of the renderer with one effect more than the step before; without and with tiles left out. */
+typedef struct economy_step {
+    const char *what;
+    double ms[2];
+    int draws; /* of the effect, planned */
+} economy_step;
+
+typedef struct economy {
+    const options *options;
+    context *context;
+    bool software;
+    economy_row *rows;
+    int row_count;
+    const char *step_scene;
+    economy_step steps[ECONOMY_STEPS];
+    economy_row shares[2][ECONOMY_SHARES]; /* of sky, of a plane; the rest is rough */
+    double first_ms[ECONOMY_FIRSTS];       /* of glssao_create and a frame: see economy_first_name */
+    double seconds;
+} economy;
+
+glssao_settings economy_settings(int config);
+const char *economy_config_name(int config);
+const char *economy_first_name(int first);
+
+/* Fills all of *out but its name and configuration; `frames` timed ones of each. */
+bool economy_compare(const economy *e, const glssao_frame *frame, int width, int height,
+                     const glssao_settings *settings, economy_row *out, char *error, size_t error_size);
+
+/* economy_steps.c */
+bool economy_measure_steps(economy *e, char *error, size_t error_size);
+
+/* economy_shares.c */
+bool economy_measure_shares(economy *e, char *error, size_t error_size);
+
+/* economy_report.c: charts beside the document, in pictures/. */
+bool economy_write(const economy *e, const char *path, char *error, size_t error_size);
+
+#endif

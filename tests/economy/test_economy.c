@@ -1,0 +1,310 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Settings and frames, and the passes, draws, compilations and textures that each must cause and no more, counted at
+ * the table of GL functions.
+ */
+#include "analytic.h"
+#include "camera.h"
+#include "draw.h"
+#include "fixture.h"
+#include "gl_counter.h"
+#include "options.h"
+#include "pipeline.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { W = 64, H = 48 };
+
+static glssao_effect *counted_effect(fixture *f, const char *cache)
+{
+    fixture_clear_log(f);
+    glssao_config config = fixture_config(f, W, H);
+    gl_counter_start(context_load, f->context);
+    config.load = gl_counter_load;
+    config.program_cache = cache;
+    glssao_effect *effect = NULL;
+    if (glssao_create(&config, &effect) != GLSSAO_OK)
+        fail_msg("glssao_create: %s", f->log);
+    return effect;
+}
+
+static glssao_frame room_frame(void)
+{
+    analytic_shape room[ANALYTIC_ROOM_SHAPES];
+    analytic_room(room, 1.0);
+    const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
+    float *depth, *normals;
+    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, W, H, &depth, &normals);
+    glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, depth),
+                          .normal_texture = fixture_normal_texture(W, H, normals)};
+    memcpy(frame.projection, view.projection, sizeof frame.projection);
+    free(depth);
+    free(normals);
+    return frame;
+}
+
+static void delete_frame(const glssao_frame *frame)
+{
+    gl.DeleteTextures(2, (const GLuint[2]){frame->depth_texture, frame->normal_texture});
+}
+
+/* Letters of the passes that run, in order: Normals, Distance, Tiles, Estimate, Resolve, Blur, Upsample. */
+static void letters(const glssao_plan *plan, char out[GLSSAO_PASS_COUNT + 1])
+{
+    static const char all[] = "NDTERBU";
+    int n = 0;
+    for (int i = 0; i < GLSSAO_PASS_APPLY; ++i)
+        if (plan->passes[i].run)
+            out[n++] = all[i];
+    out[n] = '\0';
+}
+
+typedef void (*change_fn)(glssao_frame *frame, glssao_settings *settings);
+
+static void rebuild_normals(glssao_frame *f, glssao_settings *s)
+{
+    (void)s;
+    f->normal_texture = 0;
+}
+
+static void no_ambient(glssao_frame *f, glssao_settings *s)
+{
+    (void)s;
+    f->no_ambient_light = true;
+}
+
+static void only_sky(glssao_frame *f, glssao_settings *s)
+{
+    (void)s;
+    f->only_sky = true;
+}
+
+static void no_radius(glssao_frame *f, glssao_settings *s)
+{
+    (void)f;
+    s->radius = 0;
+}
+
+static void no_power(glssao_frame *f, glssao_settings *s)
+{
+    (void)f;
+    s->power = 0;
+}
+
+static void half_size(glssao_frame *f, glssao_settings *s)
+{
+    (void)f;
+    s->upsample = false;
+    s->blur = GLSSAO_BLUR_NONE;
+}
+
+static void no_rounds(glssao_frame *f, glssao_settings *s)
+{
+    (void)f;
+    s->blur_rounds = 0;
+}
+
+static void tiles_on(glssao_frame *f, glssao_settings *s)
+{
+    (void)f;
+    s->tiles = GLSSAO_TILES_ON;
+}
+
+static void margin(glssao_frame *f, glssao_settings *s)
+{
+    (void)s;
+    f->margin = 8;
+}
+
+static const struct row {
+    const char *what;
+    glssao_technique technique;
+    glssao_quality quality;
+    change_fn change;
+    const char *passes;
+    int draws, programs, textures; /* of the first frame; later ones make nothing */
+} rows[] = {
+    {"horizon low", GLSSAO_HORIZON, GLSSAO_LOW, NULL, "DEB", 4, 3, 3},
+    {"horizon medium", GLSSAO_HORIZON, GLSSAO_MEDIUM, NULL, "DEBU", 5, 4, 4},
+    {"horizon ultra", GLSSAO_HORIZON, GLSSAO_ULTRA, NULL, "DEB", 4, 3, 5},
+    {"classic", GLSSAO_CLASSIC, GLSSAO_HIGH, NULL, "EB", 7, 2, 0},
+    {"hemisphere", GLSSAO_HEMISPHERE, GLSSAO_HIGH, NULL, "EB", 3, 2, 2},
+    {"normals rebuilt", GLSSAO_HORIZON, GLSSAO_MEDIUM, rebuild_normals, "NDEBU", 6, 5, 4},
+    {"half size, raw", GLSSAO_HORIZON, GLSSAO_MEDIUM, half_size, "DE", 2, 2, 1},
+    {"no blur rounds", GLSSAO_HORIZON, GLSSAO_MEDIUM, no_rounds, "DEU", 3, 3, 4},
+    {"margin", GLSSAO_HORIZON, GLSSAO_LOW, margin, "DEB", 4, 3, 4},
+    {"tiles, paired maps", GLSSAO_HORIZON, GLSSAO_MEDIUM, tiles_on, "DTEBU", 10, 9, 8},
+    {"tiles, plain maps", GLSSAO_CLASSIC, GLSSAO_HIGH, tiles_on, "TEB", 11, 6, 4},
+    {"radius 0", GLSSAO_HORIZON, GLSSAO_MEDIUM, no_radius, "", 0, 0, 0},
+    {"power 0", GLSSAO_CLASSIC, GLSSAO_HIGH, no_power, "", 0, 0, 0},
+    {"no ambient light", GLSSAO_HORIZON, GLSSAO_MEDIUM, no_ambient, "", 0, 0, 0},
+    {"only sky", GLSSAO_HEMISPHERE, GLSSAO_HIGH, only_sky, "", 0, 0, 2},
+};
+
+static void check_row(fixture *f, const struct row *row)
+{
+    glssao_effect *effect = counted_effect(f, NULL);
+    const gl_counts made = gl_counter_take();
+    assert_int_equal(made.draws, 0);
+    assert_int_equal(made.programs, 1); /* it tells how the driver lays out blocks */
+    assert_int_equal(made.textures, 4); /* normals, two ambient maps, random vectors */
+    glssao_frame frame = room_frame();
+    glssao_frame changed = frame;
+    glssao_settings settings = glssao_default_settings(row->technique, row->quality);
+    if (row->change)
+        row->change(&changed, &settings);
+    const glssao_plan plan = glssao_plan_frame(effect, &changed, &settings);
+    char passes[GLSSAO_PASS_COUNT + 1];
+    letters(&plan, passes);
+    if (strcmp(passes, row->passes) != 0)
+        fail_msg("%s: passes \"%s\", wanted \"%s\"", row->what, passes, row->passes);
+    for (int frame_number = 0; frame_number < 2; ++frame_number) {
+        assert_int_equal(glssao_compute(effect, &changed, &settings), GLSSAO_OK);
+        const gl_counts counts = gl_counter_take();
+        const glssao_stats stats = glssao_get_stats(effect);
+        int planned = 0;
+        for (int i = 0; i < GLSSAO_PASS_COUNT; ++i) {
+            planned += plan.passes[i].draw_calls;
+            assert_int_equal(plan.passes[i].draw_calls, stats.passes[i].draw_calls);
+            assert_true(plan.passes[i].run == (stats.passes[i].draw_calls > 0));
+            assert_true(strlen(plan.passes[i].reason) > 0);
+        }
+        const int programs = frame_number == 0 ? row->programs : 0, textures = frame_number == 0 ? row->textures : 0;
+        if (counts.draws != row->draws || planned != row->draws || counts.programs != programs ||
+            counts.textures != textures)
+            fail_msg("%s, frame %d: %d draws, %d planned, %d programs, %d textures; wanted %d, %d, %d, %d", row->what,
+                     frame_number, counts.draws, planned, counts.programs, counts.textures, row->draws, row->draws,
+                     programs, textures);
+    }
+    glssao_destroy(effect);
+    delete_frame(&frame);
+}
+
+static void each_setting_causes_these_calls(void **state)
+{
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)
+        check_row(*state, &rows[i]);
+}
+
+/* After glssao_prepare a frame compiles and makes nothing, and preparing draws nothing. */
+static void prepared_frames_make_nothing(void **state)
+{
+    glssao_effect *effect = counted_effect(*state, NULL);
+    const glssao_frame frame = room_frame();
+    glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
+    settings.tiles = GLSSAO_TILES_ON;
+    (void)gl_counter_take();
+    assert_int_equal(glssao_prepare(effect, &frame, &settings), GLSSAO_OK);
+    const gl_counts prepared = gl_counter_take();
+    assert_true(prepared.draws == 0 && prepared.programs == 9 && prepared.textures == 8);
+    assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_OK);
+    const gl_counts computed = gl_counter_take();
+    assert_true(computed.draws == 10 && computed.programs == 0 && computed.textures == 0);
+    assert_int_equal(glssao_prepare(effect, &frame, NULL), GLSSAO_INVALID_ARGUMENT);
+    assert_int_equal(glssao_prepare(NULL, &frame, &settings), GLSSAO_INVALID_ARGUMENT);
+    glssao_destroy(effect);
+    delete_frame(&frame);
+}
+
+/* What glssao-render's frame draws of the effect, for scenes. */
+static void each_scene_causes_these_calls(void **state)
+{
+    static const struct {
+        const char *scene;
+        bool away; /* the eye looks up, past all there is */
+        bool dark;
+        int draws;
+    } scenes[] = {
+        {"columns", false, false, 5}, {"plane", false, false, 5}, {"plane", true, false, 0},
+        {"columns", false, true, 0},  {"", false, false, 0}, /* no meshes at all */
+    };
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; ++i) {
+        fixture *f = *state;
+        char error[1024] = "";
+        const scene empty = {.name = ""};
+        scene *s = scenes[i].scene[0] ? scene_make(scenes[i].scene, error, sizeof error) : NULL;
+        options o;
+        char *arguments[] = {"test", "-s", "64x48", "-q", "medium", "-o", "unused.png"};
+        assert_int_equal(options_parse(7, arguments, &o, error, sizeof error), OPTIONS_RUN);
+        gl_counter_start(context_load, f->context);
+        pipeline p;
+        const pipeline_wants wants = {.picture = true, .ao = true, .prepass = true, .normals = true};
+        if (!pipeline_create(&p, s ? s : &empty, gl_counter_load, NULL, &o, wants, error, sizeof error))
+            fail_msg("%s", error);
+        if (scenes[i].dark)
+            for (int k = 0; k < 3; ++k)
+                p.lighting.ambient[k] = p.lighting.ambient_tilt[k] = 0;
+        camera c = camera_frame_scene(s ? s : &empty, (float)W / H);
+        if (scenes[i].away) {
+            memcpy(c.eye, (const float[3]){0, 50, 0}, sizeof c.eye);
+            memcpy(c.target, (const float[3]){1, 100, 0}, sizeof c.target);
+        }
+        const scene_view view = camera_view(&c, W, H);
+        stopwatch times = {.finish = false};
+        (void)gl_counter_take();
+        if (!pipeline_draw(&p, &view, &times, error, sizeof error))
+            fail_msg("%s", error);
+        const gl_counts counts = gl_counter_take();
+        if (counts.draws != scenes[i].draws || (scenes[i].draws == 0 && counts.programs != 0))
+            fail_msg("scene %d: %d draws, %d programs; wanted %d draws", (int)i, counts.draws, counts.programs,
+                     scenes[i].draws);
+        pipeline_destroy(&p);
+        scene_destroy(s);
+    }
+}
+
+/* A wall before the whole view: its sky is asked for once. Seen past it, it is drawn again. */
+static void hidden_sky_is_not_drawn_again(void **state)
+{
+    (void)state;
+    char error[1024];
+    scene *s = scene_make("cornell", error, sizeof error);
+    scene_renderer *r = scene_renderer_create(s, error, sizeof error);
+    scene_lighting lighting = scene_default_lighting();
+    const scene_draw_options plain = {.shadows = false};
+    assert_true(scene_renderer_configure(r, &lighting, &plain, error, sizeof error));
+    GLuint color, framebuffer, depth = fixture_depth_texture(GL_DEPTH_COMPONENT24, W, H, NULL);
+    gl.GenTextures(1, &color);
+    gl.BindTexture(GL_TEXTURE_2D, color);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, W, H, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    gl.GenFramebuffers(1, &framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
+    camera near_wall = camera_frame_scene(s, (float)W / H), far_off = near_wall;
+    for (int k = 0; k < 3; ++k) /* close to what it looks at */
+        near_wall.eye[k] += 0.9f * (near_wall.target[k] - near_wall.eye[k]);
+    camera_fit_planes(&near_wall, s);
+    const camera cameras[] = {near_wall, near_wall, far_off, far_off, near_wall};
+    static const unsigned skies[] = {1, 0, 1, 1, 1};
+    for (int i = 0; i < 5; ++i) {
+        const scene_view view = camera_view(&cameras[i], W, H);
+        gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+        gl.DepthMask(GL_TRUE);
+        gl.Clear(GL_DEPTH_BUFFER_BIT);
+        gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+        scene_draw_normals(r, &view);
+        scene_draw_main(r, &view, &lighting, 0);
+        gl.Finish();
+        assert_int_equal(scene_renderer_counts(r).sky, skies[i]);
+    }
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    gl.DeleteFramebuffers(1, &framebuffer);
+    gl.DeleteTextures(2, (const GLuint[2]){color, depth});
+    scene_renderer_destroy(r);
+    scene_destroy(s);
+}
+
+int main(void)
+{
+#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
+    const struct CMUnitTest tests[] = {
+        TEST(each_setting_causes_these_calls),
+        TEST(prepared_frames_make_nothing),
+        TEST(each_scene_causes_these_calls),
+        TEST(hidden_sky_is_not_drawn_again),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+}

@@ -1,0 +1,218 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Programs kept on disk: taken from there where they fit, compiled anew and without a word where they don't.
+ */
+#define _XOPEN_SOURCE 700 /* mkdtemp */
+#include "analytic.h"
+#include "fixture.h"
+#include "gl_counter.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { W = 64, H = 48, PROGRAMS = 5 /* apply, and horizon's four */ };
+
+typedef struct cached {
+    fixture *f;
+    char folder[64];
+    glssao_frame frame;
+    float *wanted; /* the picture of programs that were compiled */
+} cached;
+
+typedef void (*file_fn)(const char *path);
+
+static int for_each_file(const char *folder, file_fn change)
+{
+    int count = 0;
+    DIR *d = opendir(folder);
+    assert_non_null(d);
+    for (struct dirent *entry; (entry = readdir(d));) {
+        char path[512];
+        if (entry->d_name[0] == '.')
+            continue;
+        snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
+        assert_non_null(strstr(entry->d_name, ".bin"));
+        assert_null(strstr(entry->d_name, ".part"));
+        if (change)
+            change(path);
+        count++;
+    }
+    closedir(d);
+    return count;
+}
+
+static void delete_file(const char *path)
+{
+    remove(path);
+}
+
+/* One effect and one frame; the picture is what it was. */
+static gl_counts run(cached *c, const char *folder)
+{
+    fixture_clear_log(c->f);
+    glssao_config config = fixture_config(c->f, W, H);
+    gl_counter_start(context_load, c->f->context);
+    config.load = gl_counter_load;
+    config.program_cache = folder;
+    glssao_effect *effect = NULL;
+    assert_int_equal(glssao_create(&config, &effect), GLSSAO_OK);
+    const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
+    int w, h;
+    float *got = fixture_compute(effect, &c->frame, &settings, &w, &h);
+    if (c->wanted) {
+        assert_memory_equal(got, c->wanted, (size_t)w * (size_t)h * sizeof *got);
+        free(got);
+    } else {
+        c->wanted = got;
+    }
+    glssao_destroy(effect);
+    assert_string_equal(c->f->log, "");
+    return gl_counter_take();
+}
+
+static cached open_cached(void **state)
+{
+    cached c = {.f = *state, .folder = "/tmp/glssao-cache-XXXXXX"};
+    assert_non_null(mkdtemp(c.folder));
+    analytic_shape room[ANALYTIC_ROOM_SHAPES];
+    analytic_room(room, 1.0);
+    const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
+    float *depth, *normals;
+    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, W, H, &depth, &normals);
+    c.frame.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, depth);
+    c.frame.normal_texture = fixture_normal_texture(W, H, normals);
+    memcpy(c.frame.projection, view.projection, sizeof c.frame.projection);
+    free(depth);
+    free(normals);
+    const gl_counts counts = run(&c, NULL);
+    assert_true(counts.programs == PROGRAMS && counts.binaries == 0);
+    return c;
+}
+
+static void close_cached(cached *c)
+{
+    for_each_file(c->folder, delete_file);
+    rmdir(c->folder);
+    gl.DeleteTextures(2, (const GLuint[2]){c->frame.depth_texture, c->frame.normal_texture});
+    free(c->wanted);
+}
+
+/* Fills the folder; false, and the test is done, where the driver keeps no binaries. */
+static bool fill(cached *c)
+{
+    GLint formats = 0;
+    gl.GetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
+    const gl_counts counts = run(c, c->folder);
+    assert_int_equal(counts.programs, PROGRAMS);
+    assert_int_equal(for_each_file(c->folder, NULL), formats > 0 ? PROGRAMS : 0);
+    if (formats == 0)
+        print_message("this driver keeps no program binaries\n");
+    return formats > 0;
+}
+
+static void the_second_run_compiles_nothing(void **state)
+{
+    cached c = open_cached(state);
+    if (fill(&c)) {
+        const gl_counts counts = run(&c, c.folder);
+        assert_true(counts.programs == 0 && counts.shaders == 0 && counts.binaries == PROGRAMS);
+    }
+    close_cached(&c);
+}
+
+static void change_byte(const char *path, long at)
+{
+    FILE *f = fopen(path, "r+b");
+    assert_non_null(f);
+    assert_int_equal(fseek(f, at, at < 0 ? SEEK_END : SEEK_SET), 0);
+    const int byte = fgetc(f);
+    assert_int_equal(fseek(f, -1, SEEK_CUR), 0);
+    fputc(byte ^ 0x5A, f);
+    fclose(f);
+}
+
+static void change_magic(const char *path)
+{
+    change_byte(path, 0);
+}
+
+static void change_key(const char *path)
+{
+    change_byte(path, 9);
+}
+
+static void change_format(const char *path)
+{
+    change_byte(path, 24);
+}
+
+static void change_length(const char *path)
+{
+    change_byte(path, 31);
+}
+
+static void change_program(const char *path)
+{
+    change_byte(path, -20);
+}
+
+static void cut_short(const char *path)
+{
+    assert_int_equal(truncate(path, 100), 0);
+}
+
+static void empty(const char *path)
+{
+    assert_int_equal(truncate(path, 0), 0);
+}
+
+/* Each is refused, compiled anew, and put right on disk. */
+static void damaged_files_are_compiled_anew(void **state)
+{
+    static const file_fn damages[] = {change_magic, change_key, change_length, change_program, cut_short, empty};
+    cached c = open_cached(state);
+    if (fill(&c))
+        for (size_t i = 0; i < sizeof damages / sizeof *damages; ++i) {
+            assert_int_equal(for_each_file(c.folder, damages[i]), PROGRAMS);
+            const gl_counts counts = run(&c, c.folder);
+            assert_true(counts.programs == PROGRAMS && counts.binaries == 0);
+            const gl_counts mended = run(&c, c.folder);
+            assert_true(mended.programs == 0 && mended.binaries == PROGRAMS);
+        }
+    close_cached(&c);
+}
+
+/* The head is covered by the sum: no format gets to the driver that it did not write. */
+static void a_strange_format_is_not_handed_to_the_driver(void **state)
+{
+    cached c = open_cached(state);
+    if (fill(&c)) {
+        for_each_file(c.folder, change_format);
+        const gl_counts counts = run(&c, c.folder);
+        assert_true(counts.programs == PROGRAMS && counts.binaries == 0);
+    }
+    close_cached(&c);
+}
+
+static void a_folder_that_is_not_there_does_no_harm(void **state)
+{
+    cached c = open_cached(state);
+    const gl_counts counts = run(&c, "/nowhere/at/all");
+    assert_true(counts.programs == PROGRAMS && counts.binaries == 0);
+    close_cached(&c);
+}
+
+int main(void)
+{
+#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
+    const struct CMUnitTest tests[] = {
+        TEST(the_second_run_compiles_nothing),
+        TEST(damaged_files_are_compiled_anew),
+        TEST(a_strange_format_is_not_handed_to_the_driver),
+        TEST(a_folder_that_is_not_there_does_no_harm),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+}

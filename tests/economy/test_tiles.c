@@ -1,0 +1,290 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Tiles left out change nothing: with and without them the picture is the same within a step of R16, on every scene,
+ * technique and quality; and they are left out where nothing can occlude.
+ */
+#include "analytic.h"
+#include "camera.h"
+#include "draw.h"
+#include "fixture.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { W = 320, H = 192, TECHNIQUES = 3, QUALITIES = 4 };
+static const double STEP = 1.0 / 65535.0;
+
+/* Depth and normals of a scene lie in the effect's own map and in `depth`. */
+static glssao_frame draw_scene(glssao_effect *effect, const scene *s, const camera *c, GLuint depth)
+{
+    char error[1024];
+    const scene_view view = camera_view(c, W, H);
+    scene_renderer *renderer = scene_renderer_create(s, error, sizeof error);
+    assert_non_null(renderer);
+    assert_int_equal(glssao_begin_normals(effect, depth), GLSSAO_OK);
+    scene_draw_normals(renderer, &view);
+    assert_int_equal(glssao_end_normals(effect), GLSSAO_OK);
+    scene_renderer_destroy(renderer);
+    glssao_frame frame = {.depth_texture = depth, .normal_texture = glssao_map(effect, GLSSAO_MAP_NORMAL, NULL, NULL)};
+    memcpy(frame.projection, view.clip_from_view, sizeof frame.projection);
+    return frame;
+}
+
+/* Share of the tiles that the last frame left out. */
+static double left_out(const glssao_effect *effect)
+{
+    int w, h, count = 0;
+    const uint32_t map = glssao_map(effect, GLSSAO_MAP_TILES, &w, &h);
+    if (!map)
+        return 0;
+    float *rings = fixture_read_texture(map, w, h, 1);
+    for (int i = 0; i < w * h; ++i)
+        count += rings[i] > 0;
+    free(rings);
+    return (double)count / (w * h);
+}
+
+static void set_radius(glssao_settings *s, float radius)
+{
+    const float scale = radius / s->radius;
+    float *const lengths[] = {&s->radius, &s->fade_start, &s->fade_end, &s->surface_epsilon, &s->blur_depth_threshold};
+    for (size_t i = 0; i < sizeof lengths / sizeof *lengths; ++i)
+        *lengths[i] *= scale;
+}
+
+/* Fails where a pixel is off by more than a step; returns the share of tiles left out. */
+static double assert_same_picture(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
+                                  const char *what)
+{
+    glssao_settings s = *settings;
+    int w, h;
+    s.tiles = GLSSAO_TILES_OFF;
+    float *without = fixture_compute(effect, frame, &s, &w, &h);
+    assert_int_equal(glssao_map(effect, GLSSAO_MAP_TILES, NULL, NULL), 0);
+    s.tiles = GLSSAO_TILES_ON;
+    float *with = fixture_compute(effect, frame, &s, &w, &h);
+    double worst = 0;
+    int at = 0;
+    for (int i = 0; i < w * h; ++i)
+        if (!(fabs((double)with[i] - (double)without[i]) <= worst)) {
+            worst = fabs((double)with[i] - (double)without[i]);
+            at = i;
+        }
+    if (!(worst <= 1.01 * STEP))
+        fail_msg("%s, technique %d: pixel %d, %d of %d x %d is off by %.1f steps", what, s.technique, at % w, at / w, w,
+                 h, worst / STEP);
+    free(without);
+    free(with);
+    return left_out(effect);
+}
+
+/* Techniques and qualities all, or one of them by turns. Returns the greatest share left out. */
+static double compare_scene(fixture *f, const scene *s, const camera *c, float radius, bool all, const char *name)
+{
+    static int turn;
+    glssao_effect *effect = fixture_effect(f, W, H);
+    const GLuint depth = fixture_depth_texture(GL_DEPTH_COMPONENT24, W, H, NULL);
+    const glssao_frame frame = draw_scene(effect, s, c, depth);
+    double most = 0;
+    for (int t = 0; t < TECHNIQUES; ++t)
+        for (int q = 0; q < QUALITIES; ++q) {
+            if (!all && q != turn % QUALITIES)
+                continue;
+            glssao_settings settings = glssao_default_settings((glssao_technique)t, (glssao_quality)q);
+            set_radius(&settings, radius);
+            most = fmax(most, assert_same_picture(effect, &frame, &settings, name));
+        }
+    turn++;
+    gl.DeleteTextures(1, &depth);
+    glssao_destroy(effect);
+    return most;
+}
+
+static void built_in_scenes_look_the_same(void **state)
+{
+    static const char *const names[] = {"columns", "cornell", "steps", "plane"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
+        char error[256];
+        scene *s = scene_make(names[i], error, sizeof error);
+        assert_non_null(s);
+        camera c = camera_frame_scene(s, (float)W / H);
+        const double share = compare_scene(*state, s, &c, 0.5f, true, names[i]);
+        assert_true(share > 0);
+        if (strcmp(names[i], "plane") == 0)
+            assert_true(share > 0.5);
+        scene_destroy(s);
+    }
+}
+
+/* Their collection's views and radii. Where a file is heavy to draw in software, glssao-economy --check looks at it. */
+static void shared_scenes_look_the_same(void **state)
+{
+    static const struct {
+        const char *file;
+        float eye[3], target[3], fov_deg, radius;
+    } views[] = {
+        {"zdm2-courtyard/zdm2.glb", {0, -2, 0}, {20, -3, 10}, 65, 3},
+        {"garage-interior/garage.gltf", {-1.5f, 1.8f, 2}, {1.5f, 0.8f, -2.5f}, 65, 0.5f},
+        {"garage-interior/garage.gltf", {0.5f, 1.6f, 1.5f}, {-0.5f, 0.9f, -3}, 70, 0.5f},
+        {"ivy-house/house.glb", {0.36f, 0.09f, 0.2f}, {0.1f, 0.07f, -0.02f}, 40, 0.03f},
+        {"truck-town/truck_town.glb", {-40, 8, 30}, {20, 3, -10}, 60, 4},
+        {"truck-town/truck_town.glb", {60, 25, 60}, {0, 0, 0}, 55, 6},
+        {"extra-vr-gallery-unlit/vr-gallery.glb", {3.5f, 1.7f, 3.5f}, {-2, 1.5f, -2}, 70, 0.8f},
+        {"extra-cornell-box/cornellBox.glb", {0, 1.5f, 6.5f}, {0, 1.45f, 0}, 35, 1},
+        {"extra-simple-instancing/simple-instancing.glb", {22, 16, 26}, {5.5f, 5.5f, 5.5f}, 40, 2},
+    };
+    const char *folder = getenv("GLSSAO_SHARED_SCENES");
+    int seen = 0;
+    for (size_t i = 0; folder && i < sizeof views / sizeof *views; ++i) {
+        char path[2048], error[1024];
+        snprintf(path, sizeof path, "%s/%s", folder, views[i].file);
+        FILE *f = fopen(path, "rb");
+        if (!f)
+            continue;
+        fclose(f);
+        scene *s = scene_load(path, error, sizeof error);
+        assert_non_null(s);
+        camera c = {.up = {0, 1, 0}, .fov_y_rad = views[i].fov_deg * 0.01745329252f};
+        memcpy(c.eye, views[i].eye, sizeof c.eye);
+        memcpy(c.target, views[i].target, sizeof c.target);
+        camera_fit_planes(&c, s);
+        compare_scene(*state, s, &c, views[i].radius, false, views[i].file);
+        scene_destroy(s);
+        seen++;
+    }
+    if (!seen) {
+        print_message("no shared scenes here\n");
+        skip();
+    }
+}
+
+static glssao_frame shapes_frame(analytic_projection kind, const analytic_shape *shapes, int count, double scale)
+{
+    const analytic_view view = analytic_make_view(kind, (double)W / H, 0.5, 40.0, scale);
+    float *depth, *normals;
+    analytic_render(&view, shapes, count, W, H, &depth, &normals);
+    glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, depth),
+                          .normal_texture = fixture_normal_texture(W, H, normals),
+                          .clip_zero_to_one = view.clip_zero_to_one};
+    memcpy(frame.projection, view.projection, sizeof frame.projection);
+    free(depth);
+    free(normals);
+    return frame;
+}
+
+static void delete_frame(const glssao_frame *frame)
+{
+    gl.DeleteTextures(2, (const GLuint[2]){frame->depth_texture, frame->normal_texture});
+}
+
+static void every_projection_looks_the_same(void **state)
+{
+    for (int kind = 0; kind < PROJECTION_COUNT; ++kind) {
+        const double scale = kind % 2 ? 1e3 : 1e-3;
+        analytic_shape room[ANALYTIC_ROOM_SHAPES];
+        analytic_room(room, scale);
+        const glssao_frame frame = shapes_frame((analytic_projection)kind, room, ANALYTIC_ROOM_SHAPES, scale);
+        glssao_effect *effect = fixture_effect(*state, W, H);
+        for (int t = 0; t < TECHNIQUES; ++t)
+            for (int margin = 0; margin <= 34; margin += 34) {
+                glssao_settings settings = glssao_default_settings((glssao_technique)t, GLSSAO_HIGH);
+                set_radius(&settings, (float)(0.3 * scale));
+                glssao_frame f = frame;
+                f.margin = margin;
+                assert_same_picture(effect, &f, &settings, "room");
+            }
+        glssao_destroy(effect);
+        delete_frame(&frame);
+    }
+}
+
+/* The share of tiles that a technique leaves out of these shapes. */
+static double share_of(fixture *f, const analytic_shape *shapes, int count, glssao_technique technique, float radius)
+{
+    const glssao_frame frame = shapes_frame(PERSPECTIVE, shapes, count, 1.0);
+    glssao_effect *effect = fixture_effect(f, W, H);
+    glssao_settings settings = glssao_default_settings(technique, GLSSAO_HIGH);
+    settings.half_resolution = settings.upsample = false; /* smaller tiles */
+    set_radius(&settings, radius);
+    const double share = assert_same_picture(effect, &frame, &settings, "shapes");
+    glssao_destroy(effect);
+    delete_frame(&frame);
+    return share;
+}
+
+static void sky_is_left_out(void **state)
+{
+    const analytic_shape nothing = {ANALYTIC_SPHERE, {0, 0, 50}, {1, 1, 1}}; /* behind the eye */
+    for (int t = 0; t < TECHNIQUES; ++t)
+        assert_true(share_of(*state, &nothing, 1, (glssao_technique)t, 0.5f) == 1.0);
+}
+
+/* All of it but the picture's edge, where samples are clamped. */
+static void a_plane_is_left_out(void **state)
+{
+    const analytic_shape wall = {ANALYTIC_PLANE, {0, 0, -8}, {0.28, 0, 0.96}};
+    const double inner = (double)(W / 16 - 2) * (H / 16 - 2) / ((W / 16) * (H / 16));
+    assert_true(share_of(*state, &wall, 1, GLSSAO_HORIZON, 0.3f) == inner);
+    assert_true(share_of(*state, &wall, 1, GLSSAO_HEMISPHERE, 0.3f) == 1.0);
+}
+
+static void a_radius_under_half_a_pixel_is_left_out(void **state)
+{
+    analytic_shape room[ANALYTIC_ROOM_SHAPES];
+    analytic_room(room, 1.0);
+    assert_true(share_of(*state, room, ANALYTIC_ROOM_SHAPES, GLSSAO_HORIZON, 1e-3f) == 1.0);
+}
+
+/* Classic: a step towards the eye of less than epsilon does not count, one of more does. */
+static void range_within_epsilon_is_left_out(void **state)
+{
+    analytic_shape walls[2] = {{ANALYTIC_PLANE, {0, 0, -8}, {0, 0, 1}}, {ANALYTIC_BOX, {0, 0, -8}, {1, 1, 0.04}}};
+    assert_true(share_of(*state, walls, 2, GLSSAO_CLASSIC, 0.5f) == 1.0);
+    walls[1].size[2] = 0.06;
+    const double share = share_of(*state, walls, 2, GLSSAO_CLASSIC, 0.5f);
+    assert_true(share > 0.0 && share < 1.0);
+}
+
+/* What rises from a plane takes the tiles in its reach along. */
+static void a_plane_near_an_occluder_is_estimated(void **state)
+{
+    const analytic_shape shapes[2] = {{ANALYTIC_PLANE, {0, 0, -8}, {0, 0, 1}},
+                                      {ANALYTIC_SPHERE, {0, 0, -8}, {1, 1, 1}}};
+    const double small = share_of(*state, shapes, 2, GLSSAO_HORIZON, 0.2f);
+    const double large = share_of(*state, shapes, 2, GLSSAO_HORIZON, 1.5f);
+    assert_true(large > 0.0 && large < small && small < 1.0);
+}
+
+static void few_tiles_are_not_sorted(void **state)
+{
+    const analytic_shape wall = {ANALYTIC_PLANE, {0, 0, -8}, {0, 0, 1}};
+    const glssao_frame frame = shapes_frame(PERSPECTIVE, &wall, 1, 1.0);
+    glssao_effect *effect = fixture_effect(*state, W, H);
+    glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
+    assert_false(glssao_plan_frame(effect, &frame, &settings).passes[GLSSAO_PASS_TILES].run);
+    settings.tiles = GLSSAO_TILES_ON;
+    assert_true(glssao_plan_frame(effect, &frame, &settings).passes[GLSSAO_PASS_TILES].run);
+    settings.tiles = (glssao_tiles)3;
+    assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_INVALID_ARGUMENT);
+    glssao_destroy(effect);
+    delete_frame(&frame);
+}
+
+int main(void)
+{
+#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
+    const struct CMUnitTest tests[] = {
+        TEST(built_in_scenes_look_the_same),
+        TEST(shared_scenes_look_the_same),
+        TEST(every_projection_looks_the_same),
+        TEST(sky_is_left_out),
+        TEST(a_plane_is_left_out),
+        TEST(a_radius_under_half_a_pixel_is_left_out),
+        TEST(range_within_epsilon_is_left_out),
+        TEST(a_plane_near_an_occluder_is_estimated),
+        TEST(few_tiles_are_not_sorted),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+}

@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: MIT */
+#include "gl_counter.h"
+
+#include "gl.h"
+
+#include <string.h>
+
+static struct {
+    glssao_load_fn load;
+    void *user;
+    gl_counts counts;
+    void(APIENTRY *draw_arrays)(GLenum, GLint, GLsizei);
+    void(APIENTRY *compile_shader)(GLuint);
+    void(APIENTRY *link_program)(GLuint);
+    void(APIENTRY *program_binary)(GLuint, GLenum, const void *, GLsizei);
+    void(APIENTRY *tex_image)(GLenum, GLint, GLint, GLsizei, GLsizei, GLint, GLenum, GLenum, const void *);
+    void(APIENTRY *clear_buffer)(GLenum, GLint, const GLfloat *);
+} counter;
+
+static void APIENTRY draw_arrays(GLenum mode, GLint first, GLsizei count)
+{
+    counter.counts.draws++;
+    counter.draw_arrays(mode, first, count);
+}
+
+static void APIENTRY compile_shader(GLuint shader)
+{
+    counter.counts.shaders++;
+    counter.compile_shader(shader);
+}
+
+static void APIENTRY link_program(GLuint program)
+{
+    counter.counts.programs++;
+    counter.link_program(program);
+}
+
+static void APIENTRY program_binary(GLuint program, GLenum format, const void *binary, GLsizei length)
+{
+    counter.counts.binaries++;
+    counter.program_binary(program, format, binary, length);
+}
+
+static int bytes_of(GLint internal_format)
+{
+    switch (internal_format) {
+    case GL_RGBA32F:
+        return 16;
+    case GL_RGBA16F:
+    case GL_RG32F:
+        return 8;
+    case GL_R16:
+        return 2;
+    default:
+        return 4; /* R32F, RGBA8 */
+    }
+}
+
+static void APIENTRY tex_image(GLenum target, GLint level, GLint internal_format, GLsizei width, GLsizei height,
+                               GLint border, GLenum format, GLenum type, const void *data)
+{
+    counter.counts.textures++;
+    counter.counts.bytes += (int64_t)width * height * bytes_of(internal_format);
+    counter.tex_image(target, level, internal_format, width, height, border, format, type, data);
+}
+
+static void APIENTRY clear_buffer(GLenum buffer, GLint index, const GLfloat *value)
+{
+    counter.counts.clears++;
+    counter.clear_buffer(buffer, index, value);
+}
+
+void gl_counter_start(glssao_load_fn load, void *load_user)
+{
+    memset(&counter, 0, sizeof counter);
+    counter.load = load;
+    counter.user = load_user;
+}
+
+/* ISO C has no cast between object and function pointers; every platform with OpenGL keeps them alike. */
+#define COUNTED(name, member, function)                                                                                \
+    if (strcmp(wanted, name) == 0 && address) {                                                                        \
+        memcpy(&counter.member, &address, sizeof address);                                                             \
+        __typeof__(&function) own = function;                                                                          \
+        memcpy(&address, &own, sizeof address);                                                                        \
+    }
+
+void *gl_counter_load(const char *wanted, void *user)
+{
+    (void)user;
+    void *address = counter.load(wanted, counter.user);
+    COUNTED("glDrawArrays", draw_arrays, draw_arrays)
+    COUNTED("glCompileShader", compile_shader, compile_shader)
+    COUNTED("glLinkProgram", link_program, link_program)
+    COUNTED("glProgramBinary", program_binary, program_binary)
+    COUNTED("glTexImage2D", tex_image, tex_image)
+    COUNTED("glClearBufferfv", clear_buffer, clear_buffer)
+    return address;
+}
+
+gl_counts gl_counter_take(void)
+{
+    const gl_counts taken = counter.counts;
+    counter.counts = (gl_counts){0};
+    return taken;
+}
