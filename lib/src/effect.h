@@ -425,7 +425,7 @@ void glssao__maps_make_samplers(glssao_effect *effect);
 glssao_result glssao__maps_check_texture(glssao_effect *effect, gl_uint texture, bool needs_depth, const char *field);
 
 /* program.c */
-enum { GLSSAO__PROGRAM_MAX_SOURCES = 3 * VARIANT_FLAGS + 11 }; /* three a macro, seven about blocks, four files */
+enum { GLSSAO__PROGRAM_MAX_SOURCES = 3 * VARIANT_FLAGS + 12 }; /* three a macro, eight about blocks, four files */
 /* Pieces of a shader stage of a variant, in the order that the driver gets them; returns how many. */
 int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enum stage,
                             const char *out_sources[GLSSAO__PROGRAM_MAX_SOURCES]);

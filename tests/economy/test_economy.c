@@ -50,10 +50,10 @@ static void delete_frame(const glssao_frame *frame)
     gl.DeleteTextures(2, (const GLuint[2]){frame->depth_texture, frame->normal_texture});
 }
 
-/* Letters of the passes that run, in order: Normals, Distance, Tiles, Estimate, Resolve, Blur, Upsample. */
+/* Letters of the passes that run, in order: Inputs, Normals, Distance, Tiles, Estimate, Resolve, Blur, Upsample. */
 static void letters(const glssao_plan *plan, char out[GLSSAO_PASS_COUNT + 1])
 {
-    static const char all[] = "NDTERBU";
+    static const char all[] = "INDTERBU";
     int n = 0;
     for (int i = 0; i < GLSSAO_PASS_APPLY; ++i)
         if (plan->passes[i].run)
@@ -126,16 +126,16 @@ static const struct row {
     const char *passes;
     int draws, programs, textures; /* of the first frame; later ones make nothing */
 } rows[] = {
-    {"horizon low", GLSSAO_HORIZON, GLSSAO_LOW, NULL, "DEB", 4, 3, 3},
-    {"horizon medium", GLSSAO_HORIZON, GLSSAO_MEDIUM, NULL, "DEBU", 5, 4, 4},
-    {"horizon ultra", GLSSAO_HORIZON, GLSSAO_ULTRA, NULL, "DEB", 4, 3, 5},
+    {"horizon low", GLSSAO_HORIZON, GLSSAO_LOW, NULL, "DEB", 6, 4, 3},
+    {"horizon medium", GLSSAO_HORIZON, GLSSAO_MEDIUM, NULL, "DEBU", 7, 4, 4},
+    {"horizon ultra", GLSSAO_HORIZON, GLSSAO_ULTRA, NULL, "DEB", 4, 4, 5},
     {"classic", GLSSAO_CLASSIC, GLSSAO_HIGH, NULL, "EB", 7, 2, 0},
     {"hemisphere", GLSSAO_HEMISPHERE, GLSSAO_HIGH, NULL, "EB", 3, 2, 2},
-    {"normals rebuilt", GLSSAO_HORIZON, GLSSAO_MEDIUM, rebuild_normals, "NDEBU", 6, 5, 4},
+    {"normals rebuilt", GLSSAO_HORIZON, GLSSAO_MEDIUM, rebuild_normals, "NDEBU", 8, 5, 4},
     {"half size, raw", GLSSAO_HORIZON, GLSSAO_MEDIUM, half_size, "DE", 2, 2, 1},
     {"no blur rounds", GLSSAO_HORIZON, GLSSAO_MEDIUM, no_rounds, "DEU", 3, 3, 4},
-    {"margin", GLSSAO_HORIZON, GLSSAO_LOW, margin, "DEB", 4, 3, 4},
-    {"tiles, paired maps", GLSSAO_HORIZON, GLSSAO_MEDIUM, tiles_on, "DTEBU", 10, 9, 8},
+    {"margin", GLSSAO_HORIZON, GLSSAO_LOW, margin, "DEB", 6, 4, 4},
+    {"tiles, paired maps", GLSSAO_HORIZON, GLSSAO_MEDIUM, tiles_on, "DTEBU", 12, 9, 8},
     {"tiles, plain maps", GLSSAO_CLASSIC, GLSSAO_HIGH, tiles_on, "TEB", 11, 6, 4},
     {"radius 0", GLSSAO_HORIZON, GLSSAO_MEDIUM, no_radius, "", 0, 0, 0},
     {"power 0", GLSSAO_CLASSIC, GLSSAO_HIGH, no_power, "", 0, 0, 0},
@@ -201,7 +201,7 @@ static void prepared_frames_make_nothing(void **state)
     assert_true(prepared.draws == 0 && prepared.programs == 9 && prepared.textures == 8);
     assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_OK);
     const gl_counts computed = gl_counter_take();
-    assert_true(computed.draws == 10 && computed.programs == 0 && computed.textures == 0);
+    assert_true(computed.draws == 12 && computed.programs == 0 && computed.textures == 0);
     assert_int_equal(glssao_prepare(effect, &frame, NULL), GLSSAO_INVALID_ARGUMENT);
     assert_int_equal(glssao_prepare(NULL, &frame, &settings), GLSSAO_INVALID_ARGUMENT);
     glssao_destroy(effect);
@@ -217,7 +217,7 @@ static void each_scene_causes_these_calls(void **state)
         bool dark;
         int draws;
     } scenes[] = {
-        {"columns", false, false, 5}, {"plane", false, false, 5}, {"plane", true, false, 0},
+        {"columns", false, false, 7}, {"plane", false, false, 7}, {"plane", true, false, 0},
         {"columns", false, true, 0},  {"", false, false, 0}, /* no meshes at all */
     };
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; ++i) {
