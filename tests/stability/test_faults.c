@@ -173,7 +173,7 @@ static void each_call_survives_each_fault(void **state)
         {"resize", resize},
         {"begin normals", begin_normals},
     };
-    static const int least[] = {12, 20, 15, 15, 5, 6, 1};
+    static const int least[] = {12, 20, 15, 15, 1, 6, 1}; /* what applies is compiled with the effect */
     for (size_t i = 0; i < sizeof acts / sizeof *acts; ++i) {
         int faults = 0;
         while (fail_once(*state, &acts[i], faults))
