@@ -270,7 +270,7 @@ void glssao__constants_fill(glssao_constants *c, const glssao_frame *frame, cons
                             const glssao__projection *projection, int ambient_width, int ambient_height);
 void glssao__constants_fill_frame(glssao__frame_constants *c, const glssao_frame *frame,
                                   const glssao_settings *settings, const glssao__projection *projection,
-                                 const glssao__precision *precision);
+                                  const glssao__precision *precision);
 void glssao__constants_gauss_weights(float sigma, float out_weights[3][4]);
 
 /* random.c: PCG32 (O'Neill 2014); the same seed gives the same numbers on every machine. */

@@ -8,10 +8,9 @@
 #include <string.h>
 
 const char *const glssao__stats_pass_names[GLSSAO_PASS_COUNT] = {
-    [GLSSAO_PASS_INPUTS] = "inputs",
-    [GLSSAO_PASS_NORMALS] = "normals", [GLSSAO_PASS_DISTANCE] = "distance", [GLSSAO_PASS_ESTIMATE] = "estimate",
-    [GLSSAO_PASS_RESOLVE] = "resolve", [GLSSAO_PASS_BLUR] = "blur",         [GLSSAO_PASS_UPSAMPLE] = "upsample",
-    [GLSSAO_PASS_APPLY] = "apply",
+    [GLSSAO_PASS_INPUTS] = "inputs",     [GLSSAO_PASS_NORMALS] = "normals", [GLSSAO_PASS_DISTANCE] = "distance",
+    [GLSSAO_PASS_ESTIMATE] = "estimate", [GLSSAO_PASS_RESOLVE] = "resolve", [GLSSAO_PASS_BLUR] = "blur",
+    [GLSSAO_PASS_UPSAMPLE] = "upsample", [GLSSAO_PASS_APPLY] = "apply",
 };
 
 static glssao__timer_frame *timers_of(glssao_effect *effect, uint64_t frame)
