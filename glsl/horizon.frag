@@ -118,7 +118,7 @@ struct slice_frame {
 
 // What a sample must exceed to be an occluder.
 struct least {
-    float x;       // in widths of a step
+    float x;
     float tangent; // height of the tangent plane per x ...
     float above;   // ... and how much higher than that
 };
@@ -144,16 +144,15 @@ vec3 sample_at(slice_frame f, vec2 step_px, float along, out vec2 layers)
                 scale * f.per_scale);
 }
 
-// Sectors that are hidden at x between two heights, where they lie within the sphere, whose half chord is 0 beyond it: top
-// and bottom then come out alike.
-uint hidden_between(float x, float x2, float chord, float top, float bottom, polynomial sectors, bool minus, float lowest,
+// Sectors that are hidden at x between two heights, if they count, where they lie within the sphere, whose half chord is 0
+// beyond it: top and bottom then come out alike.
+uint hidden_between(bool counts, float x2, float chord, float top, float bottom, polynomial sectors, bool minus, float lowest,
                     out float cos_top)
 {
     // Sky can lie so deep that its square overflows, and its cosine would come out as 0.
     top = clamp(top, -1e6, chord);
     bottom = max(bottom, -chord);
-    // x is 0 on the point's own texel, and would be below it where the border holds a sample on the other side.
-    cos_top = x > 0.0 ? max(top * inversesqrt(x2 + top * top), lowest) : lowest;
+    cos_top = counts ? max(top * inversesqrt(x2 + top * top), lowest) : lowest;
     float cos_bottom = clamp(bottom * inversesqrt(x2 + bottom * bottom), lowest, cos_top);
     uint near = 1u << sector(sectors, cos_top);
     uint far = 1u << sector(sectors, cos_bottom);
@@ -164,9 +163,9 @@ uint hidden_between(float x, float x2, float chord, float top, float bottom, pol
 // behind it.
 uint hidden_by(vec3 at, vec2 layers, float width, polynomial sectors, bool minus, float lowest, least from, inout float highest)
 {
-    // A sample that the border held may have slid along it to right across the slice, where its angle is all error; and what
-    // the depth format can't tell from the tangent plane is no occluder. x of 0 hides nothing.
-    at.x = at.x > from.x * at.z && at.y > from.tangent * at.x + from.above ? at.x : 0.0;
+    // x is 0 on the point's own texel, and below it where the border holds a sample on the other side; held right across the
+    // slice, its angle is all error. And what the depth format can't tell from the tangent plane is no occluder.
+    bool counts = at.x > from.x && at.y > from.tangent * at.x + from.above;
     float x2 = at.x * at.x + 1e-12;
     float chord = sqrt(max(1.0 - x2, 0.0));
     float thickness = WIDTH * width * at.z;
@@ -174,10 +173,10 @@ uint hidden_by(vec3 at, vec2 layers, float width, polynomial sectors, bool minus
     uint mask = 0u;
 #if LAYERS
     float second = min(at.y - layers.y, chord); // its thickness counts from where it is within the sphere
-    mask = hidden_between(at.x, x2, chord, second, second - SECOND * thickness, sectors, minus, lowest, cos_top);
+    mask = hidden_between(counts, x2, chord, second, second - SECOND * thickness, sectors, minus, lowest, cos_top);
     thickness = layers.x >= 0.0 ? layers.x : thickness;
 #endif
-    mask |= hidden_between(at.x, x2, chord, at.y, at.y - thickness, sectors, minus, lowest, cos_top);
+    mask |= hidden_between(counts, x2, chord, at.y, at.y - thickness, sectors, minus, lowest, cos_top);
     highest = max(highest, thickness > VEIL_WIDTH && x2 < 1.0 ? cos_top : lowest);
     return mask;
 }
@@ -280,7 +279,7 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
     EACH_STEP(TAKE_PLUS)
     EACH_STEP(TAKE_MINUS)
     float tangent = sin_g / max(cos_g, 1e-3);
-    least from_plus = least(0.25 * length(f.x_per_px) / f.per_scale, -tangent, f.y_step); // a quarter of a pixel
+    least from_plus = least(0.2 * STEP * length(f.x_per_px) / f.per_scale, -tangent, f.y_step); // a fifth of a pixel
     least from_minus = least(from_plus.x, tangent, f.y_step);
     float highest_plus, highest_minus;
     uint mask = hidden_sectors(plus_samples, plus_layers, jitter, plus_sectors, false, -sin_g, from_plus, highest_plus) |

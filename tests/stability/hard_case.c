@@ -42,6 +42,18 @@ static subject picture_of(const hard_case *c, double distance)
     return subject_of(&view, seen_as[c->shape].shapes, seen_as[c->shape].count, width, height);
 }
 
+/* The map that rebuilt normals lie in; its size is the full one. */
+static void check_rebuilt_normals(fixture *f, const hard_case *c, const subject *s)
+{
+    int width, height;
+    const uint32_t map = glssao_map(subject_effect(f, s->width, s->height), GLSSAO_MAP_NORMAL, &width, &height);
+    float *normals = fixture_read_texture(map, width, height, 3);
+    for (int i = 0; i < 3 * width * height; ++i)
+        if (!(fabsf(normals[i]) <= 1.001f)) /* also true for nan */
+            fail_msg("%s: a rebuilt normal of %g", c->name, (double)normals[i]);
+    free(normals);
+}
+
 static void check(fixture *f, const hard_case *c, const subject *s, normal_store normal, int number)
 {
     const double distance = or_default(c->distance, 3.0);
@@ -58,6 +70,8 @@ static void check(fixture *f, const hard_case *c, const subject *s, normal_store
     if (least < wanted)
         fail_msg("%s, %s, %s, %s: %.4f, want at least %.4f", c->name, one.name, subject_depth_name(c->depth),
                  subject_normal_name(normal), least, wanted);
+    if (number == 0 && frame.normal_texture == 0)
+        check_rebuilt_normals(f, c, s);
     free(p.values);
     subject_frame_free(&frame);
 }

@@ -47,6 +47,15 @@ static void normals_that_are_none(subject *s)
         s->normals[i] = bad[i / 2 % 6];
 }
 
+/* Not a normal at all; in the map of the result, which holds no such number, black would come of it. */
+static void no_normal_here_and_there(subject *s)
+{
+    static const float bad[] = {0.0f, NAN, INFINITY, -INFINITY, 1e30f, 1e-30f};
+    for (size_t i = 0; i < count_of(s); i += 5)
+        for (size_t axis = 0; axis < 3; ++axis)
+            s->normals[3 * i + axis] = bad[i / 5 % 6];
+}
+
 static void normals_of_any_length(subject *s)
 {
     for (size_t i = 0; i < 3 * count_of(s); ++i)
@@ -166,6 +175,8 @@ static const hard_case cases[] = {
     /* bad numbers */
     {"normals of no length and none", SEE_ROOM, .spoil = normals_that_are_none, .depth = DEPTH_24,
      .normal = NORMAL_32F},
+    {"no normal here and there", SEE_PLANE, 60.0, .spoil = no_normal_here_and_there, .depth = DEPTH_24,
+     .normal = NORMAL_32F, .least = OPEN},
     {"normals of any length", SEE_PLANE, 60.0, .spoil = normals_of_any_length, .depth = DEPTH_24, .normal = NORMAL_32F,
      .least = OPEN},
     {"normals away from the eye", SEE_ROOM, .spoil = normals_away_from_the_eye, .depth = DEPTH_24,

@@ -89,10 +89,11 @@ static void add_sample(const point *p, const slice *s, const side *d, const cand
 {
     const horizon_constants *c = &p->in->constants;
     const interval x = bounds(at->x), y = bounds(at->y);
-    /* A quarter of the size that a pixel has there. */
+    /* A fifth of the size that a pixel has at the point. */
     const rounded squares[2] = {multiply(s->x_per_px[0], s->x_per_px[0]), multiply(s->x_per_px[1], s->x_per_px[1])};
-    const rounded center = exactly((p->orthographic ? 1.0 : p->distance) * p->in->steps * 0.25);
-    const rounded least = multiply(multiply(center, at->step), square_root(add(squares[0], squares[1])));
+    const rounded fifth = multiply(once_rounded(0.2), exactly(p->orthographic ? 1.0 : p->distance));
+    rounded least = multiply(fifth, square_root(add(squares[0], squares[1])));
+    least.e += 4.0 * ROUNDING * least.v;
     const interval beyond = bounds(subtract(at->x, least));
     /* The tangent plane, and a step of the depth format above it. */
     rounded tangent = divide(s->sin_g, at_least(s->cos_g, 1e-3));
