@@ -10,7 +10,7 @@ uniform sampler2D u_ambient_map;
 out float o_needed;
 
 const int MOST_TILES = 16;    // in reach along an axis; where there are more, the tile is estimated without a look
-const float FACING = 0.25;    // cosine: seen at more of a slant, the estimate of a plane is off 1 by more than its rounding
+const float FACING = 0.35;    // cosine: seen at more of a slant, horizon's polynomials leave more of a plane than a step
 
 vec3 bounds_of(ivec2 tile)
 {

@@ -56,7 +56,8 @@ void glssao__tiles_fill_constants(glssao__frame_constants *c, const glssao_setti
     const bool hidden = hemisphere && s->surface_epsilon < 16.0f * FLAT * s->radius;
     c->gTiles[0] = (float)TILE_SIDE;
     c->gTiles[1] = classic ? 5.0f : 1.0f;
-    c->gTiles[2] = classic || hidden ? 0.0f : FLAT;
+    /* What little is left of a plane grows with the power. */
+    c->gTiles[2] = classic || hidden ? 0.0f : s->power > 1.0f ? FLAT / s->power : FLAT;
     c->gTiles[3] = classic ? s->surface_epsilon : 0.0f;
     c->gTileRings = (float)(rings + 3);
 }
