@@ -6,6 +6,16 @@
 
 #include <string.h>
 
+/* By what rasterisers on the processor call themselves. */
+static bool names_software(const char *renderer)
+{
+    static const char *const names[] = {"llvmpipe", "softpipe", "swrast", "Software Rasterizer", "SwiftShader", "SWR"};
+    bool any = false;
+    for (size_t i = 0; renderer && i < sizeof names / sizeof *names; ++i)
+        any = any || strstr(renderer, names[i]) != NULL;
+    return any;
+}
+
 static bool has_extension(const glssao__gl *gl, const char *name)
 {
     gl_int count = 0;
@@ -73,6 +83,7 @@ bool glssao__gl_load(glssao__gl *gl, glssao__gl_load_fn load, void *user, const 
         gl->ProgramBinary && gl->ProgramParameteri)
         gl->GetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
     gl->program_binaries = formats > 0;
+    gl->is_software = names_software((const char *)gl->GetString(GL_RENDERER));
     gl->depth_bounds_test = has_extension(gl, "GL_EXT_depth_bounds_test");
 
     gl_int mask = 0, texture_size = 0, viewport[2] = {0, 0};

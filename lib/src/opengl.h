@@ -297,6 +297,7 @@ typedef struct glssao__gl {
     bool compatibility;     /* a compatibility profile: fixed-function toggles exist */
     bool program_binaries;  /* linked programs can be read back */
     bool depth_bounds_test; /* GL_EXT_depth_bounds_test */
+    bool is_software;       /* the processor rasterises */
     int max_size;           /* largest texture and viewport side, pixels */
     int max_draw_buffers;
     float max_point_size;   /* pixels */

@@ -31,6 +31,9 @@ const char *glssao__tiles_refusal(const glssao_effect *effect, const glssao_sett
     const int most = effect->gl.max_size - 2 * TILE_SIDE;
     if (effect->gl.max_point_size < 8.0f * TILE_SIDE || effect->width > most || effect->height > most)
         return "the driver draws no points or viewports that large";
+    /* Measured, docs/decisions.md: a GPU is through with open pixels as fast as with the passes that find them. */
+    if (s->tiles == GLSSAO_TILES_AUTO && !effect->gl.is_software)
+        return "a GPU passes over open pixels as fast as it would sort tiles";
     if (s->tiles == GLSSAO_TILES_AUTO && columns * rows < LEAST_TILES)
         return "so few tiles cost more to sort than they save";
     return NULL;

@@ -134,9 +134,9 @@ static const char *const rules =
     "Tiles are drawn as square points, a block of 4 x 4 or 2 x 2 as one: two triangles would shade the pixels along "
     "their "
     "diagonal twice, a quarter of a tile's. The class is fetched by the vertex shader; nothing is read back.\n\n"
-    "By default tiles are sorted where there are 300 or more: for estimates of some 320x240 pixels and up, which is "
-    "640x480 "
-    "at half size. The library cannot know beforehand what a picture holds: `settings.tiles` says off for hosts that "
+    "By default tiles are sorted on software rasterisers, where there are 300 or more: for estimates of some 320x240 "
+    "pixels and up, which is 640x480 at half size. The library cannot know beforehand what a picture holds: "
+    "`settings.tiles` says off for hosts that "
     "draw "
     "closed rooms without large planes, where the pass is paid for nothing.\n\n";
 

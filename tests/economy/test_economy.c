@@ -188,6 +188,47 @@ static void each_setting_causes_these_calls(void **state)
         check_row(*state, &rows[i]);
 }
 
+static const GLubyte *(*real_get_string)(GLenum name);
+
+static const GLubyte *gpu_get_string(GLenum name)
+{
+    return name == GL_RENDERER ? (const GLubyte *)"A GPU of some make" : real_get_string(name);
+}
+
+static void *gpu_load(const char *name, void *user)
+{
+    void *found = context_load(name, user);
+    if (strcmp(name, "glGetString") != 0)
+        return found;
+    memcpy(&real_get_string, &found, sizeof found);
+    const GLubyte *(*own)(GLenum) = gpu_get_string;
+    memcpy(&found, &own, sizeof found);
+    return found;
+}
+
+/* Sorting tiles pays where the processor rasterises. */
+static void tiles_depend_on_the_driver(void **state)
+{
+    fixture *f = *state;
+    const glssao_frame frame = room_frame();
+    glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
+    for (int gpu = 0; gpu < 2; ++gpu)
+        for (int tiles = GLSSAO_TILES_AUTO; tiles <= GLSSAO_TILES_ON; ++tiles) {
+            glssao_config config = fixture_config(f, 800, 600);
+            if (gpu)
+                config.load = gpu_load;
+            glssao_effect *effect = NULL;
+            assert_int_equal(glssao_create(&config, &effect), GLSSAO_OK);
+            settings.tiles = (glssao_tiles)tiles;
+            const glssao_plan plan = glssao_plan_frame(effect, &frame, &settings);
+            assert_true(plan.passes[GLSSAO_PASS_ESTIMATE].run);
+            assert_true(plan.passes[GLSSAO_PASS_TILES].run ==
+                        (tiles == GLSSAO_TILES_ON || (tiles == GLSSAO_TILES_AUTO && !gpu)));
+            glssao_destroy(effect);
+        }
+    delete_frame(&frame);
+}
+
 /* After glssao_prepare a frame compiles and makes nothing, and preparing draws nothing. */
 static void prepared_frames_make_nothing(void **state)
 {
@@ -301,10 +342,8 @@ int main(void)
 {
 #define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
-        TEST(each_setting_causes_these_calls),
-        TEST(prepared_frames_make_nothing),
-        TEST(each_scene_causes_these_calls),
-        TEST(hidden_sky_is_not_drawn_again),
+        TEST(each_setting_causes_these_calls), GL_TEST(tiles_depend_on_the_driver), TEST(prepared_frames_make_nothing),
+        TEST(each_scene_causes_these_calls),   TEST(hidden_sky_is_not_drawn_again),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
 }

@@ -104,7 +104,7 @@ typedef enum glssao_blur {  /* how noise is taken out of the estimate */
 } glssao_blur;
 
 typedef enum glssao_tiles { /* whether tiles of the picture where nothing can occlude are looked for and left out */
-    GLSSAO_TILES_AUTO = 0,  /* where it can pay */
+    GLSSAO_TILES_AUTO = 0,  /* where it can pay: on software rasterisers, in pictures that are not small */
     GLSSAO_TILES_OFF,
     GLSSAO_TILES_ON
 } glssao_tiles;
