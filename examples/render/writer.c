@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * A queue, bounded in pictures and in bytes, and a thread for each core that this process may use.
+ * A queue, bounded in pictures and in bytes, and threads, as many as pictures wait and no more than this process may
+ * use cores.
  */
 #define _GNU_SOURCE /* sched_getaffinity */
 #include "writer.h"
@@ -34,7 +35,7 @@ struct writer {
     size_t bytes; /* of the queue and of what the threads work on */
     bool ending;
     pthread_t threads[MOST_THREADS];
-    int thread_count;
+    int thread_count, idle, wanted;
 };
 
 /* Slurm and container runtimes give a job fewer cores than the machine has. */
@@ -112,7 +113,9 @@ static void *run_thread(void *argument)
         if (w->length) {
             work_on(w, take_first(w));
         } else {
+            w->idle++;
             pthread_cond_wait(&w->changed, &w->lock);
+            w->idle--;
         }
     }
     pthread_mutex_unlock(&w->lock);
@@ -127,11 +130,8 @@ writer *writer_create(void)
     }
     pthread_mutex_init(&w->lock, NULL);
     pthread_cond_init(&w->changed, NULL);
-    const int wanted = count_cores();
-    while (w->thread_count < wanted && pthread_create(&w->threads[w->thread_count], NULL, run_thread, w) == 0) {
-        w->thread_count++;
-    }
-    w->limit = 2 * wanted;
+    w->wanted = count_cores();
+    w->limit = 2 * w->wanted;
     return w;
 }
 
@@ -171,6 +171,10 @@ void writer_submit(writer *w, writer_slip *slip, const char *path, int width, in
         pthread_cond_wait(&w->changed, &w->lock);
     }
     w->bytes += pixel_bytes(&e);
+    if (w->length >= w->idle && w->thread_count < w->wanted &&
+        pthread_create(&w->threads[w->thread_count], NULL, run_thread, w) == 0) {
+        w->thread_count++;
+    }
     if (w->thread_count) {
         w->queue[(w->first + w->length++) % QUEUE_LENGTH] = e;
         pthread_cond_broadcast(&w->changed);
