@@ -18,7 +18,7 @@ number=0
 while IFS= read -r -d '' file; do
     case $file in "$scenes"/invalid/*) number=$((number + 1)) && [ $((number % every)) = 0 ] || continue ;; esac
     rm -f "$work/out.png"
-    for try in 1 2 3; do # LeakSanitizer itself can fail where a thread ends as it looks: no finding, so again
+    for _ in 1 2 3; do # LeakSanitizer itself can fail where a thread ends as it looks: no finding, so again
         timeout 60 "$render" -s 32x18 -o "$work/out.png" "$file" >"$work/out" 2>"$work/err"
         code=$?
         grep -q 'LeakSanitizer has encountered a fatal error' "$work/err" || break
