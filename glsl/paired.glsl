@@ -2,8 +2,8 @@
 // What the passes after the estimate read of a pixel, in two floats: accessibility, whose ten lowest bits hold the normal,
 // and the linear quantity of distance. PAIRED 1: the pass writes it; 0: it writes accessibility alone.
 //
-// The normal is kept in Lambert's azimuthal equal-area projection, in which the distance of two is about their chord; the
-// one direction without a picture, away from the eye, comes out far from all others.
+// The normal is kept in Lambert's azimuthal equal-area projection, in which the distance of two is about their chord. The
+// one direction without a picture, straight away from the eye, no surface has that is seen.
 
 const float NORMAL_STEP = 0.1; // of its two coordinates, -1.5 to 1.6
 
