@@ -5,9 +5,8 @@
 // in  u_depth_map       stored depth, fetched for the pixel; for occluders linearly sampled, border: sky
 // in  u_random_vector_map  RGBA8, each channel uniform in 0..1, repeated 4 times across the target
 // out o_ambient         accessibility, with PAIRED 1 what passes after this one read
-// OPEN 1: nothing occludes. NO_ANGLE_WEIGHT 1: an occluder counts fully at any angle to the normal, which shows the self-occlusion of
-// flat
-// surfaces that the weight prevents.
+// OPEN 1: nothing occludes. NO_ANGLE_WEIGHT 1: an occluder counts fully at any angle to the normal, which shows the
+// self-occlusion of flat surfaces that the weight prevents.
 
 uniform sampler2D u_random_vector_map;
 out AMBIENT o_ambient;

@@ -440,6 +440,19 @@ glssao_result glssao__program_get(glssao_effect *effect, enum glssao__shader sha
 gl_uint glssao__cache_read(const glssao_effect *effect, enum glssao__shader shader, unsigned variant);
 void glssao__cache_write(const glssao_effect *effect, enum glssao__shader shader, unsigned variant, gl_uint program);
 
+/* frame_programs.c */
+typedef struct glssao__frame_programs {
+    glssao__program_object inputs[INPUT_COUNT], normals, distance, estimate, open, resolve, probe, blur, last_blur,
+        upsample;
+    glssao__tile_programs tiles;
+} glssao__frame_programs;
+
+/* Compiles what the plan needs, before anything changes. `host` is the host's frame, `frame` what the passes after the
+ * copying of inputs see. */
+glssao_result glssao__frame_programs_get(glssao_effect *effect, const glssao_frame *host, const glssao_frame *frame,
+                                         const glssao_settings *settings, const glssao_plan *plan,
+                                         glssao__frame_programs *out);
+
 /* stats.c */
 void glssao__stats_begin_frame(glssao_effect *effect);
 void glssao__stats_begin_pass(glssao_effect *effect, glssao_pass pass);

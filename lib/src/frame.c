@@ -4,101 +4,10 @@
  */
 #include "effect.h"
 
-typedef struct frame_programs {
-    glssao__program_object inputs[INPUT_COUNT], normals, distance, estimate, open, resolve, probe, blur, last_blur,
-        upsample;
-    glssao__tile_programs tiles;
-} frame_programs;
-
-/* How the host stores what the passes read. */
-static unsigned input_variant(const glssao_frame *frame)
-{
-    unsigned variant = 0;
-    if (frame->normal_texture && frame->normal_kind == GLSSAO_NORMAL_UNSIGNED)
-        variant |= VARIANT_UNSIGNED_NORMALS;
-    if (frame->normal_texture && frame->normal_kind == GLSSAO_NORMAL_OCTAHEDRAL)
-        variant |= VARIANT_OCTAHEDRAL_NORMALS;
-    if (frame->depth_kind != GLSSAO_DEPTH_WINDOW)
-        variant |= VARIANT_DEPTH_IS_DISTANCE;
-    if (frame->depth_kind == GLSSAO_DEPTH_NORMAL_ALPHA)
-        variant |= VARIANT_DEPTH_IN_ALPHA;
-    if (frame->back_texture)
-        variant |= VARIANT_LAYERS;
-    return variant;
-}
-
-static enum glssao__shader estimate_shader(const glssao_settings *settings)
-{
-    return settings->technique == GLSSAO_CLASSIC      ? SHADER_CLASSIC
-           : settings->technique == GLSSAO_HEMISPHERE ? SHADER_HEMISPHERE
-                                                      : SHADER_HORIZON;
-}
-
-static unsigned estimate_variant(const glssao_settings *settings)
-{
-    if (settings->technique != GLSSAO_HORIZON)
-        return settings->no_angle_weight ? VARIANT_NO_ANGLE_WEIGHT : 0u;
-    switch (settings->sample_count) {
-    case 16:
-        return VARIANT_STEPS_8;
-    case 24:
-        return VARIANT_STEPS_12;
-    case 32:
-        return VARIANT_STEPS_8 | VARIANT_SLICES_2;
-    case 48:
-        return VARIANT_STEPS_12 | VARIANT_SLICES_2;
-    case 64:
-        return VARIANT_STEPS_16 | VARIANT_SLICES_2;
-    default:
-        return 0; /* 12 */
-    }
-}
-
 /* The texture that holds depth. */
 static gl_uint depth_source(const glssao_frame *frame)
 {
     return frame->depth_kind == GLSSAO_DEPTH_NORMAL_ALPHA ? frame->normal_texture : frame->depth_texture;
-}
-
-/* Compiles what the plan needs, before anything changes. `host` is the host's frame, `frame` what the passes after the
- * copying of inputs see. */
-static glssao_result get_programs(glssao_effect *effect, const glssao_frame *host, const glssao_frame *frame,
-                                  const glssao_settings *settings, const glssao_plan *plan, frame_programs *out)
-{
-    const unsigned inputs = input_variant(frame), paired = glssao__plan_is_paired(settings, plan) ? VARIANT_PAIRED : 0u;
-    const unsigned blur = inputs | (settings->blur == GLSSAO_BLUR_BILATERAL ? VARIANT_EDGE_AWARE : 0u) |
-                          (settings->blur == GLSSAO_BLUR_BOX ? VARIANT_BOX : 0u);
-    const enum glssao__shader blur_shader = settings->blur == GLSSAO_BLUR_PLANAR ? SHADER_PLANAR_BLUR : SHADER_BLUR;
-    const unsigned tiles = inputs | glssao__tiles_variant(settings);
-    const struct {
-        glssao_pass pass;
-        enum glssao__shader shader;
-        unsigned variant;
-        glssao__program_object *out;
-    } needed[] = {
-        {GLSSAO_PASS_NORMALS, SHADER_NORMALS, inputs, &out->normals},
-        {GLSSAO_PASS_DISTANCE, SHADER_DISTANCE, inputs, &out->distance},
-        {GLSSAO_PASS_TILES, SHADER_TILE_ROWS, tiles, &out->tiles.rows},
-        {GLSSAO_PASS_TILES, SHADER_TILE_BOUNDS, tiles, &out->tiles.bounds},
-        {GLSSAO_PASS_TILES, SHADER_TILE_CLASS, tiles, &out->tiles.needed},
-        {GLSSAO_PASS_TILES, SHADER_TILE_RINGS, 0, &out->tiles.rings},
-        {GLSSAO_PASS_ESTIMATE, estimate_shader(settings),
-         inputs | estimate_variant(settings) | (plan->passes[GLSSAO_PASS_RESOLVE].run ? VARIANT_ACCUMULATE : paired),
-         &out->estimate},
-        {GLSSAO_PASS_RESOLVE, SHADER_RESOLVE, inputs | paired, &out->resolve},
-        {GLSSAO_PASS_RESOLVE, SHADER_PROBE, 0, &out->probe},
-        {GLSSAO_PASS_BLUR, blur_shader, blur | paired, &out->blur},
-        {GLSSAO_PASS_BLUR, blur_shader, blur | (plan->passes[GLSSAO_PASS_UPSAMPLE].run ? paired : 0u), &out->last_blur},
-        {GLSSAO_PASS_UPSAMPLE, SHADER_UPSAMPLE, inputs, &out->upsample},
-    };
-    glssao_result result =
-        plan->passes[GLSSAO_PASS_INPUTS].run ? glssao__inputs_programs(effect, host, out->inputs) : GLSSAO_OK;
-    for (size_t i = 0; i < sizeof needed / sizeof *needed && result == GLSSAO_OK; ++i)
-        if (plan->passes[needed[i].pass].run)
-            result = glssao__program_get(effect, needed[i].shader, needed[i].variant, needed[i].out);
-    if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_TILES].run && glssao__plan_is_paired(settings, plan))
-        result = glssao__program_get(effect, estimate_shader(settings), inputs | paired | VARIANT_OPEN, &out->open);
-    return result;
 }
 
 /* Whether the result goes to a map of its own: the passes draw into maps of the estimate's size. */
@@ -148,7 +57,7 @@ typedef struct frame_run {
     const glssao_frame *frame; /* as the passes after the copying of inputs see it */
     const glssao_settings *settings;
     const glssao_plan *plan;
-    frame_programs programs;
+    glssao__frame_programs programs;
     glssao__region delivered; /* what of the last pass's map is the result */
     int rings; /* tiles around one that needs an estimate in which blur and upsampling may change something */
 } frame_run;
@@ -339,7 +248,7 @@ static glssao_result run(glssao_effect *effect, const glssao_frame *host, const 
         result = glssao__inputs_fit(effect, host);
     const glssao_frame read = glssao__inputs_frame(effect, host), *const frame = r.frame = &read;
     if (result == GLSSAO_OK)
-        result = get_programs(effect, host, frame, settings, plan, &r.programs);
+        result = glssao__frame_programs_get(effect, host, frame, settings, plan, &r.programs);
     if (result == GLSSAO_OK)
         result = fit_maps(effect, frame, settings, plan);
     if (result != GLSSAO_OK)
@@ -377,20 +286,26 @@ static glssao_result run(glssao_effect *effect, const glssao_frame *host, const 
     return GLSSAO_OK;
 }
 
+static bool may_run(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
+                    const char *function, glssao__projection *out_projection)
+{
+    return effect && !glssao__draw_is_between_normals(effect, function) &&
+           glssao__settings_check_frame(effect, frame, settings, &effect->log, out_projection);
+}
+
 glssao_result glssao_prepare(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
 {
     glssao__projection projection;
-    if (!effect || glssao__draw_is_between_normals(effect, "glssao_prepare") ||
-        !glssao__settings_check_frame(effect, frame, settings, &effect->log, &projection))
+    if (!may_run(effect, frame, settings, "glssao_prepare", &projection))
         return GLSSAO_INVALID_ARGUMENT;
-    frame_programs programs;
+    glssao__frame_programs programs;
     glssao__host_state host;
     glssao__state_save(&effect->gl, &host);
     const glssao_plan plan = glssao_plan_frame(effect, frame, settings);
     glssao_result result = glssao__inputs_fit(effect, frame);
     const glssao_frame read = glssao__inputs_frame(effect, frame);
     if (result == GLSSAO_OK)
-        result = get_programs(effect, frame, &read, settings, &plan, &programs);
+        result = glssao__frame_programs_get(effect, frame, &read, settings, &plan, &programs);
     if (result == GLSSAO_OK)
         result = fit_maps(effect, &read, settings, &plan);
     glssao__state_restore(&effect->gl, &host);
@@ -401,8 +316,7 @@ glssao_result glssao_prepare(glssao_effect *effect, const glssao_frame *frame, c
 glssao_result glssao_compute(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
 {
     glssao__projection projection;
-    if (!effect || glssao__draw_is_between_normals(effect, "glssao_compute") ||
-        !glssao__settings_check_frame(effect, frame, settings, &effect->log, &projection))
+    if (!may_run(effect, frame, settings, "glssao_compute", &projection))
         return GLSSAO_INVALID_ARGUMENT;
     glssao__host_state host;
     glssao__state_save(&effect->gl, &host);
@@ -416,8 +330,7 @@ glssao_result glssao_compute(glssao_effect *effect, const glssao_frame *frame, c
 glssao_result glssao_accumulate(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
 {
     glssao__projection projection;
-    if (!effect || glssao__draw_is_between_normals(effect, "glssao_accumulate") ||
-        !glssao__settings_check_frame(effect, frame, settings, &effect->log, &projection))
+    if (!may_run(effect, frame, settings, "glssao_accumulate", &projection))
         return GLSSAO_INVALID_ARGUMENT;
     if (settings->technique != GLSSAO_HORIZON) {
         glssao__log_write(&effect->log, GLSSAO_LOG_ERROR,

@@ -35,19 +35,7 @@ static glssao_frame room_frame(void)
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     analytic_room(room, 1.0);
     const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
-    float *depth, *normals;
-    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, W, H, &depth, &normals);
-    glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, depth),
-                          .normal_texture = fixture_normal_texture(W, H, normals)};
-    memcpy(frame.projection, view.projection, sizeof frame.projection);
-    free(depth);
-    free(normals);
-    return frame;
-}
-
-static void delete_frame(const glssao_frame *frame)
-{
-    gl.DeleteTextures(2, (const GLuint[2]){frame->depth_texture, frame->normal_texture});
+    return fixture_frame(&view, room, ANALYTIC_ROOM_SHAPES, W, H);
 }
 
 /* Letters of the passes that run, in order: Inputs, Normals, Distance, Tiles, Estimate, Resolve, Blur, Upsample. */
@@ -179,7 +167,7 @@ static void check_row(fixture *f, const struct row *row)
                      programs, textures);
     }
     glssao_destroy(effect);
-    delete_frame(&frame);
+    fixture_delete_frame(&frame);
 }
 
 static void each_setting_causes_these_calls(void **state)
@@ -226,7 +214,7 @@ static void tiles_depend_on_the_driver(void **state)
                         (tiles == GLSSAO_TILES_ON || (tiles == GLSSAO_TILES_AUTO && !gpu)));
             glssao_destroy(effect);
         }
-    delete_frame(&frame);
+    fixture_delete_frame(&frame);
 }
 
 /* After glssao_prepare a frame compiles and makes nothing, and preparing draws nothing. */
@@ -246,7 +234,7 @@ static void prepared_frames_make_nothing(void **state)
     assert_int_equal(glssao_prepare(effect, &frame, NULL), GLSSAO_INVALID_ARGUMENT);
     assert_int_equal(glssao_prepare(NULL, &frame, &settings), GLSSAO_INVALID_ARGUMENT);
     glssao_destroy(effect);
-    delete_frame(&frame);
+    fixture_delete_frame(&frame);
 }
 
 /* What glssao-render's frame draws of the effect, for scenes. */

@@ -163,20 +163,7 @@ static void shared_scenes_look_the_same(void **state)
 static glssao_frame shapes_frame(analytic_projection kind, const analytic_shape *shapes, int count, double scale)
 {
     const analytic_view view = analytic_make_view(kind, (double)W / H, 0.5, 40.0, scale);
-    float *depth, *normals;
-    analytic_render(&view, shapes, count, W, H, &depth, &normals);
-    glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, depth),
-                          .normal_texture = fixture_normal_texture(W, H, normals),
-                          .clip_zero_to_one = view.clip_zero_to_one};
-    memcpy(frame.projection, view.projection, sizeof frame.projection);
-    free(depth);
-    free(normals);
-    return frame;
-}
-
-static void delete_frame(const glssao_frame *frame)
-{
-    gl.DeleteTextures(2, (const GLuint[2]){frame->depth_texture, frame->normal_texture});
+    return fixture_frame(&view, shapes, count, W, H);
 }
 
 static void every_projection_looks_the_same(void **state)
@@ -197,7 +184,7 @@ static void every_projection_looks_the_same(void **state)
                 assert_same_picture(effect, &f, &settings, "room");
             }
         glssao_destroy(effect);
-        delete_frame(&frame);
+        fixture_delete_frame(&frame);
     }
 }
 
@@ -211,7 +198,7 @@ static double share_of(fixture *f, const analytic_shape *shapes, int count, glss
     set_radius(&settings, radius);
     const double share = assert_same_picture(effect, &frame, &settings, "shapes");
     glssao_destroy(effect);
-    delete_frame(&frame);
+    fixture_delete_frame(&frame);
     return share;
 }
 
@@ -270,7 +257,7 @@ static void few_tiles_are_not_sorted(void **state)
     settings.tiles = (glssao_tiles)3;
     assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_INVALID_ARGUMENT);
     glssao_destroy(effect);
-    delete_frame(&frame);
+    fixture_delete_frame(&frame);
 }
 
 int main(void)

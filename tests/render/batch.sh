@@ -4,17 +4,9 @@
 # the rest, and shards share a list out.
 set -uo pipefail
 render=$(realpath "$1") context=$2
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
+# shellcheck source=tests/render/fail.sh
+. "$(dirname "$(realpath "${BASH_SOURCE[0]}")")/fail.sh"
 mkdir batch each none
-failures=0
-
-fail() {
-    echo "FAILED: $*"
-    sed 's/^/    /' err
-    failures=$((failures + 1))
-}
 
 # want CODE WORDS ARGUMENTS...: this exit code, and WORDS (fixed text) on stderr.
 want() {

@@ -4,16 +4,8 @@
 # right kind and size, the same bits every time.
 set -uo pipefail
 render=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-
-fail() {
-    echo "FAILED: $*"
-    sed 's/^/    /' err
-    failures=$((failures + 1))
-}
+# shellcheck source=tests/render/fail.sh
+. "$(dirname "$(realpath "${BASH_SOURCE[0]}")")/fail.sh"
 
 # want CODE WORDS ARGUMENTS...: this exit code, and WORDS (fixed text) in the last line on stderr.
 want() {

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 configuration configuration_of(int number)
 {
@@ -16,6 +17,12 @@ configuration configuration_of(int number)
     snprintf(c.name, sizeof c.name, "%s %s at %s size", techniques[technique], qualities[quality],
              half ? "half" : "full");
     return c;
+}
+
+int configuration_stride(int argc, char **argv)
+{
+    const int stride = argc > 1 ? atoi(argv[1]) : 1;
+    return stride > 0 ? stride : 1;
 }
 
 glssao_settings settings_scaled(const glssao_settings *settings, double scale)

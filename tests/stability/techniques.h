@@ -15,6 +15,8 @@ typedef struct configuration {
 } configuration;
 
 configuration configuration_of(int number);
+/* Of the numbers: a test's first argument, 1 without. Odd ones reach half and full size alike. */
+int configuration_stride(int argc, char **argv);
 
 /* The settings with all lengths multiplied. */
 glssao_settings settings_scaled(const glssao_settings *settings, double scale);

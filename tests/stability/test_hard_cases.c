@@ -267,8 +267,7 @@ static void end(void **state)
 
 int main(int argc, char **argv)
 {
-    if (argc > 1)
-        stride = atoi(argv[1]) > 0 ? atoi(argv[1]) : 1;
+    stride = configuration_stride(argc, argv);
 #define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         GL_TEST(hard_cases),

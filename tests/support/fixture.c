@@ -138,6 +138,25 @@ float *fixture_read_depth(GLuint texture, int width, int height)
     return read_texture(texture, width, height, GL_DEPTH_COMPONENT, 1);
 }
 
+glssao_frame fixture_frame(const analytic_view *view, const analytic_shape *shapes, int shape_count, int width,
+                           int height)
+{
+    float *depth, *normals;
+    analytic_render(view, shapes, shape_count, width, height, &depth, &normals);
+    glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, width, height, depth),
+                          .normal_texture = fixture_normal_texture(width, height, normals),
+                          .clip_zero_to_one = view->clip_zero_to_one};
+    memcpy(frame.projection, view->projection, sizeof frame.projection);
+    free(depth);
+    free(normals);
+    return frame;
+}
+
+void fixture_delete_frame(const glssao_frame *frame)
+{
+    gl.DeleteTextures(2, (const GLuint[2]){frame->depth_texture, frame->normal_texture});
+}
+
 float *fixture_compute(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
                        int *out_width, int *out_height)
 {

@@ -6,6 +6,7 @@
 #ifndef GLSSAO_TESTS_FIXTURE_H
 #define GLSSAO_TESTS_FIXTURE_H
 
+#include "analytic.h"
 #include "context.h"
 #include "gl.h"
 
@@ -19,7 +20,7 @@
 
 typedef struct fixture {
     struct context *context; /* the tag, so that C++ compilers take it too */
-    char log[4096]; /* lines since fixture_clear_log */
+    char log[4096];          /* lines since fixture_clear_log */
 } fixture;
 
 /* cmocka group functions: no context is a failure, not a skip. The fixture is the test's *state. */
@@ -41,6 +42,11 @@ GLuint fixture_normal_texture(int width, int height, const float *normals);
 /* `channels` floats a texel: 1 red, 3 rgb, 4 rgba. The caller frees. */
 float *fixture_read_texture(GLuint texture, int width, int height, int channels);
 float *fixture_read_depth(GLuint texture, int width, int height);
+
+/* A frame that shows the shapes: 32-bit depth and normals. fixture_delete_frame deletes its textures. */
+glssao_frame fixture_frame(const analytic_view *view, const analytic_shape *shapes, int shape_count, int width,
+                           int height);
+void fixture_delete_frame(const glssao_frame *frame);
 
 /* Runs glssao_compute and reads the ambient map back; asserts success. The caller frees. */
 float *fixture_compute(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,

@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Which programs, in which variants, the passes of a frame run.
+ */
+#include "effect.h"
+
+/* How the host stores what the passes read. */
+static unsigned input_variant(const glssao_frame *frame)
+{
+    unsigned variant = 0;
+    if (frame->normal_texture && frame->normal_kind == GLSSAO_NORMAL_UNSIGNED)
+        variant |= VARIANT_UNSIGNED_NORMALS;
+    if (frame->normal_texture && frame->normal_kind == GLSSAO_NORMAL_OCTAHEDRAL)
+        variant |= VARIANT_OCTAHEDRAL_NORMALS;
+    if (frame->depth_kind != GLSSAO_DEPTH_WINDOW)
+        variant |= VARIANT_DEPTH_IS_DISTANCE;
+    if (frame->depth_kind == GLSSAO_DEPTH_NORMAL_ALPHA)
+        variant |= VARIANT_DEPTH_IN_ALPHA;
+    if (frame->back_texture)
+        variant |= VARIANT_LAYERS;
+    return variant;
+}
+
+static enum glssao__shader estimate_shader(const glssao_settings *settings)
+{
+    return settings->technique == GLSSAO_CLASSIC      ? SHADER_CLASSIC
+           : settings->technique == GLSSAO_HEMISPHERE ? SHADER_HEMISPHERE
+                                                      : SHADER_HORIZON;
+}
+
+static unsigned estimate_variant(const glssao_settings *settings)
+{
+    if (settings->technique != GLSSAO_HORIZON)
+        return settings->no_angle_weight ? VARIANT_NO_ANGLE_WEIGHT : 0u;
+    switch (settings->sample_count) {
+    case 16:
+        return VARIANT_STEPS_8;
+    case 24:
+        return VARIANT_STEPS_12;
+    case 32:
+        return VARIANT_STEPS_8 | VARIANT_SLICES_2;
+    case 48:
+        return VARIANT_STEPS_12 | VARIANT_SLICES_2;
+    case 64:
+        return VARIANT_STEPS_16 | VARIANT_SLICES_2;
+    default:
+        return 0; /* 12 */
+    }
+}
+
+glssao_result glssao__frame_programs_get(glssao_effect *effect, const glssao_frame *host, const glssao_frame *frame,
+                                         const glssao_settings *settings, const glssao_plan *plan,
+                                         glssao__frame_programs *out)
+{
+    const unsigned inputs = input_variant(frame), paired = glssao__plan_is_paired(settings, plan) ? VARIANT_PAIRED : 0u;
+    const unsigned blur = inputs | (settings->blur == GLSSAO_BLUR_BILATERAL ? VARIANT_EDGE_AWARE : 0u) |
+                          (settings->blur == GLSSAO_BLUR_BOX ? VARIANT_BOX : 0u);
+    const enum glssao__shader blur_shader = settings->blur == GLSSAO_BLUR_PLANAR ? SHADER_PLANAR_BLUR : SHADER_BLUR;
+    const unsigned tiles = inputs | glssao__tiles_variant(settings);
+    const struct {
+        glssao_pass pass;
+        enum glssao__shader shader;
+        unsigned variant;
+        glssao__program_object *out;
+    } needed[] = {
+        {GLSSAO_PASS_NORMALS, SHADER_NORMALS, inputs, &out->normals},
+        {GLSSAO_PASS_DISTANCE, SHADER_DISTANCE, inputs, &out->distance},
+        {GLSSAO_PASS_TILES, SHADER_TILE_ROWS, tiles, &out->tiles.rows},
+        {GLSSAO_PASS_TILES, SHADER_TILE_BOUNDS, tiles, &out->tiles.bounds},
+        {GLSSAO_PASS_TILES, SHADER_TILE_CLASS, tiles, &out->tiles.needed},
+        {GLSSAO_PASS_TILES, SHADER_TILE_RINGS, 0, &out->tiles.rings},
+        {GLSSAO_PASS_ESTIMATE, estimate_shader(settings),
+         inputs | estimate_variant(settings) | (plan->passes[GLSSAO_PASS_RESOLVE].run ? VARIANT_ACCUMULATE : paired),
+         &out->estimate},
+        {GLSSAO_PASS_RESOLVE, SHADER_RESOLVE, inputs | paired, &out->resolve},
+        {GLSSAO_PASS_RESOLVE, SHADER_PROBE, 0, &out->probe},
+        {GLSSAO_PASS_BLUR, blur_shader, blur | paired, &out->blur},
+        {GLSSAO_PASS_BLUR, blur_shader, blur | (plan->passes[GLSSAO_PASS_UPSAMPLE].run ? paired : 0u), &out->last_blur},
+        {GLSSAO_PASS_UPSAMPLE, SHADER_UPSAMPLE, inputs, &out->upsample},
+    };
+    glssao_result result =
+        plan->passes[GLSSAO_PASS_INPUTS].run ? glssao__inputs_programs(effect, host, out->inputs) : GLSSAO_OK;
+    for (size_t i = 0; i < sizeof needed / sizeof *needed && result == GLSSAO_OK; ++i)
+        if (plan->passes[needed[i].pass].run)
+            result = glssao__program_get(effect, needed[i].shader, needed[i].variant, needed[i].out);
+    if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_TILES].run && glssao__plan_is_paired(settings, plan))
+        result = glssao__program_get(effect, estimate_shader(settings), inputs | paired | VARIANT_OPEN, &out->open);
+    return result;
+}
