@@ -7,7 +7,7 @@
 // in  u_distance_map  view distance at the estimate's size, with LAYERS 1 thickness and second layer too; point sampled,
 //                     clamped
 // in  u_depth_map     bound for its size alone
-// out o_ambient       accessibility, with PAIRED 1 what passes after this one read; with ACCUMULATE 1 the linear
+// out result          accessibility, with PAIRED 1 what passes after this one read; with ACCUMULATE 1 the linear
 //                     accessibility, to be added to the sum of its replicate
 // STEPS_8, STEPS_12, STEPS_16 1: that many samples on each side of a slice, else 6. SLICES_2 1: two slices, else one.
 // OPEN 1: nothing occludes.
@@ -18,9 +18,9 @@
 
 uniform sampler2D u_distance_map;
 #if ACCUMULATE
-out vec2 o_ambient;
+#define RESULT vec2
 #else
-out AMBIENT o_ambient;
+#define RESULT AMBIENT
 #endif
 
 #if STEPS_16
@@ -289,7 +289,7 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
     return projected * mix(hidden, veiled, VEIL);
 }
 
-void main()
+RESULT result()
 {
     vec2 map_size = vec2(textureSize(u_distance_map, 0));
     float distance = textureLod(u_distance_map, pixel_center() / map_size, 0.0).r;
@@ -297,16 +297,18 @@ void main()
     vec2 uv = (floor(pixel_center()) * float(gFactor) + 0.5) / full_size;
     vec3 normal_view = normal_view_at_uv(uv);
 #if ACCUMULATE
-    o_ambient = gAccumulation.xy;
+    RESULT open = gAccumulation.xy;
 #else
     float linear = linear_from_distance(distance);
     uint code = normal_code(normal_view);
-    o_ambient = ambient(1.0, linear, code);
+    RESULT open = ambient(1.0, linear, code);
 #endif
-#if !OPEN
+#if OPEN
+    return open;
+#else
     // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
     if (distance >= FAR_AWAY || normal_view == vec3(0.0))
-        return;
+        return open;
     vec3 ray = vec3(uv * gRayDirection.xy + gRayDirection.zw, -1.0);
     float ray_length = length(ray);
     vec3 up = -ray / ray_length;
@@ -325,11 +327,11 @@ void main()
 #endif
     // pow() is undefined for a base of 0 with power 0, and for the negative that rounding can leave, as it can leave more
     // than 1.
-    float open = max(1.0 - occlusion, 1e-6);
+    float share = max(1.0 - occlusion, 1e-6);
 #if ACCUMULATE
-    o_ambient = gAccumulation.xy * min(pow(open, CALIBRATION), 1.0);
+    return gAccumulation.xy * min(pow(share, CALIBRATION), 1.0);
 #else
-    o_ambient = ambient(clamp(pow(open, CALIBRATION * gPower), 0.0, 1.0), linear, code);
+    return ambient(clamp(pow(share, CALIBRATION * gPower), 0.0, 1.0), linear, code);
 #endif
 #endif
 }

@@ -4,18 +4,18 @@
 // away from the eye in between. A silhouette breaks both lines; a plane seen at any angle breaks neither. A pixel left
 // without a tap takes neighbours that are merely near.
 // in  u_ambient_map  paired map; point sampled, clamped
-// out o_ambient      the same with PAIRED 1, else accessibility alone
+// out result         the same with PAIRED 1, else accessibility alone
 
 uniform sampler2D u_ambient_map;
 uniform bool gHorizontalBlur;
-out AMBIENT o_ambient;
+#define RESULT AMBIENT
 
 // All found by experiment. How far off a line may be, in units of the radius.
 const float TOLERANCE = 0.02;
 // How far off a neighbour of a pixel without others may be, in units of the radius.
 const float NEAR = 0.1;
 
-void main()
+RESULT result()
 {
     vec2 way = gHorizontalBlur ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
     vec2 step_uv = way * gInvRenderTargetSize;
@@ -45,5 +45,5 @@ void main()
     vec4 taps = vec4(accessibility_of(before_2), accessibility_of(before), accessibility_of(after),
                      accessibility_of(after_2));
     float sum = accessibility_of(center) + dot(weights, taps);
-    o_ambient = ambient(sum / (1.0 + dot(weights, vec4(1.0))), center.y, code);
+    return ambient(sum / (1.0 + dot(weights, vec4(1.0))), center.y, code);
 }

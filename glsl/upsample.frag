@@ -4,10 +4,10 @@
 // in  u_ambient_map    paired map, half size; point sampled, clamped
 // in  u_depth_map      stored depth, full size; point sampled
 // in  u_normal_map     view space, full size; point sampled
-// out o_accessibility  0..1, R16, full size
+// out result           0..1, R16, full size
 
 uniform sampler2D u_ambient_map;
-out float o_accessibility;
+#define RESULT float
 
 // How far off the plane a pixel may be, and how far off a neighbour on the same surface, in units of the radius; found by
 // experiment.
@@ -16,7 +16,7 @@ const float NEAR = 0.1;
 // By how much farther those around a crease count, where the nearest is looked for.
 const float AROUND_CREASE = 1000.0;
 
-void main()
+RESULT result()
 {
     vec2 pixel = pixel_center() - 0.5;
     // A half-size texel stands for the full-size texel of twice its index: odd pixels lie midway between two, and where
@@ -56,5 +56,5 @@ void main()
         float nearest = ab.y <= cd.y ? ab.x : cd.x;
         accessibility = total > 0.0 ? dot(weights, values) / total : nearest;
     }
-    o_accessibility = is_sky(depth) ? 1.0 : accessibility;
+    return is_sky(depth) ? 1.0 : accessibility;
 }

@@ -100,7 +100,8 @@ static void map_distance(const frame_run *r)
         glssao__draw_bind(effect, UNIT_BACK, r->frame->back_texture, SAMPLER_POINT_CLAMP);
         glssao__draw_bind(effect, UNIT_SECOND, r->frame->second_texture, SAMPLER_POINT_CLAMP);
     }
-    glssao__draw(effect, effect->distance_map.framebuffer, effect->distance_map.width, effect->distance_map.height);
+    const glssao__region region = region_of(r, GLSSAO_PASS_DISTANCE);
+    glssao__draw_region(effect, &effect->distance_map, &region);
     glssao__draw_bind(effect, UNIT_DISTANCE, effect->distance_map.texture, SAMPLER_POINT_CLAMP);
 }
 
@@ -126,21 +127,22 @@ static const glssao__ambient_maps *turns(const glssao_effect *effect)
 
 static glssao__target target_of(const glssao__ambient_maps *maps, int i)
 {
-    return (glssao__target){
-        .texture = maps->texture[i], .framebuffer = maps->framebuffer[i], .width = maps->width, .height = maps->height};
+    return (glssao__target){.texture = maps->texture[i],
+                            .framebuffer = maps->framebuffer[i],
+                            .width = maps->width,
+                            .height = maps->height,
+                            .format = maps->format};
 }
 
 /* Draws the `number`-th of the estimate (0) and the blur's passes; the last leaves the result, if it is not brought to
  * full size, where the host looks for it. */
-static void draw_turn(const frame_run *r, const glssao__program_object *program, glssao_pass pass, int number,
-                      bool is_result)
+static void draw_turn(const frame_run *r, glssao_pass pass, int number, bool is_result)
 {
     glssao_effect *effect = r->effect;
     if (number > 0)
         glssao__draw_bind(effect, UNIT_AMBIENT, turns(effect)->texture[(number - 1) % 2], SAMPLER_POINT_CLAMP);
     if (is_result && effect->has_result_map) {
-        glssao__draw_crop(effect, program, &effect->result_map, effect->ambient.width, effect->ambient.height,
-                          &r->delivered);
+        glssao__draw_crop(effect, &effect->result_map, effect->ambient.width, effect->ambient.height, &r->delivered);
         return;
     }
     const glssao__region region = region_of(r, pass);
@@ -155,12 +157,11 @@ static void estimate(const frame_run *r)
     glssao__draw_use(effect, &r->programs.estimate);
     if (!runs(r, GLSSAO_PASS_RESOLVE)) {
         select_tiles(r, &r->programs.estimate, 1, 0, 0);
-        draw_turn(r, &r->programs.estimate, GLSSAO_PASS_ESTIMATE, 0,
-                  !runs(r, GLSSAO_PASS_BLUR) && !runs(r, GLSSAO_PASS_UPSAMPLE));
+        draw_turn(r, GLSSAO_PASS_ESTIMATE, 0, !runs(r, GLSSAO_PASS_BLUR) && !runs(r, GLSSAO_PASS_UPSAMPLE));
         if (r->plan->passes[GLSSAO_PASS_ESTIMATE].draw_calls > 1) {
             glssao__draw_use(effect, &r->programs.open);
             select_tiles(r, &r->programs.open, 1, 1, r->rings + 2);
-            draw_turn(r, &r->programs.open, GLSSAO_PASS_ESTIMATE, 0, false);
+            draw_turn(r, GLSSAO_PASS_ESTIMATE, 0, false);
         }
         return;
     }
@@ -177,7 +178,7 @@ static void resolve(const frame_run *r)
     if (r->plan->passes[GLSSAO_PASS_RESOLVE].draw_calls > 1)
         glssao__accumulate_probe(r->effect, &r->programs.probe);
     glssao__draw_use(r->effect, &r->programs.resolve);
-    draw_turn(r, &r->programs.resolve, GLSSAO_PASS_RESOLVE, 0, !runs(r, GLSSAO_PASS_BLUR));
+    draw_turn(r, GLSSAO_PASS_RESOLVE, 0, !runs(r, GLSSAO_PASS_BLUR));
 }
 
 static void blur(const frame_run *r)
@@ -190,7 +191,7 @@ static void blur(const frame_run *r)
         r->effect->gl.Uniform1i(program->horizontal_location, i % 2);
         /* The vertical pass reads a tile farther than it draws. */
         select_tiles(r, program, 1, 0, r->rings + i % 2);
-        draw_turn(r, program, GLSSAO_PASS_BLUR, i, i == count && !runs(r, GLSSAO_PASS_UPSAMPLE));
+        draw_turn(r, GLSSAO_PASS_BLUR, i, i == count && !runs(r, GLSSAO_PASS_UPSAMPLE));
     }
 }
 
@@ -201,7 +202,7 @@ static void upsample(const frame_run *r)
     select_tiles(r, &r->programs.upsample, 2, 0, r->rings);
     glssao__draw_bind(effect, UNIT_DEPTH, depth_source(r->frame), SAMPLER_POINT_CLAMP);
     glssao__draw_bind(effect, UNIT_AMBIENT, turns(effect)->texture[0], SAMPLER_POINT_CLAMP);
-    glssao__draw_crop(effect, &r->programs.upsample, &effect->result_map, effect->width, effect->height, &r->delivered);
+    glssao__draw_crop(effect, &effect->result_map, effect->width, effect->height, &r->delivered);
 }
 
 /* The plan's passes, in order. */
@@ -230,6 +231,7 @@ static void run_passes(const frame_run *r)
         glssao__stats_end_pass(r->effect, (glssao_pass)i, planned->draw_calls);
         glssao__draw_check(r->effect, planned->name);
     }
+    glssao__compute_finish(r->effect);
 }
 
 /* What glssao_compute and glssao_accumulate have in common; `plan` tells which it is. */

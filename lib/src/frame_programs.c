@@ -82,7 +82,9 @@ glssao_result glssao__frame_programs_get(glssao_effect *effect, const glssao_fra
         plan->passes[GLSSAO_PASS_INPUTS].run ? glssao__inputs_programs(effect, host, out->inputs) : GLSSAO_OK;
     for (size_t i = 0; i < sizeof needed / sizeof *needed && result == GLSSAO_OK; ++i)
         if (plan->passes[needed[i].pass].run)
-            result = glssao__program_get(effect, needed[i].shader, needed[i].variant, needed[i].out);
+            result = glssao__program_get(
+                effect, needed[i].shader,
+                needed[i].variant | (plan->passes[needed[i].pass].compute ? VARIANT_COMPUTE : 0u), needed[i].out);
     if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_TILES].run && glssao__plan_is_paired(settings, plan))
         result = glssao__program_get(effect, estimate_shader(settings), inputs | paired | VARIANT_OPEN, &out->open);
     return result;

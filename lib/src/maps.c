@@ -124,7 +124,7 @@ static void clear_to_one(const glssao__gl *gl, const glssao__ambient_maps *maps)
 static glssao_result make_pair(glssao_effect *effect, gl_enum format, int width, int height, const char *what,
                                glssao__ambient_maps *out_maps)
 {
-    *out_maps = (glssao__ambient_maps){.width = width, .height = height};
+    *out_maps = (glssao__ambient_maps){.width = width, .height = height, .format = format};
     for (int i = 0; i < 2; ++i) {
         glssao__target target;
         glssao_result result = make_target(effect, format, width, height, what, &target);

@@ -93,6 +93,8 @@ static glssao_plan plan_of_skips(const char *reason)
     for (int i = 0; i < GLSSAO_PASS_COUNT; ++i)
         plan.passes[i] = planned((glssao_pass)i, false, reason);
     plan.passes[GLSSAO_PASS_APPLY].reason = "runs when glssao_apply is called";
+    plan.path = GLSSAO_PATH_FRAGMENT;
+    plan.path_reason = "nothing runs";
     return plan;
 }
 
@@ -140,6 +142,8 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
 
     int width, height;
     glssao__plan_ambient_size(effect, settings, &width, &height);
+    const bool compute = glssao__compute_decide(effect, settings, &plan.path_reason);
+    plan.path = compute ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT;
     const char *refusal = glssao__tiles_refusal(effect, settings, width, height);
     struct glssao_planned_pass *tiles = &plan.passes[GLSSAO_PASS_TILES];
     *tiles = refusal ? planned(GLSSAO_PASS_TILES, false, refusal)
@@ -159,6 +163,7 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
                                                        : 1;
         pass->width = region.width;
         pass->height = region.height;
+        pass->compute = pass->run && compute && glssao__compute_can_run(settings, (glssao_pass)i);
     }
     return plan;
 }
@@ -172,7 +177,8 @@ glssao_plan glssao__plan_accumulate(const glssao_effect *effect, const glssao_fr
     if (!plan.passes[GLSSAO_PASS_ESTIMATE].run)
         return plan;
     *resolve = planned(GLSSAO_PASS_RESOLVE, true, "the mean of the estimates");
-    resolve->draw_calls = estimates > 1 ? 2 : 1; /* a single one has no error to probe */
+    plan.passes[GLSSAO_PASS_ESTIMATE].compute = false; /* it is added by blending */
+    resolve->draw_calls = estimates > 1 ? 2 : 1;       /* a single one has no error to probe */
     const glssao__region region = glssao__plan_region(effect, frame, settings, &plan, GLSSAO_PASS_RESOLVE);
     resolve->width = region.width;
     resolve->height = region.height;
