@@ -23,6 +23,8 @@ bool glssao__compute_decide(const glssao_effect *effect, const glssao_settings *
                false;
     if (!effect->gl.compute)
         return *reason = "the context has no compute shaders that write images", false;
+    if (effect->compute_refused)
+        return *reason = "the driver did not take a compute shader", false;
     if (settings->tiles == GLSSAO_TILES_ON)
         return *reason = "tiles are on, and only drawing leaves them out", false;
     *reason =
@@ -34,6 +36,16 @@ bool glssao__compute_can_run(const glssao_settings *settings, glssao_pass pass)
 {
     return pass == GLSSAO_PASS_DISTANCE || pass == GLSSAO_PASS_BLUR || pass == GLSSAO_PASS_UPSAMPLE ||
            (pass == GLSSAO_PASS_ESTIMATE && settings->technique == GLSSAO_HORIZON);
+}
+
+bool glssao__compute_gives_up(glssao_effect *effect, const glssao_plan *plan, glssao_result result)
+{
+    if (result != GLSSAO_SHADER_ERROR || plan->path != GLSSAO_PATH_COMPUTE || effect->path != GLSSAO_PATH_AUTO)
+        return false;
+    glssao__log_write(&effect->log, GLSSAO_LOG_WARNING,
+                      "the driver did not take a compute shader: fragment shaders from now on");
+    effect->compute_refused = true;
+    return true;
 }
 
 static gl_uint groups(int pixels)

@@ -240,8 +240,9 @@ struct glssao_effect {
     glssao__log_sink log;
     uint32_t seed;
     bool has_timers;
-    glssao_path path;   /* as the config has it */
-    char *cache_folder; /* of linked programs; NULL: not kept */
+    glssao_path path;     /* as the config has it */
+    bool compute_refused; /* the driver did not take a compute shader */
+    char *cache_folder;   /* of linked programs; NULL: not kept */
     int width, height;
 
     glssao__target inputs[INPUT_COUNT]; /* copies of the host's textures; made when first needed */
@@ -389,6 +390,8 @@ bool glssao__compute_decide(const glssao_effect *effect, const glssao_settings *
 /* Whether no frame of the effect runs any. */
 bool glssao__compute_is_out(const glssao_effect *effect);
 bool glssao__compute_can_run(const glssao_settings *settings, glssao_pass pass);
+/* Whether the frame is to be tried again without, after its programs could not be made. */
+bool glssao__compute_gives_up(glssao_effect *effect, const glssao_plan *plan, glssao_result result);
 /* The program in use writes the region of the target. */
 void glssao__compute_dispatch(glssao_effect *effect, const glssao__target *target, const glssao__region *region);
 /* What was dispatched can be read, and drawn over, by whatever follows; nothing where nothing was. */

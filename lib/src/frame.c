@@ -295,21 +295,31 @@ static bool may_run(glssao_effect *effect, const glssao_frame *frame, const glss
            glssao__settings_check_frame(effect, frame, settings, &effect->log, out_projection);
 }
 
+/* Makes what the frame needs, without drawing. */
+static glssao_result prepare(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
+                             const glssao_plan *plan)
+{
+    glssao__frame_programs programs;
+    glssao_result result = glssao__inputs_fit(effect, frame);
+    const glssao_frame read = glssao__inputs_frame(effect, frame);
+    if (result == GLSSAO_OK)
+        result = glssao__frame_programs_get(effect, frame, &read, settings, plan, &programs);
+    return result == GLSSAO_OK ? fit_maps(effect, &read, settings, plan) : result;
+}
+
 glssao_result glssao_prepare(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
 {
     glssao__projection projection;
     if (!may_run(effect, frame, settings, "glssao_prepare", &projection))
         return GLSSAO_INVALID_ARGUMENT;
-    glssao__frame_programs programs;
     glssao__host_state host;
     glssao__state_save(&effect->gl, &host);
-    const glssao_plan plan = glssao_plan_frame(effect, frame, settings);
-    glssao_result result = glssao__inputs_fit(effect, frame);
-    const glssao_frame read = glssao__inputs_frame(effect, frame);
-    if (result == GLSSAO_OK)
-        result = glssao__frame_programs_get(effect, frame, &read, settings, &plan, &programs);
-    if (result == GLSSAO_OK)
-        result = fit_maps(effect, &read, settings, &plan);
+    glssao_result result;
+    glssao_plan plan;
+    do {
+        plan = glssao_plan_frame(effect, frame, settings);
+        result = prepare(effect, frame, settings, &plan);
+    } while (glssao__compute_gives_up(effect, &plan, result));
     glssao__state_restore(&effect->gl, &host);
     glssao__draw_check(effect, "glssao_prepare");
     return result;
@@ -322,8 +332,12 @@ glssao_result glssao_compute(glssao_effect *effect, const glssao_frame *frame, c
         return GLSSAO_INVALID_ARGUMENT;
     glssao__host_state host;
     glssao__state_save(&effect->gl, &host);
-    const glssao_plan plan = glssao_plan_frame(effect, frame, settings);
-    glssao_result result = run(effect, frame, settings, &projection, &plan);
+    glssao_result result;
+    glssao_plan plan;
+    do {
+        plan = glssao_plan_frame(effect, frame, settings);
+        result = run(effect, frame, settings, &projection, &plan);
+    } while (glssao__compute_gives_up(effect, &plan, result));
     glssao__state_restore(&effect->gl, &host);
     glssao__draw_check(effect, "glssao_compute");
     return result;
@@ -340,11 +354,14 @@ glssao_result glssao_accumulate(glssao_effect *effect, const glssao_frame *frame
         return GLSSAO_INVALID_ARGUMENT;
     }
     const glssao_settings estimate = glssao__accumulate_settings(settings);
-    const glssao_plan plan =
-        glssao__plan_accumulate(effect, frame, &estimate, glssao__accumulate_next(effect, frame, &estimate));
     glssao__host_state host;
     glssao__state_save(&effect->gl, &host);
-    glssao_result result = run(effect, frame, &estimate, &projection, &plan);
+    glssao_result result;
+    glssao_plan plan;
+    do {
+        plan = glssao__plan_accumulate(effect, frame, &estimate, glssao__accumulate_next(effect, frame, &estimate));
+        result = run(effect, frame, &estimate, &projection, &plan);
+    } while (glssao__compute_gives_up(effect, &plan, result));
     if (result == GLSSAO_OK && !plan.passes[GLSSAO_PASS_ESTIMATE].run)
         effect->accumulation.sampling_error = 0.0; /* nothing was sampled */
     glssao__state_restore(&effect->gl, &host);

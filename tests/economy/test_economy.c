@@ -17,13 +17,13 @@
 
 enum { W = 64, H = 48 };
 
-static glssao_effect *counted_effect(fixture *f, const char *cache)
+static glssao_effect *counted_effect(fixture *f, glssao_path path)
 {
     fixture_clear_log(f);
     glssao_config config = fixture_config(f, W, H);
     gl_counter_start(context_load, f->context);
     config.load = gl_counter_load;
-    config.program_cache = cache;
+    config.path = path;
     glssao_effect *effect = NULL;
     if (glssao_create(&config, &effect) != GLSSAO_OK)
         fail_msg("glssao_create: %s", f->log);
@@ -131,9 +131,18 @@ static const struct row {
     {"only sky", GLSSAO_HEMISPHERE, GLSSAO_HIGH, only_sky, "", 0, 0, 2},
 };
 
-static void check_row(fixture *f, const struct row *row)
+/* Passes that compute shaders run: these of whichever run, where tiles are not asked for. */
+static bool is_dispatched(const struct row *row, const glssao_settings *settings, int pass)
 {
-    glssao_effect *effect = counted_effect(f, NULL);
+    if (settings->tiles == GLSSAO_TILES_ON)
+        return false;
+    return pass == GLSSAO_PASS_DISTANCE || pass == GLSSAO_PASS_BLUR || pass == GLSSAO_PASS_UPSAMPLE ||
+           (pass == GLSSAO_PASS_ESTIMATE && row->technique == GLSSAO_HORIZON);
+}
+
+static void check_row(fixture *f, const struct row *row, glssao_path path)
+{
+    glssao_effect *effect = counted_effect(f, path);
     const gl_counts made = gl_counter_take();
     assert_int_equal(made.draws, 0);
     assert_int_equal(made.programs, 1); /* it tells how the driver lays out blocks */
@@ -152,19 +161,24 @@ static void check_row(fixture *f, const struct row *row)
         assert_int_equal(glssao_compute(effect, &changed, &settings), GLSSAO_OK);
         const gl_counts counts = gl_counter_take();
         const glssao_stats stats = glssao_get_stats(effect);
-        int planned = 0;
+        int planned = 0, dispatched = 0;
         for (int i = 0; i < GLSSAO_PASS_COUNT; ++i) {
+            const bool compute = path == GLSSAO_PATH_COMPUTE && plan.passes[i].run && is_dispatched(row, &settings, i);
+            assert_int_equal(plan.passes[i].compute, compute);
             planned += plan.passes[i].draw_calls;
+            dispatched += compute ? plan.passes[i].draw_calls : 0;
             assert_int_equal(plan.passes[i].draw_calls, stats.passes[i].draw_calls);
             assert_true(plan.passes[i].run == (stats.passes[i].draw_calls > 0));
             assert_true(strlen(plan.passes[i].reason) > 0);
         }
         const int programs = frame_number == 0 ? row->programs : 0, textures = frame_number == 0 ? row->textures : 0;
-        if (counts.draws != row->draws || planned != row->draws || counts.programs != programs ||
+        assert_int_equal(counts.unordered, 0);
+        assert_int_equal(counts.dispatches, dispatched);
+        if (counts.draws + counts.dispatches != row->draws || planned != row->draws || counts.programs != programs ||
             counts.textures != textures)
             fail_msg("%s, frame %d: %d draws, %d planned, %d programs, %d textures; wanted %d, %d, %d, %d", row->what,
-                     frame_number, counts.draws, planned, counts.programs, counts.textures, row->draws, row->draws,
-                     programs, textures);
+                     frame_number, counts.draws + counts.dispatches, planned, counts.programs, counts.textures,
+                     row->draws, row->draws, programs, textures);
     }
     glssao_destroy(effect);
     fixture_delete_frame(&frame);
@@ -173,7 +187,13 @@ static void check_row(fixture *f, const struct row *row)
 static void each_setting_causes_these_calls(void **state)
 {
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)
-        check_row(*state, &rows[i]);
+        check_row(*state, &rows[i], GLSSAO_PATH_FRAGMENT);
+}
+
+static void each_setting_causes_these_dispatches(void **state)
+{
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)
+        check_row(*state, &rows[i], GLSSAO_PATH_COMPUTE);
 }
 
 static const GLubyte *(*real_get_string)(GLenum name);
@@ -194,8 +214,8 @@ static void *gpu_load(const char *name, void *user)
     return found;
 }
 
-/* Sorting tiles pays where the processor rasterises. */
-static void tiles_depend_on_the_driver(void **state)
+/* Sorting tiles pays where the processor rasterises, compute shaders where it does not. */
+static void tiles_and_path_depend_on_the_driver(void **state)
 {
     fixture *f = *state;
     const glssao_frame frame = room_frame();
@@ -212,6 +232,7 @@ static void tiles_depend_on_the_driver(void **state)
             assert_true(plan.passes[GLSSAO_PASS_ESTIMATE].run);
             assert_true(plan.passes[GLSSAO_PASS_TILES].run ==
                         (tiles == GLSSAO_TILES_ON || (tiles == GLSSAO_TILES_AUTO && !gpu)));
+            assert_int_equal(plan.path, gpu && tiles != GLSSAO_TILES_ON ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT);
             glssao_destroy(effect);
         }
     fixture_delete_frame(&frame);
@@ -220,7 +241,7 @@ static void tiles_depend_on_the_driver(void **state)
 /* After glssao_prepare a frame compiles and makes nothing, and preparing draws nothing. */
 static void prepared_frames_make_nothing(void **state)
 {
-    glssao_effect *effect = counted_effect(*state, NULL);
+    glssao_effect *effect = counted_effect(*state, GLSSAO_PATH_AUTO);
     const glssao_frame frame = room_frame();
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
     settings.tiles = GLSSAO_TILES_ON;
@@ -330,8 +351,9 @@ int main(void)
 {
 #define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
-        TEST(each_setting_causes_these_calls), TEST(tiles_depend_on_the_driver),    TEST(prepared_frames_make_nothing),
-        TEST(each_scene_causes_these_calls),   TEST(hidden_sky_is_not_drawn_again),
+        TEST(each_setting_causes_these_calls),     TEST(each_setting_causes_these_dispatches),
+        TEST(tiles_and_path_depend_on_the_driver), TEST(prepared_frames_make_nothing),
+        TEST(each_scene_causes_these_calls),       TEST(hidden_sky_is_not_drawn_again),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
 }
