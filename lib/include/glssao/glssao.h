@@ -73,8 +73,9 @@ typedef void (*glssao_log_fn)(glssao_log_level level, const char *message, void 
 
 /* ---- config: fixed for the effect's life ---------------------------------------------------------------- */
 
-typedef enum glssao_path { /* how passes run that can run as compute shaders, too: distance, horizon's estimate, blurs
-                              and upsampling. Both ways agree within a step of R16 */
+/* How passes run that can run as compute shaders, too: distance, horizon's estimate, blurs and upsampling. Both ways
+ * agree within a step of R16. */
+typedef enum glssao_path {
     GLSSAO_PATH_AUTO = 0, /* compute shaders on GPUs that have and take them; fragment shaders on software rasterisers */
     GLSSAO_PATH_FRAGMENT, /* never compute shaders */
     GLSSAO_PATH_COMPUTE   /* compute shaders; glssao_create fails with UNSUPPORTED_CONTEXT where there are none: neither
