@@ -3,7 +3,7 @@
 // with COMPUTE 1, into an image, for each pixel of gRegion.
 
 #if COMPUTE
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = GROUP_X, local_size_y = GROUP_Y) in;
 writeonly uniform image2D u_target;
 
 vec4 texel(float result)

@@ -30,14 +30,19 @@ float accessibility_of(vec2 paired)
     return uintBitsToFloat(floatBitsToUint(paired.x) & ~1023u);
 }
 
-#if PAIRED
-#define AMBIENT vec2
 // Rounded to the 13 bits left, 4 steps of R16 about 1. The floor, which R16 rounds to 0, keeps the bits from being those
 // of a denormal number, which drivers may flush.
-vec2 ambient(float accessibility, float linear, uint code)
+vec2 paired(float accessibility, float linear, uint code)
 {
     uint bits = floatBitsToUint(max(accessibility, 2e-6)) + 512u;
     return vec2(uintBitsToFloat((bits & ~1023u) | code), linear);
+}
+
+#if PAIRED
+#define AMBIENT vec2
+vec2 ambient(float accessibility, float linear, uint code)
+{
+    return paired(accessibility, linear, code);
 }
 #else
 #define AMBIENT float

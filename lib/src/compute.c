@@ -5,8 +5,6 @@
  */
 #include "effect.h"
 
-enum { GROUP_SIDE = 8 }; /* as in glsl/entry.glsl */
-
 /* Measured, docs/decisions.md. */
 bool glssao__compute_is_out(const glssao_effect *effect)
 {
@@ -48,9 +46,17 @@ bool glssao__compute_gives_up(glssao_effect *effect, const glssao_plan *plan, gl
     return true;
 }
 
-static gl_uint groups(int pixels)
+int glssao__compute_rounds_within(const glssao_settings *settings, const glssao_plan *plan)
 {
-    return (gl_uint)(pixels + GROUP_SIDE - 1) / GROUP_SIDE;
+    const struct glssao_planned_pass *upsample = &plan->passes[GLSSAO_PASS_UPSAMPLE];
+    if (!upsample->run || !upsample->compute || settings->blur != GLSSAO_BLUR_PLANAR)
+        return 0;
+    return settings->blur_rounds < COMPUTE_ROUNDS ? settings->blur_rounds : COMPUTE_ROUNDS;
+}
+
+static gl_uint groups(int pixels, int each)
+{
+    return (gl_uint)((pixels + each - 1) / each);
 }
 
 void glssao__compute_dispatch(glssao_effect *effect, const glssao__target *target, const glssao__region *region)
@@ -60,7 +66,8 @@ void glssao__compute_dispatch(glssao_effect *effect, const glssao__target *targe
     gl->BindImageTexture(0, target->texture, 0, 0, 0, GL_WRITE_ONLY, target->format);
     /* Whoever read the target before has done so, and what the pass before this one wrote can be read. */
     gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-    gl->DispatchCompute(groups(region->width), groups(region->height), 1);
+    gl->DispatchCompute(groups(region->width, effect->program.group[0]),
+                        groups(region->height, effect->program.group[1]), 1);
     effect->is_dispatched = true;
 }
 

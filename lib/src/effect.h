@@ -58,6 +58,7 @@ enum glssao__shader {
     SHADER_BLUR,
     SHADER_PLANAR_BLUR,
     SHADER_UPSAMPLE,
+    SHADER_PLANAR_TILE, /* both in one, by compute shader alone */
     SHADER_APPLY,
     SHADER_TILE_ROWS,
     SHADER_TILE_BOUNDS,
@@ -88,7 +89,10 @@ enum glssao__variant {
     VARIANT_PLANES = 131072,
     VARIANT_FROM_DEPTH = 262144,
     VARIANT_COMPUTE = 524288,
-    VARIANT_FLAGS = 20, /* how many there are */
+    VARIANT_UPSAMPLE = 1048576,
+    VARIANT_ROUNDS_1 = 2097152,
+    VARIANT_ROUNDS_2 = 4194304,
+    VARIANT_FLAGS = 23, /* how many there are */
     VARIANT_COUNT = 1 << VARIANT_FLAGS
 };
 
@@ -101,6 +105,7 @@ enum {
     TILE_ESTIMATES = 16,
     TILE_PASSES = 4,
     TIMER_FRAMES = 4,
+    COMPUTE_ROUNDS = 2, /* of the planar blur that one dispatch runs, at most */
     MAX_DRAW_BUFFERS = 8,
     INPUT_COUNT = 4,
     TOGGLE_CAPACITY = 32
@@ -189,6 +194,7 @@ typedef struct glssao__program_object {
     gl_int horizontal_location, origin_location; /* of gHorizontalBlur and gOrigin, -1 where there is none */
     gl_int tile_range_location, region_location; /* of gTileRange and gRegion */
     bool compute;
+    int group[2]; /* pixels of the target that a work group makes */
 } glssao__program_object;
 
 typedef struct glssao__tile_programs {
@@ -392,6 +398,8 @@ bool glssao__compute_is_out(const glssao_effect *effect);
 bool glssao__compute_can_run(const glssao_settings *settings, glssao_pass pass);
 /* Whether the frame is to be tried again without, after its programs could not be made. */
 bool glssao__compute_gives_up(glssao_effect *effect, const glssao_plan *plan, glssao_result result);
+/* Of the blur's rounds, those that run within the dispatch that brings the result to full size. */
+int glssao__compute_rounds_within(const glssao_settings *settings, const glssao_plan *plan);
 /* The program in use writes the region of the target. */
 void glssao__compute_dispatch(glssao_effect *effect, const glssao__target *target, const glssao__region *region);
 /* What was dispatched can be read, and drawn over, by whatever follows; nothing where nothing was. */
@@ -446,7 +454,9 @@ void glssao__maps_make_samplers(glssao_effect *effect);
 glssao_result glssao__maps_check_texture(glssao_effect *effect, gl_uint texture, bool needs_depth, const char *field);
 
 /* program.c */
-enum { GLSSAO__PROGRAM_MAX_SOURCES = 3 * VARIANT_FLAGS + 14 }; /* three a macro, nine about blocks, five files */
+enum {
+    GLSSAO__PROGRAM_MAX_SOURCES = 3 * VARIANT_FLAGS + 15
+}; /* three a macro, nine about blocks and sizes, six files */
 /* Pieces of a shader stage of a variant, in the order that the driver gets them; returns how many. */
 int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enum stage,
                             const char *out_sources[GLSSAO__PROGRAM_MAX_SOURCES]);

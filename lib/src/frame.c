@@ -183,7 +183,7 @@ static void resolve(const frame_run *r)
 
 static void blur(const frame_run *r)
 {
-    const int count = 2 * r->settings->blur_rounds;
+    const int count = r->plan->passes[GLSSAO_PASS_BLUR].draw_calls;
     for (int i = 1; i <= count; ++i) {
         const glssao__program_object *program = i < count ? &r->programs.blur : &r->programs.last_blur;
         glssao__draw_use(r->effect, program);
@@ -201,7 +201,8 @@ static void upsample(const frame_run *r)
     glssao__draw_use(effect, &r->programs.upsample);
     select_tiles(r, &r->programs.upsample, 2, 0, r->rings);
     glssao__draw_bind(effect, UNIT_DEPTH, depth_source(r->frame), SAMPLER_POINT_CLAMP);
-    glssao__draw_bind(effect, UNIT_AMBIENT, turns(effect)->texture[0], SAMPLER_POINT_CLAMP);
+    glssao__draw_bind(effect, UNIT_AMBIENT, turns(effect)->texture[r->plan->passes[GLSSAO_PASS_BLUR].draw_calls % 2],
+                      SAMPLER_POINT_CLAMP);
     glssao__draw_crop(effect, &effect->result_map, effect->width, effect->height, &r->delivered);
 }
 

@@ -48,6 +48,11 @@ static unsigned estimate_variant(const glssao_settings *settings)
     }
 }
 
+static unsigned rounds_variant(int rounds)
+{
+    return rounds == 0 ? 0u : rounds == 1 ? VARIANT_ROUNDS_1 : VARIANT_ROUNDS_2;
+}
+
 glssao_result glssao__frame_programs_get(glssao_effect *effect, const glssao_frame *host, const glssao_frame *frame,
                                          const glssao_settings *settings, const glssao_plan *plan,
                                          glssao__frame_programs *out)
@@ -55,7 +60,19 @@ glssao_result glssao__frame_programs_get(glssao_effect *effect, const glssao_fra
     const unsigned inputs = input_variant(frame), paired = glssao__plan_is_paired(settings, plan) ? VARIANT_PAIRED : 0u;
     const unsigned blur = inputs | (settings->blur == GLSSAO_BLUR_BILATERAL ? VARIANT_EDGE_AWARE : 0u) |
                           (settings->blur == GLSSAO_BLUR_BOX ? VARIANT_BOX : 0u);
-    const enum glssao__shader blur_shader = settings->blur == GLSSAO_BLUR_PLANAR ? SHADER_PLANAR_BLUR : SHADER_BLUR;
+    const bool tiled = plan->passes[GLSSAO_PASS_BLUR].compute && settings->blur == GLSSAO_BLUR_PLANAR;
+    const enum glssao__shader blur_shader = tiled                                  ? SHADER_PLANAR_TILE
+                                            : settings->blur == GLSSAO_BLUR_PLANAR ? SHADER_PLANAR_BLUR
+                                                                                   : SHADER_BLUR;
+    const bool upsample_compute = plan->passes[GLSSAO_PASS_UPSAMPLE].compute;
+    /* Of a blur by compute shader, the last dispatch may run fewer rounds than those before it. */
+    const int within = glssao__compute_rounds_within(settings, plan), rounds = settings->blur_rounds - within;
+    const unsigned last_rounds =
+        tiled ? rounds_variant(rounds % COMPUTE_ROUNDS ? rounds % COMPUTE_ROUNDS : COMPUTE_ROUNDS) : 0u;
+    const unsigned last_blur = blur | last_rounds | (plan->passes[GLSSAO_PASS_UPSAMPLE].run ? paired : 0u);
+    const unsigned first_blur = !tiled                    ? blur | paired
+                                : rounds > COMPUTE_ROUNDS ? blur | paired | rounds_variant(COMPUTE_ROUNDS)
+                                                          : last_blur;
     const unsigned tiles = inputs | glssao__tiles_variant(settings);
     const struct {
         glssao_pass pass;
@@ -74,9 +91,10 @@ glssao_result glssao__frame_programs_get(glssao_effect *effect, const glssao_fra
          &out->estimate},
         {GLSSAO_PASS_RESOLVE, SHADER_RESOLVE, inputs | paired, &out->resolve},
         {GLSSAO_PASS_RESOLVE, SHADER_PROBE, 0, &out->probe},
-        {GLSSAO_PASS_BLUR, blur_shader, blur | paired, &out->blur},
-        {GLSSAO_PASS_BLUR, blur_shader, blur | (plan->passes[GLSSAO_PASS_UPSAMPLE].run ? paired : 0u), &out->last_blur},
-        {GLSSAO_PASS_UPSAMPLE, SHADER_UPSAMPLE, inputs, &out->upsample},
+        {GLSSAO_PASS_BLUR, blur_shader, first_blur, &out->blur},
+        {GLSSAO_PASS_BLUR, blur_shader, last_blur, &out->last_blur},
+        {GLSSAO_PASS_UPSAMPLE, upsample_compute ? SHADER_PLANAR_TILE : SHADER_UPSAMPLE,
+         inputs | (upsample_compute ? VARIANT_UPSAMPLE | rounds_variant(within) : 0u), &out->upsample},
     };
     glssao_result result =
         plan->passes[GLSSAO_PASS_INPUTS].run ? glssao__inputs_programs(effect, host, out->inputs) : GLSSAO_OK;

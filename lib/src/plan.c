@@ -30,7 +30,9 @@ static glssao__region grown(glssao__region r, int by, int width, int height)
 int glssao__plan_reach(const glssao_settings *settings, const glssao_plan *plan)
 {
     int taps = settings->blur == GLSSAO_BLUR_BOX || settings->blur == GLSSAO_BLUR_PLANAR ? 2 : 5;
-    return (plan->passes[GLSSAO_PASS_BLUR].run ? taps * settings->blur_rounds : 0) +
+    return (plan->passes[GLSSAO_PASS_BLUR].run || glssao__compute_rounds_within(settings, plan) > 0
+                ? taps * settings->blur_rounds
+                : 0) +
            (plan->passes[GLSSAO_PASS_UPSAMPLE].run ? 1 : 0);
 }
 
@@ -98,6 +100,14 @@ static glssao_plan plan_of_skips(const char *reason)
     return plan;
 }
 
+static int blur_calls(const glssao_settings *settings, const glssao_plan *plan)
+{
+    if (!plan->passes[GLSSAO_PASS_BLUR].compute || settings->blur != GLSSAO_BLUR_PLANAR)
+        return 2 * settings->blur_rounds;
+    const int rounds = settings->blur_rounds - glssao__compute_rounds_within(settings, plan);
+    return (rounds + COMPUTE_ROUNDS - 1) / COMPUTE_ROUNDS;
+}
+
 glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
 {
     static const glssao__log_sink silent = {0};
@@ -149,6 +159,10 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
     *tiles = refusal ? planned(GLSSAO_PASS_TILES, false, refusal)
                      : planned(GLSSAO_PASS_TILES, true, "what no occluder can reach is left out below");
 
+    for (int i = 0; i < GLSSAO_PASS_COUNT; ++i)
+        plan.passes[i].compute = plan.passes[i].run && compute && glssao__compute_can_run(settings, (glssao_pass)i);
+    if (blur->run && blur_calls(settings, &plan) == 0)
+        *blur = planned(GLSSAO_PASS_BLUR, false, "within the dispatch that brings the result to full size");
     for (int i = 0; i < GLSSAO_PASS_COUNT; ++i) {
         struct glssao_planned_pass *pass = &plan.passes[i];
         if (i == GLSSAO_PASS_APPLY || i == GLSSAO_PASS_RESOLVE)
@@ -156,14 +170,13 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
         const glssao__region region = glssao__plan_region(effect, frame, settings, &plan, (glssao_pass)i);
         const bool fills = tiles->run && glssao__plan_is_paired(settings, &plan); /* what neighbours read */
         pass->draw_calls = !pass->run                  ? 0
-                           : pass == blur              ? 2 * settings->blur_rounds
+                           : pass == blur              ? blur_calls(settings, &plan)
                            : pass == tiles             ? TILE_PASSES
                            : i == GLSSAO_PASS_INPUTS   ? copies
                            : pass == estimate && fills ? 2
                                                        : 1;
         pass->width = region.width;
         pass->height = region.height;
-        pass->compute = pass->run && compute && glssao__compute_can_run(settings, (glssao_pass)i);
     }
     return plan;
 }

@@ -29,21 +29,26 @@ static const char *const macros[VARIANT_FLAGS] = {
     "PLANES",
     "FROM_DEPTH",
     "COMPUTE",
+    "UPSAMPLE",
+    "ROUNDS_1",
+    "ROUNDS_2",
 };
 
 enum {
     NORMAL_FLAGS = VARIANT_UNSIGNED_NORMALS | VARIANT_OCTAHEDRAL_NORMALS,
     DEPTH_FLAGS = VARIANT_DEPTH_IS_DISTANCE | VARIANT_DEPTH_IN_ALPHA,
     TILE_FLAGS = NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_PLANES | VARIANT_FROM_DEPTH,
-    STEP_FLAGS = VARIANT_STEPS_8 | VARIANT_STEPS_12 | VARIANT_STEPS_16
+    STEP_FLAGS = VARIANT_STEPS_8 | VARIANT_STEPS_12 | VARIANT_STEPS_16,
+    ROUND_FLAGS = VARIANT_ROUNDS_1 | VARIANT_ROUNDS_2,
+    FILES = 6
 };
 
 /* What each shader is compiled from, and which flags it tests. All flags are defined in all, as 0 or 1. */
 static const struct shader {
     const char *name;
     unsigned flags;
-    const char *files[5]; /* after the blocks, in order; the last two are the pass itself, and its entry point where
-                             that is apart */
+    const char *files[FILES]; /* after the blocks, in order; the last ones are the pass itself, and its entry point
+                                 where that is apart */
 } shaders[SHADER_COUNT] = {
     [SHADER_INPUT] = {"input", VARIANT_MULTISAMPLE | VARIANT_LOGARITHMIC, {shader_view_glsl, shader_input_frag}},
     [SHADER_NORMALS] = {"normals", DEPTH_FLAGS, {shader_view_glsl, shader_normals_frag}},
@@ -66,12 +71,18 @@ static const struct shader {
                         {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_resolve_frag}},
     [SHADER_PROBE] = {"probe", 0, {shader_view_glsl, shader_probe_frag}},
     [SHADER_PLANAR_BLUR] = {"planar-blur",
-                            VARIANT_PAIRED | VARIANT_COMPUTE,
-                            {shader_view_glsl, shader_paired_glsl, shader_planar_blur_frag, shader_entry_glsl}},
+                            VARIANT_PAIRED,
+                            {shader_view_glsl, shader_paired_glsl, shader_planar_blur_glsl, shader_planar_blur_frag,
+                             shader_entry_glsl}},
     [SHADER_UPSAMPLE] = {"upsample",
-                         NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_COMPUTE,
-                         {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_upsample_frag,
-                          shader_entry_glsl}},
+                         NORMAL_FLAGS | DEPTH_FLAGS,
+                         {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_upsample_glsl,
+                          shader_upsample_frag, shader_entry_glsl}},
+    [SHADER_PLANAR_TILE] = {"planar-tile",
+                            NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_PAIRED | VARIANT_COMPUTE | VARIANT_UPSAMPLE |
+                                ROUND_FLAGS,
+                            {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_planar_blur_glsl,
+                             shader_upsample_glsl, shader_planar_tile_comp}},
     [SHADER_BLUR] = {"blur",
                      NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_BOX | VARIANT_EDGE_AWARE | VARIANT_PAIRED | VARIANT_COMPUTE,
                      {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_blur_frag,
@@ -89,6 +100,23 @@ static const struct shader {
     [SHADER_TILE_RINGS] = {"tile-rings", 0, {shader_tile_rings_frag}},
 };
 
+/* Invocations of a work group, and texels of the tile that it makes. */
+#define SIZES(group_x, group_y, tile_x, tile_y)                                                                        \
+    {                                                                                                                  \
+        {tile_x, tile_y}, "#define GROUP_X " #group_x "\n#define GROUP_Y " #group_y "\n#define TILE_X " #tile_x        \
+                          "\n#define TILE_Y " #tile_y "\n"                                                             \
+    }
+static const struct sizes {
+    int tile[2];
+    const char *macros;
+} pixel_sizes = SIZES(8, 8, 8, 8), tile_sizes = SIZES(32, 8, 32, 32);
+#undef SIZES
+
+static const struct sizes *sizes_of(enum glssao__shader shader)
+{
+    return shader == SHADER_PLANAR_TILE ? &tile_sizes : &pixel_sizes;
+}
+
 const char *glssao__program_shader_name(enum glssao__shader shader)
 {
     return shaders[shader].name;
@@ -103,8 +131,14 @@ bool glssao__program_exists(enum glssao__shader shader, unsigned variant)
     /* What is added by blending, or drawn beside tiles. */
     bool drawn_alone = (variant & (VARIANT_ACCUMULATE | VARIANT_OPEN)) && (variant & VARIANT_COMPUTE);
     bool edges_needed = (variant & (NORMAL_FLAGS | DEPTH_FLAGS)) == 0 || (variant & VARIANT_EDGE_AWARE);
+    /* Of a tile: its last step is the blur's or upsampling, and what upsampling reads counts for that alone. */
+    bool tile_known =
+        shader != SHADER_PLANAR_TILE ||
+        ((variant & VARIANT_COMPUTE) && (variant & ROUND_FLAGS) != ROUND_FLAGS &&
+         (variant & VARIANT_UPSAMPLE ? !(variant & VARIANT_PAIRED)
+                                     : (variant & ROUND_FLAGS) && !(variant & (NORMAL_FLAGS | DEPTH_FLAGS))));
     return (variant & ~shaders[shader].flags) == 0 && !both_encodings && !is_sum && !drawn_alone &&
-           (steps & (steps - 1)) == 0 && !alpha_alone && (shader != SHADER_BLUR || edges_needed);
+           (steps & (steps - 1)) == 0 && !alpha_alone && tile_known && (shader != SHADER_BLUR || edges_needed);
 }
 
 int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enum stage,
@@ -131,7 +165,9 @@ int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enu
         out_sources[n++] = shader_cb_hemisphere_glsl;
     }
     out_sources[n++] = "};\n";
-    for (int i = 0; i < 5 && shaders[shader].files[i]; ++i)
+    if (stage == GL_COMPUTE_SHADER)
+        out_sources[n++] = sizes_of(shader)->macros;
+    for (int i = 0; i < FILES && shaders[shader].files[i]; ++i)
         out_sources[n++] = shaders[shader].files[i];
     return n;
 }
@@ -350,6 +386,8 @@ static glssao_result make(glssao_effect *effect, enum glssao__shader shader, uns
     out->horizontal_location = gl->GetUniformLocation(out->name, "gHorizontalBlur");
     out->tile_range_location = gl->GetUniformLocation(out->name, "gTileRange");
     out->compute = variant & VARIANT_COMPUTE;
+    for (int i = 0; i < 2; ++i)
+        out->group[i] = sizes_of(shader)->tile[i] * (variant & VARIANT_UPSAMPLE ? 2 : 1);
     out->region_location = gl->GetUniformLocation(out->name, "gRegion");
     out->origin_location = gl->GetUniformLocation(out->name, "gOrigin");
     return GLSSAO_OK;
@@ -361,6 +399,8 @@ glssao_result glssao__program_get(glssao_effect *effect, enum glssao__shader sha
     variant &= shaders[shader].flags;
     if (shader == SHADER_BLUR && !(variant & VARIANT_EDGE_AWARE))
         variant &= VARIANT_BOX | VARIANT_PAIRED | VARIANT_COMPUTE; /* it reads neither normals nor depth */
+    if (shader == SHADER_PLANAR_TILE && !(variant & VARIANT_UPSAMPLE))
+        variant &= VARIANT_PAIRED | VARIANT_COMPUTE | ROUND_FLAGS;
     const glssao__program_object *found = find(effect, shader, variant);
     if (found) {
         *out = *found;

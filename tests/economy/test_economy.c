@@ -94,6 +94,12 @@ static void no_rounds(glssao_frame *f, glssao_settings *s)
     s->blur_rounds = 0;
 }
 
+static void three_rounds(glssao_frame *f, glssao_settings *s)
+{
+    (void)f;
+    s->blur_rounds = 3;
+}
+
 static void tiles_on(glssao_frame *f, glssao_settings *s)
 {
     (void)f;
@@ -111,24 +117,29 @@ static const struct row {
     glssao_technique technique;
     glssao_quality quality;
     change_fn change;
-    const char *passes;
-    int draws, programs, textures; /* of the first frame; later ones make nothing */
+    struct calls {
+        const char *passes;
+        int draws, programs; /* of the first frame; later ones make nothing */
+    } fragment, compute;     /* draws and dispatches together; no passes: the same */
+    int textures;
 } rows[] = {
-    {"horizon low", GLSSAO_HORIZON, GLSSAO_LOW, NULL, "DEB", 6, 4, 3},
-    {"horizon medium", GLSSAO_HORIZON, GLSSAO_MEDIUM, NULL, "DEBU", 7, 4, 4},
-    {"horizon ultra", GLSSAO_HORIZON, GLSSAO_ULTRA, NULL, "DEB", 4, 4, 5},
-    {"classic", GLSSAO_CLASSIC, GLSSAO_HIGH, NULL, "EB", 7, 2, 0},
-    {"hemisphere", GLSSAO_HEMISPHERE, GLSSAO_HIGH, NULL, "EB", 3, 2, 2},
-    {"normals rebuilt", GLSSAO_HORIZON, GLSSAO_MEDIUM, rebuild_normals, "NDEBU", 8, 5, 4},
-    {"half size, raw", GLSSAO_HORIZON, GLSSAO_MEDIUM, half_size, "DE", 2, 2, 1},
-    {"no blur rounds", GLSSAO_HORIZON, GLSSAO_MEDIUM, no_rounds, "DEU", 3, 3, 4},
-    {"margin", GLSSAO_HORIZON, GLSSAO_LOW, margin, "DEB", 6, 4, 4},
-    {"tiles, paired maps", GLSSAO_HORIZON, GLSSAO_MEDIUM, tiles_on, "DTEBU", 12, 9, 8},
-    {"tiles, plain maps", GLSSAO_CLASSIC, GLSSAO_HIGH, tiles_on, "TEB", 11, 6, 4},
-    {"radius 0", GLSSAO_HORIZON, GLSSAO_MEDIUM, no_radius, "", 0, 0, 0},
-    {"power 0", GLSSAO_CLASSIC, GLSSAO_HIGH, no_power, "", 0, 0, 0},
-    {"no ambient light", GLSSAO_HORIZON, GLSSAO_MEDIUM, no_ambient, "", 0, 0, 0},
-    {"only sky", GLSSAO_HEMISPHERE, GLSSAO_HIGH, only_sky, "", 0, 0, 2},
+    {"horizon low", GLSSAO_HORIZON, GLSSAO_LOW, NULL, {"DEB", 6, 4}, {"DEB", 3, 3}, 3},
+    {"horizon medium", GLSSAO_HORIZON, GLSSAO_MEDIUM, NULL, {"DEBU", 7, 4}, {"DEU", 3, 3}, 4},
+    {"horizon ultra", GLSSAO_HORIZON, GLSSAO_ULTRA, NULL, {"DEB", 4, 4}, {"DEB", 3, 3}, 5},
+    {"classic", GLSSAO_CLASSIC, GLSSAO_HIGH, NULL, {"EB", 7, 2}, {NULL, 0, 0}, 0},
+    {"hemisphere", GLSSAO_HEMISPHERE, GLSSAO_HIGH, NULL, {"EB", 3, 2}, {NULL, 0, 0}, 2},
+    {"normals rebuilt", GLSSAO_HORIZON, GLSSAO_MEDIUM, rebuild_normals, {"NDEBU", 8, 5}, {"NDEU", 4, 4}, 4},
+    {"half size, raw", GLSSAO_HORIZON, GLSSAO_MEDIUM, half_size, {"DE", 2, 2}, {NULL, 0, 0}, 1},
+    {"no blur rounds", GLSSAO_HORIZON, GLSSAO_MEDIUM, no_rounds, {"DEU", 3, 3}, {NULL, 0, 0}, 4},
+    {"three blur rounds", GLSSAO_HORIZON, GLSSAO_LOW, three_rounds, {"DEB", 8, 4}, {"DEB", 4, 4}, 3},
+    {"three rounds, upsampled", GLSSAO_HORIZON, GLSSAO_HIGH, three_rounds, {"DEBU", 9, 4}, {"DEBU", 4, 4}, 4},
+    {"margin", GLSSAO_HORIZON, GLSSAO_LOW, margin, {"DEB", 6, 4}, {"DEB", 3, 3}, 4},
+    {"tiles, paired maps", GLSSAO_HORIZON, GLSSAO_MEDIUM, tiles_on, {"DTEBU", 12, 9}, {NULL, 0, 0}, 8},
+    {"tiles, plain maps", GLSSAO_CLASSIC, GLSSAO_HIGH, tiles_on, {"TEB", 11, 6}, {NULL, 0, 0}, 4},
+    {"radius 0", GLSSAO_HORIZON, GLSSAO_MEDIUM, no_radius, {"", 0, 0}, {NULL, 0, 0}, 0},
+    {"power 0", GLSSAO_CLASSIC, GLSSAO_HIGH, no_power, {"", 0, 0}, {NULL, 0, 0}, 0},
+    {"no ambient light", GLSSAO_HORIZON, GLSSAO_MEDIUM, no_ambient, {"", 0, 0}, {NULL, 0, 0}, 0},
+    {"only sky", GLSSAO_HEMISPHERE, GLSSAO_HIGH, only_sky, {"", 0, 0}, {NULL, 0, 0}, 2},
 };
 
 /* Passes that compute shaders run: these of whichever run, where tiles are not asked for. */
@@ -142,6 +153,7 @@ static bool is_dispatched(const struct row *row, const glssao_settings *settings
 
 static void check_row(fixture *f, const struct row *row, glssao_path path)
 {
+    const struct calls calls = path == GLSSAO_PATH_COMPUTE && row->compute.passes ? row->compute : row->fragment;
     glssao_effect *effect = counted_effect(f, path);
     const gl_counts made = gl_counter_take();
     assert_int_equal(made.draws, 0);
@@ -155,8 +167,8 @@ static void check_row(fixture *f, const struct row *row, glssao_path path)
     const glssao_plan plan = glssao_plan_frame(effect, &changed, &settings);
     char passes[GLSSAO_PASS_COUNT + 1];
     letters(&plan, passes);
-    if (strcmp(passes, row->passes) != 0)
-        fail_msg("%s: passes \"%s\", wanted \"%s\"", row->what, passes, row->passes);
+    if (strcmp(passes, calls.passes) != 0)
+        fail_msg("%s: passes \"%s\", wanted \"%s\"", row->what, passes, calls.passes);
     for (int frame_number = 0; frame_number < 2; ++frame_number) {
         assert_int_equal(glssao_compute(effect, &changed, &settings), GLSSAO_OK);
         const gl_counts counts = gl_counter_take();
@@ -171,14 +183,14 @@ static void check_row(fixture *f, const struct row *row, glssao_path path)
             assert_true(plan.passes[i].run == (stats.passes[i].draw_calls > 0));
             assert_true(strlen(plan.passes[i].reason) > 0);
         }
-        const int programs = frame_number == 0 ? row->programs : 0, textures = frame_number == 0 ? row->textures : 0;
+        const int programs = frame_number == 0 ? calls.programs : 0, textures = frame_number == 0 ? row->textures : 0;
         assert_int_equal(counts.unordered, 0);
         assert_int_equal(counts.dispatches, dispatched);
-        if (counts.draws + counts.dispatches != row->draws || planned != row->draws || counts.programs != programs ||
+        if (counts.draws + counts.dispatches != calls.draws || planned != calls.draws || counts.programs != programs ||
             counts.textures != textures)
             fail_msg("%s, frame %d: %d draws, %d planned, %d programs, %d textures; wanted %d, %d, %d, %d", row->what,
                      frame_number, counts.draws + counts.dispatches, planned, counts.programs, counts.textures,
-                     row->draws, row->draws, programs, textures);
+                     calls.draws, calls.draws, programs, textures);
     }
     glssao_destroy(effect);
     fixture_delete_frame(&frame);
