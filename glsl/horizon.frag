@@ -6,8 +6,7 @@
 // in  u_normal_map    view space; point sampled
 // in  u_distance_map  view distance at the estimate's size, with LAYERS 1 thickness and second layer too; point sampled,
 //                     clamped
-// in  u_depth_map     bound for its size alone; with FROM_DEPTH 1 (by compute shader) depth as the host stores it, and there
-//                     is no distance map
+// in  u_depth_map     bound for its size alone
 // out result          accessibility, with PAIRED 1 what passes after this one read; with ACCUMULATE 1 the linear
 //                     accessibility, to be added to the sum of its replicate
 // STEPS_8, STEPS_12, STEPS_16 1: that many samples on each side of a slice, else 6. SLICES_2 1: two slices, else one.
@@ -18,28 +17,6 @@
 // not unroll them, and a loop of a single turn still costs it a third of this pass.
 
 uniform sampler2D u_distance_map;
-
-// Of the estimate, whether or not it has a distance map.
-vec2 map_size()
-{
-#if FROM_DEPTH
-    return vec2((textureSize(u_depth_map, 0) + gFactor - 1) / gFactor);
-#else
-    return vec2(textureSize(u_distance_map, 0));
-#endif
-}
-
-// View distance at a texel of the estimate, FAR_AWAY on sky.
-float distance_at(vec2 texel, vec2 size)
-{
-#if FROM_DEPTH
-    float depth = fetched_depth(ivec2(texel) * gFactor);
-    return is_sky(depth) ? FAR_AWAY : distance_from_depth(depth);
-#else
-    return textureLod(u_distance_map, (texel + 0.5) / size, 0.0).r;
-#endif
-}
-
 #if ACCUMULATE
 #define RESULT vec2
 #else
@@ -158,7 +135,7 @@ vec3 sample_at(slice_frame f, vec2 step_px, float along, out vec2 layers)
     layers = min(f.y_per_distance * texels.gb, vec2(1e6)); // bounded, so that no square overflows
 #else
     layers = vec2(0.0);
-    float distance = distance_at(texel, f.size);
+    float distance = textureLod(u_distance_map, (texel + 0.5) / f.size, 0.0).r;
 #endif
     vec2 offset = texel + 0.5 - f.center;
     float scale = orthographic() ? 1.0 : distance;
@@ -190,12 +167,6 @@ uint hidden_by(vec3 at, vec2 layers, float width, polynomial sectors, bool minus
     // slice, its angle is all error. And what the depth format can't tell from the tangent plane is no occluder.
     bool counts = at.x > from.x && at.y > from.tangent * at.x + from.above;
     float x2 = at.x * at.x + 1e-12;
-#if COMPUTE
-    // A GPU is spared what follows where all samples of a group of invocations are like that; no sectors and nothing
-    // higher would come of it.
-    if (!(counts && x2 < 1.0))
-        return 0u;
-#endif
     float chord = sqrt(max(1.0 - x2, 0.0));
     float thickness = WIDTH * width * at.z;
     float cos_top;
@@ -320,8 +291,8 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
 
 RESULT result()
 {
-    vec2 size = map_size();
-    float distance = distance_at(floor(pixel_center()), size);
+    vec2 map_size = vec2(textureSize(u_distance_map, 0));
+    float distance = textureLod(u_distance_map, pixel_center() / map_size, 0.0).r;
     vec2 full_size = vec2(textureSize(u_depth_map, 0));
     vec2 uv = (floor(pixel_center()) * float(gFactor) + 0.5) / full_size;
     vec3 normal_view = normal_view_at_uv(uv);
@@ -343,7 +314,7 @@ RESULT result()
     vec3 up = -ray / ray_length;
     vec2 px = float(gFactor) / full_size * (orthographic() ? gRayOrigin.xy : gRayDirection.xy);
     slice_frame f;
-    f.size = size;
+    f.size = map_size;
     f.center = pixel_center();
     f.center_distance = distance;
     f.per_scale = STEP / (orthographic() ? 1.0 : distance);

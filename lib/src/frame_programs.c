@@ -73,7 +73,6 @@ glssao_result glssao__frame_programs_get(glssao_effect *effect, const glssao_fra
     const unsigned first_blur = !tiled                    ? blur | paired
                                 : rounds > COMPUTE_ROUNDS ? blur | paired | rounds_variant(COMPUTE_ROUNDS)
                                                           : last_blur;
-    const unsigned from_depth = glssao__compute_reads_depth(frame, plan) ? VARIANT_FROM_DEPTH : 0u;
     const unsigned tiles = inputs | glssao__tiles_variant(settings);
     const struct {
         glssao_pass pass;
@@ -88,8 +87,7 @@ glssao_result glssao__frame_programs_get(glssao_effect *effect, const glssao_fra
         {GLSSAO_PASS_TILES, SHADER_TILE_CLASS, tiles, &out->tiles.needed},
         {GLSSAO_PASS_TILES, SHADER_TILE_RINGS, 0, &out->tiles.rings},
         {GLSSAO_PASS_ESTIMATE, estimate_shader(settings),
-         inputs | estimate_variant(settings) | from_depth |
-             (plan->passes[GLSSAO_PASS_RESOLVE].run ? VARIANT_ACCUMULATE : paired),
+         inputs | estimate_variant(settings) | (plan->passes[GLSSAO_PASS_RESOLVE].run ? VARIANT_ACCUMULATE : paired),
          &out->estimate},
         {GLSSAO_PASS_RESOLVE, SHADER_RESOLVE, inputs | paired, &out->resolve},
         {GLSSAO_PASS_RESOLVE, SHADER_PROBE, 0, &out->probe},

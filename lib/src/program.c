@@ -62,8 +62,8 @@ static const struct shader {
                          DEPTH_FLAGS | VARIANT_LAYERS | VARIANT_COMPUTE,
                          {shader_view_glsl, shader_distance_frag, shader_entry_glsl}},
     [SHADER_HORIZON] = {"horizon",
-                        NORMAL_FLAGS | DEPTH_FLAGS | STEP_FLAGS | VARIANT_SLICES_2 | VARIANT_ACCUMULATE |
-                            VARIANT_LAYERS | VARIANT_PAIRED | VARIANT_OPEN | VARIANT_COMPUTE | VARIANT_FROM_DEPTH,
+                        NORMAL_FLAGS | STEP_FLAGS | VARIANT_SLICES_2 | VARIANT_ACCUMULATE | VARIANT_LAYERS |
+                            VARIANT_PAIRED | VARIANT_OPEN | VARIANT_COMPUTE,
                         {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_horizon_frag,
                          shader_entry_glsl}},
     [SHADER_RESOLVE] = {"resolve",
@@ -130,9 +130,6 @@ bool glssao__program_exists(enum glssao__shader shader, unsigned variant)
     bool is_sum = (variant & VARIANT_ACCUMULATE) && (variant & VARIANT_PAIRED);
     /* What is added by blending, or drawn beside tiles. */
     bool drawn_alone = (variant & (VARIANT_ACCUMULATE | VARIANT_OPEN)) && (variant & VARIANT_COMPUTE);
-    bool depth_read = shader != SHADER_HORIZON ||
-                      ((variant & VARIANT_FROM_DEPTH) ? (variant & VARIANT_COMPUTE) && !(variant & VARIANT_LAYERS)
-                                                      : (variant & DEPTH_FLAGS) == 0);
     bool edges_needed = (variant & (NORMAL_FLAGS | DEPTH_FLAGS)) == 0 || (variant & VARIANT_EDGE_AWARE);
     /* Of a tile: its last step is the blur's or upsampling, and what upsampling reads counts for that alone. */
     bool tile_known =
@@ -141,8 +138,7 @@ bool glssao__program_exists(enum glssao__shader shader, unsigned variant)
          (variant & VARIANT_UPSAMPLE ? !(variant & VARIANT_PAIRED)
                                      : (variant & ROUND_FLAGS) && !(variant & (NORMAL_FLAGS | DEPTH_FLAGS))));
     return (variant & ~shaders[shader].flags) == 0 && !both_encodings && !is_sum && !drawn_alone &&
-           (steps & (steps - 1)) == 0 && !alpha_alone && tile_known && depth_read &&
-           (shader != SHADER_BLUR || edges_needed);
+           (steps & (steps - 1)) == 0 && !alpha_alone && tile_known && (shader != SHADER_BLUR || edges_needed);
 }
 
 int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enum stage,
@@ -403,8 +399,6 @@ glssao_result glssao__program_get(glssao_effect *effect, enum glssao__shader sha
     variant &= shaders[shader].flags;
     if (shader == SHADER_BLUR && !(variant & VARIANT_EDGE_AWARE))
         variant &= VARIANT_BOX | VARIANT_PAIRED | VARIANT_COMPUTE; /* it reads neither normals nor depth */
-    if (shader == SHADER_HORIZON && !(variant & VARIANT_FROM_DEPTH))
-        variant &= ~(unsigned)DEPTH_FLAGS;
     if (shader == SHADER_PLANAR_TILE && !(variant & VARIANT_UPSAMPLE))
         variant &= VARIANT_PAIRED | VARIANT_COMPUTE | ROUND_FLAGS;
     const glssao__program_object *found = find(effect, shader, variant);
