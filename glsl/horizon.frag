@@ -106,8 +106,9 @@ uint sector(polynomial p, float c)
 
 // What turns a sample's offset in pixels and its view distance into x and y.
 struct slice_frame {
-    vec2 size;             // of the distance map, pixels
-    vec2 center;           // the point, pixels
+    vec2 center_uv;        // the point
+    vec2 texel_uv;         // of the distance map
+    vec2 low, high;        // the map's first and last texel as seen from the point, pixels
     float center_distance; // scene units
     float per_scale;       // of a step, at the point: STEP over what a pixel's size grows with
     vec2 x_per_px;         // for the plus side
@@ -128,31 +129,30 @@ struct least {
 // `layers`: the thickness of what is seen, negative where it is not known, and how far behind it the second layer lies.
 vec3 sample_at(slice_frame f, vec2 step_px, float along, out vec2 layers)
 {
-    vec2 texel = clamp(floor(f.center + along * step_px), vec2(0.0), f.size - 1.0);
+    // The point is a texel's centre itself, so that whole pixels lead to others.
+    vec2 offset = clamp(floor(along * step_px + 0.5), f.low, f.high);
+    vec2 uv = f.center_uv + offset * f.texel_uv;
 #if LAYERS
-    vec3 texels = textureLod(u_distance_map, (texel + 0.5) / f.size, 0.0).rgb;
+    vec3 texels = textureLod(u_distance_map, uv, 0.0).rgb;
     float distance = texels.r;
     layers = min(f.y_per_distance * texels.gb, vec2(1e6)); // bounded, so that no square overflows
 #else
     layers = vec2(0.0);
-    float distance = textureLod(u_distance_map, (texel + 0.5) / f.size, 0.0).r;
+    float distance = textureLod(u_distance_map, uv, 0.0).r;
 #endif
-    vec2 offset = texel + 0.5 - f.center;
     float scale = orthographic() ? 1.0 : distance;
     return vec3(scale * dot(offset, f.x_per_px),
                 f.y_per_distance * (f.center_distance - distance) + scale * dot(offset, f.y_per_px),
                 scale * f.per_scale);
 }
 
-// Sectors that are hidden at x between two heights, if they count, where they lie within the sphere, whose half chord is 0
-// beyond it: top and bottom then come out alike.
-uint hidden_between(bool counts, float x2, float chord, float top, float bottom, polynomial sectors, bool minus, float lowest,
+// Sectors that are hidden at x between two heights, where they lie within the sphere, by its half chord there.
+uint hidden_between(float x2, float chord, float top, float bottom, polynomial sectors, bool minus, float lowest,
                     out float cos_top)
 {
-    // Sky can lie so deep that its square overflows, and its cosine would come out as 0.
-    top = clamp(top, -1e6, chord);
+    top = min(top, chord);
     bottom = max(bottom, -chord);
-    cos_top = counts ? max(top * inversesqrt(x2 + top * top), lowest) : lowest;
+    cos_top = max(top * inversesqrt(x2 + top * top), lowest);
     float cos_bottom = clamp(bottom * inversesqrt(x2 + bottom * bottom), lowest, cos_top);
     uint near = 1u << sector(sectors, cos_top);
     uint far = 1u << sector(sectors, cos_bottom);
@@ -167,18 +167,19 @@ uint hidden_by(vec3 at, vec2 layers, float width, polynomial sectors, bool minus
     // slice, its angle is all error. And what the depth format can't tell from the tangent plane is no occluder.
     bool counts = at.x > from.x && at.y > from.tangent * at.x + from.above;
     float x2 = at.x * at.x + 1e-12;
-    float chord = sqrt(max(1.0 - x2, 0.0));
+    counts = counts && x2 < 1.0; // within the sphere; of what is not, no more than this is asked below
+    float chord = sqrt(1.0 - x2);
     float thickness = WIDTH * width * at.z;
     float cos_top;
     uint mask = 0u;
 #if LAYERS
     float second = min(at.y - layers.y, chord); // its thickness counts from where it is within the sphere
-    mask = hidden_between(counts, x2, chord, second, second - SECOND * thickness, sectors, minus, lowest, cos_top);
+    mask = hidden_between(x2, chord, second, second - SECOND * thickness, sectors, minus, lowest, cos_top);
     thickness = layers.x >= 0.0 ? layers.x : thickness;
 #endif
-    mask |= hidden_between(counts, x2, chord, at.y, at.y - thickness, sectors, minus, lowest, cos_top);
-    highest = max(highest, thickness > VEIL_WIDTH && x2 < 1.0 ? cos_top : lowest);
-    return mask;
+    mask |= hidden_between(x2, chord, at.y, at.y - thickness, sectors, minus, lowest, cos_top);
+    highest = counts && thickness > VEIL_WIDTH ? max(highest, cos_top) : highest;
+    return counts ? mask : 0u;
 }
 
 // Sectors that one side's samples hide. `lowest` is the cosine of the angle at which the hemisphere ends there, `highest`
@@ -314,8 +315,10 @@ RESULT result()
     vec3 up = -ray / ray_length;
     vec2 px = float(gFactor) / full_size * (orthographic() ? gRayOrigin.xy : gRayDirection.xy);
     slice_frame f;
-    f.size = map_size;
-    f.center = pixel_center();
+    f.texel_uv = 1.0 / map_size;
+    f.center_uv = pixel_center() * f.texel_uv;
+    f.low = 0.5 - pixel_center();
+    f.high = map_size - 0.5 - pixel_center();
     f.center_distance = distance;
     f.per_scale = STEP / (orthographic() ? 1.0 : distance);
     f.y_per_distance = ray_length / gOcclusionRadius;
