@@ -100,21 +100,19 @@ static const struct shader {
     [SHADER_TILE_RINGS] = {"tile-rings", 0, {shader_tile_rings_frag}},
 };
 
-/* Invocations of a work group, and texels of the tile that it makes. */
-#define SIZES(group_x, group_y, tile_x, tile_y)                                                                        \
-    {                                                                                                                  \
-        {tile_x, tile_y}, "#define GROUP_X " #group_x "\n#define GROUP_Y " #group_y "\n#define TILE_X " #tile_x        \
-                          "\n#define TILE_Y " #tile_y "\n"                                                             \
-    }
-static const struct sizes {
-    int tile[2];
-    const char *macros;
-} pixel_sizes = SIZES(8, 8, 8, 8), tile_sizes = SIZES(32, 8, 32, 32);
-#undef SIZES
+/* Invocations of a work group, and how many rows of a tile they share; glsl/planar_tile.comp, glsl/entry.glsl. */
+enum { PIXEL_GROUP = 8, TILE_WIDTH = 32, TILE_HEIGHT = 32 };
+static const char pixel_sizes[] = "#define GROUP_X 8\n#define GROUP_Y 8\n";
+static const char tile_sizes[] = "#define GROUP_X 32\n#define GROUP_Y 8\n#define HEIGHT 32\n";
 
-static const struct sizes *sizes_of(enum glssao__shader shader)
+/* Pixels of the target that a work group makes. */
+static void find_group(enum glssao__shader shader, unsigned variant, int out[2])
 {
-    return shader == SHADER_PLANAR_TILE ? &tile_sizes : &pixel_sizes;
+    const int halo = variant & VARIANT_ROUNDS_2 ? 4 : variant & VARIANT_ROUNDS_1 ? 2 : 0;
+    const int factor = variant & VARIANT_UPSAMPLE ? 2 : 1;
+    const bool tile = shader == SHADER_PLANAR_TILE;
+    out[0] = tile ? factor * (TILE_WIDTH - 2 * halo - factor + 1) : PIXEL_GROUP;
+    out[1] = tile ? factor * (TILE_HEIGHT - 2 * halo - factor + 1) : PIXEL_GROUP;
 }
 
 const char *glssao__program_shader_name(enum glssao__shader shader)
@@ -166,7 +164,7 @@ int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enu
     }
     out_sources[n++] = "};\n";
     if (stage == GL_COMPUTE_SHADER)
-        out_sources[n++] = sizes_of(shader)->macros;
+        out_sources[n++] = shader == SHADER_PLANAR_TILE ? tile_sizes : pixel_sizes;
     for (int i = 0; i < FILES && shaders[shader].files[i]; ++i)
         out_sources[n++] = shaders[shader].files[i];
     return n;
@@ -386,8 +384,7 @@ static glssao_result make(glssao_effect *effect, enum glssao__shader shader, uns
     out->horizontal_location = gl->GetUniformLocation(out->name, "gHorizontalBlur");
     out->tile_range_location = gl->GetUniformLocation(out->name, "gTileRange");
     out->compute = variant & VARIANT_COMPUTE;
-    for (int i = 0; i < 2; ++i)
-        out->group[i] = sizes_of(shader)->tile[i] * (variant & VARIANT_UPSAMPLE ? 2 : 1);
+    find_group(shader, variant, out->group);
     out->region_location = gl->GetUniformLocation(out->name, "gRegion");
     out->origin_location = gl->GetUniformLocation(out->name, "gOrigin");
     return GLSSAO_OK;
