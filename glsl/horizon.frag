@@ -127,10 +127,10 @@ struct least {
 // Snapped to a texel's centre, and beyond the border to the border's; the height is corrected for the distance off the
 // slice as if the surface there were parallel to the point's own. z: the width of one step at the sample's distance.
 // `layers`: the thickness of what is seen, negative where it is not known, and how far behind it the second layer lies.
-vec3 sample_at(slice_frame f, vec2 step_px, float along, out vec2 layers)
+vec3 sample_at(slice_frame f, vec2 first_px, vec2 step_px, float number, out vec2 layers)
 {
     // The point is a texel's centre itself, so that whole pixels lead to others.
-    vec2 offset = clamp(floor(along * step_px + 0.5), f.low, f.high);
+    vec2 offset = clamp(floor(first_px + number * step_px + 0.5), f.low, f.high);
     vec2 uv = f.center_uv + offset * f.texel_uv;
 #if LAYERS
     vec3 texels = textureLod(u_distance_map, uv, 0.0).rgb;
@@ -244,7 +244,8 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
 {
     vec2 direction = vec2(cos(PI * angle), sin(PI * angle));
     // The bound keeps pixel coordinates exact, however near the point is.
-    vec2 step_px = clamp(gOcclusionRadius * float(STEPS) * f.per_scale * direction / px, -1e5, 1e5);
+    vec2 step_px = STEP * clamp(gOcclusionRadius * float(STEPS) * f.per_scale * direction / px, -1e5, 1e5);
+    vec2 first_px = (1.0 - jitter) * step_px;
     vec3 along = vec3(direction, 0.0);
     along = normalize(along - up * dot(along, up));
     vec3 across = cross(up, along);
@@ -275,8 +276,8 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
     vec2 plus_layers[STEPS];
     vec2 minus_layers[STEPS];
     vec3 mirror = vec3(-1.0, 1.0, 1.0);
-#define TAKE_PLUS(i) plus_samples[i] = sample_at(f, step_px, (float(i) + 1.0 - jitter) * STEP, plus_layers[i]);
-#define TAKE_MINUS(i) minus_samples[i] = mirror * sample_at(f, step_px, (jitter - 1.0 - float(i)) * STEP, minus_layers[i]);
+#define TAKE_PLUS(i) plus_samples[i] = sample_at(f, first_px, step_px, float(i), plus_layers[i]);
+#define TAKE_MINUS(i) minus_samples[i] = mirror * sample_at(f, -first_px, -step_px, float(i), minus_layers[i]);
     EACH_STEP(TAKE_PLUS)
     EACH_STEP(TAKE_MINUS)
     float tangent = sin_g / max(cos_g, 1e-3);
