@@ -32,6 +32,7 @@ static const char *const macros[VARIANT_FLAGS] = {
     "UPSAMPLE",
     "ROUNDS_1",
     "ROUNDS_2",
+    "WIDE",
 };
 
 enum {
@@ -71,16 +72,17 @@ static const struct shader {
                         {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_resolve_frag}},
     [SHADER_PROBE] = {"probe", 0, {shader_view_glsl, shader_probe_frag}},
     [SHADER_PLANAR_BLUR] = {"planar-blur",
-                            VARIANT_PAIRED,
+                            VARIANT_PAIRED | VARIANT_WIDE,
                             {shader_view_glsl, shader_paired_glsl, shader_planar_blur_glsl, shader_planar_blur_frag,
                              shader_entry_glsl}},
     [SHADER_UPSAMPLE] = {"upsample",
                          NORMAL_FLAGS | DEPTH_FLAGS,
                          {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_upsample_glsl,
-                          shader_upsample_frag, shader_entry_glsl}},
+                          shader_upsample_frag}},
+    [SHADER_SPREAD] = {"spread", 0, {shader_view_glsl, shader_spread_frag}},
     [SHADER_PLANAR_TILE] = {"planar-tile",
                             NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_PAIRED | VARIANT_COMPUTE | VARIANT_UPSAMPLE |
-                                ROUND_FLAGS,
+                                ROUND_FLAGS | VARIANT_WIDE,
                             {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_planar_blur_glsl,
                              shader_upsample_glsl, shader_planar_tile_comp}},
     [SHADER_BLUR] = {"blur",
@@ -138,6 +140,7 @@ bool glssao__program_exists(enum glssao__shader shader, unsigned variant)
     bool tile_known =
         shader != SHADER_PLANAR_TILE ||
         ((variant & VARIANT_COMPUTE) && (variant & ROUND_FLAGS) != ROUND_FLAGS &&
+         ((variant & ROUND_FLAGS) || !(variant & VARIANT_WIDE)) &&
          (variant & VARIANT_UPSAMPLE ? !(variant & VARIANT_PAIRED)
                                      : (variant & ROUND_FLAGS) && !(variant & (NORMAL_FLAGS | DEPTH_FLAGS))));
     return (variant & ~shaders[shader].flags) == 0 && !both_encodings && !is_sum && !drawn_alone &&
