@@ -3,7 +3,7 @@
 // planar_blur.frag and upsample.frag make of it, one after the other, without the way through a map in between.
 // in  u_ambient_map  paired map; fetched
 // out u_target       UPSAMPLE 1: accessibility at full size; else with PAIRED 1 the paired map, with 0 accessibility
-// ROUNDS_1, ROUNDS_2 1: that many rounds, else none.
+// ROUNDS_1, ROUNDS_2 1: that many rounds, else none. WIDE 1: the first of them is not the blur's first.
 //
 // Invocations lie along a row of the tile, one a texel with those that the blur takes around it, so that no address needs a
 // division; those at the ends of a row make what nobody reads.
@@ -24,24 +24,34 @@ const int FACTOR = 2; // pixels of the target per texel
 #else
 const int FACTOR = 1;
 #endif
+#if WIDE
+const int FIRST_REACH = 3; // texels that each direction of the first round reads on either side
+#else
+const int FIRST_REACH = 2;
+#endif
+const int LATER_REACH = 3;
+const bool LAST_WIDE = WIDE == 1 || ROUNDS == 2;
+const int LAST_REACH = LAST_WIDE ? LATER_REACH : FIRST_REACH;
+const int HALO = ROUNDS == 0 ? 0 : FIRST_REACH + (ROUNDS - 1) * LATER_REACH;
 const int WIDTH = GROUP_X;
-const int HALO = 2 * ROUNDS; // each direction of a round reads two texels on either side
 const int MADE_X = WIDTH - 2 * HALO - FACTOR + 1; // upsampling reads one more to the right and above
 const int MADE_Y = HEIGHT - 2 * HALO - FACTOR + 1;
 
 // Two tiles, by turns, one after the other (GLSL 3.30 has no arrays of arrays), between what the ends of rows read beyond.
-const int FIRST = 2;
+const int FIRST = LATER_REACH;
 const int SECOND = FIRST + WIDTH * HEIGHT;
-shared vec2 tiles[SECOND + WIDTH * HEIGHT + 2];
+shared vec2 tiles[SECOND + WIDTH * HEIGHT + LATER_REACH];
 
 // Where the map begins and ends, in texels of the tile.
 ivec2 low, high;
 
-// Accessibility at a place, blurred along x (`by` 1) or y (`by` WIDTH).
-float blurred_at(int at, int by)
+// Accessibility at a place, blurred along x (`by` 1) or y (`by` WIDTH), in the blur's first round or a later.
+float blurred_at(int at, int by, bool wide)
 {
-    return blurred(tiles[at - 2 * by], tiles[at - by], tiles[at], tiles[at + by], tiles[at + 2 * by],
-                   by == 1 ? vec2(1.0, 0.0) : vec2(0.0, 1.0));
+    vec2 way = by == 1 ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
+    if (wide)
+        return blurred_wide(tiles[at - 3 * by], tiles[at], tiles[at + 3 * by], way);
+    return blurred(tiles[at - 2 * by], tiles[at - by], tiles[at], tiles[at + by], tiles[at + 2 * by], way);
 }
 
 // A place in the tile that begins at `tile`. Beyond the map lies its edge.
@@ -51,19 +61,25 @@ int place(int tile, int row)
 }
 
 // Blurs all rows but so many at either end from one tile into the other.
-void blur_tile(int from, int to, int but, int by)
+void blur_tile(int from, int to, int but, int by, bool wide)
 {
     for (int row = but + int(gl_LocalInvocationID.y); row < HEIGHT - but; row += GROUP_Y) {
         int at = place(from, row);
         vec2 center = tiles[at];
         tiles[to + row * WIDTH + int(gl_LocalInvocationID.x)] =
-            paired(blurred_at(at, by), center.y, normal_code(center));
+            paired(blurred_at(at, by, wide), center.y, normal_code(center));
     }
     barrier();
 }
 
 #if UPSAMPLE
-// The four pixels that belong to a texel.
+void store(ivec2 pixel, float accessibility)
+{
+    if (all(lessThan(pixel, gRegion.zw)))
+        imageStore(u_target, pixel + gRegion.xy, vec4(accessibility));
+}
+
+// The four pixels that the texel is the lower left of.
 void write(int row, ivec2 texel)
 {
     int at = FIRST + row * WIDTH + int(gl_LocalInvocationID.x);
@@ -71,17 +87,15 @@ void write(int row, ivec2 texel)
     vec2 b = tiles[at + 1];
     vec2 c = tiles[at + WIDTH];
     vec2 d = tiles[at + WIDTH + 1];
-    vec2 full_size = vec2(textureSize(u_depth_map, 0));
-    for (int i = 0; i < 4; ++i) {
-        ivec2 odd = ivec2(i & 1, i >> 1);
-        ivec2 pixel = 2 * texel + odd;
-        if (pixel.x >= gRegion.z || pixel.y >= gRegion.w)
-            continue;
-        vec2 uv = (vec2(pixel + gRegion.xy) + 0.5 + gOrigin) / full_size;
-        imageStore(u_target, pixel + gRegion.xy,
-                   vec4(upsampled(a, odd.x == 1 ? b : a, odd.y == 1 ? c : a,
-                                  odd.x == 1 ? (odd.y == 1 ? d : b) : (odd.y == 1 ? c : a), vec2(odd), uv)));
-    }
+    ivec2 pixel = 2 * texel;
+    vec2 full_texel = 1.0 / vec2(textureSize(u_depth_map, 0));
+    vec2 full_uv = (vec2(pixel + gRegion.xy) + 0.5 + gOrigin) * full_texel;
+    vec2 full_next = full_uv + full_texel;
+    bool sky = is_sky(depth_component(textureLod(u_depth_map, full_uv, 0.0)));
+    store(pixel, sky ? 1.0 : accessibility_of(a));
+    store(pixel + ivec2(1, 0), upsampled(a, b, a, b, vec2(1.0, 0.0), vec2(full_next.x, full_uv.y)));
+    store(pixel + ivec2(0, 1), upsampled(a, a, c, c, vec2(0.0, 1.0), vec2(full_uv.x, full_next.y)));
+    store(pixel + ivec2(1, 1), upsampled(a, b, c, d, vec2(1.0), full_next));
 }
 #else
 // The last direction of the last round, whose accessibility the paired map would round.
@@ -89,8 +103,8 @@ void write(int row, ivec2 texel)
 {
     int at = place(SECOND, row);
     vec2 center = tiles[at];
-    float accessibility = blurred_at(at, WIDTH);
-    if (texel.x >= gRegion.z || texel.y >= gRegion.w)
+    float accessibility = blurred_at(at, WIDTH, LAST_WIDE);
+    if (any(greaterThanEqual(texel, gRegion.zw)))
         return;
 #if PAIRED
     imageStore(u_target, texel + gRegion.xy, vec4(paired(accessibility, center.y, normal_code(center)), 0.0, 1.0));
@@ -112,13 +126,13 @@ void main()
             texelFetch(u_ambient_map, corner + clamp(ivec2(column, row), low, high), 0).rg;
     barrier();
 #if ROUNDS_2
-    blur_tile(FIRST, SECOND, 0, 1);
-    blur_tile(SECOND, FIRST, 2, WIDTH);
+    blur_tile(FIRST, SECOND, 0, 1, WIDE == 1);
+    blur_tile(SECOND, FIRST, FIRST_REACH, WIDTH, WIDE == 1);
 #endif
 #if ROUNDS_1 || ROUNDS_2
-    blur_tile(FIRST, SECOND, HALO - 2, 1);
+    blur_tile(FIRST, SECOND, HALO - LAST_REACH, 1, LAST_WIDE);
 #if UPSAMPLE
-    blur_tile(SECOND, FIRST, HALO, WIDTH);
+    blur_tile(SECOND, FIRST, HALO, WIDTH, LAST_WIDE);
 #endif
 #endif
     if (column >= HALO && column < HALO + MADE_X)

@@ -142,6 +142,7 @@ void glssao_destroy(glssao_effect *effect)
     glssao__maps_delete_ambient(gl, &effect->paired);
     glssao__maps_delete_target(gl, &effect->distance_map);
     glssao__maps_delete_target(gl, &effect->result_map);
+    glssao__maps_delete_target(gl, &effect->block_map);
     glssao__tiles_destroy(effect);
     glssao__accumulate_destroy(effect);
     gl->DeleteTextures(1, &effect->random_vector_map);
@@ -180,6 +181,7 @@ glssao_result glssao_resize(glssao_effect *effect, int width, int height)
     glssao__maps_delete_ambient(&effect->gl, &effect->paired); /* made again when next needed, as are these: */
     glssao__maps_delete_target(&effect->gl, &effect->distance_map);
     glssao__maps_delete_target(&effect->gl, &effect->result_map);
+    glssao__maps_delete_target(&effect->gl, &effect->block_map);
     glssao__tiles_destroy(effect);
     glssao__accumulate_destroy(effect);
     effect->has_result_map = false;

@@ -58,6 +58,7 @@ enum glssao__shader {
     SHADER_BLUR,
     SHADER_PLANAR_BLUR,
     SHADER_UPSAMPLE,
+    SHADER_SPREAD,
     SHADER_PLANAR_TILE, /* both in one, by compute shader alone */
     SHADER_APPLY,
     SHADER_TILE_ROWS,
@@ -92,7 +93,8 @@ enum glssao__variant {
     VARIANT_UPSAMPLE = 1048576,
     VARIANT_ROUNDS_1 = 2097152,
     VARIANT_ROUNDS_2 = 4194304,
-    VARIANT_FLAGS = 23, /* how many there are */
+    VARIANT_WIDE = 8388608,
+    VARIANT_FLAGS = 24, /* how many there are */
     VARIANT_COUNT = 1 << VARIANT_FLAGS
 };
 
@@ -255,6 +257,7 @@ struct glssao_effect {
     glssao__target normal_map;
     glssao__target distance_map; /* at the estimate's size; made when first needed */
     glssao__target result_map;   /* the result, where it has another size than the estimate; made when first needed */
+    glssao__target block_map;    /* RGBA16, as glsl/upsample.frag writes it; made when first needed */
     bool has_result_map;         /* the last result lies there */
     int margin;                  /* of the last frame */
     glssao__ambient_maps ambient;
@@ -399,6 +402,8 @@ bool glssao__compute_can_run(const glssao_settings *settings, glssao_pass pass);
 /* Whether the frame is to be tried again without, after its programs could not be made. */
 bool glssao__compute_gives_up(glssao_effect *effect, const glssao_plan *plan, glssao_result result);
 /* Of the blur's rounds, those that run within the dispatch that brings the result to full size. */
+/* What is left of a map without so many pixels along each side. */
+glssao__region glssao__plan_inner(int width, int height, int margin);
 int glssao__compute_rounds_within(const glssao_settings *settings, const glssao_plan *plan);
 /* The program in use writes the region of the target. */
 void glssao__compute_dispatch(glssao_effect *effect, const glssao__target *target, const glssao__region *region);
@@ -437,6 +442,7 @@ void glssao__maps_delete_ambient(const glssao__gl *gl, glssao__ambient_maps *map
 glssao_result glssao__maps_make_normal(glssao_effect *effect, int width, int height, glssao__target *out_map);
 /* Makes or remakes the map where it has another size; on failure it is as it was. */
 glssao_result glssao__maps_fit_input(glssao_effect *effect, bool has_normals, glssao__target *map);
+glssao_result glssao__maps_fit_block(glssao_effect *effect, int width, int height);
 glssao_result glssao__maps_fit_distance(glssao_effect *effect, int width, int height, bool has_layers);
 glssao_result glssao__maps_fit_accumulation(glssao_effect *effect);
 /* The ambient maps, the paired ones and the result's own (width 0: neither is needed), all or none. */
@@ -473,8 +479,8 @@ void glssao__cache_write(const glssao_effect *effect, enum glssao__shader shader
 
 /* frame_programs.c */
 typedef struct glssao__frame_programs {
-    glssao__program_object inputs[INPUT_COUNT], normals, distance, estimate, open, resolve, probe, blur, last_blur,
-        upsample;
+    glssao__program_object inputs[INPUT_COUNT], normals, distance, estimate, open, resolve, probe, upsample, spread;
+    glssao__program_object blur, wide_blur, last_blur; /* the first round's, later ones', that of the last call */
     glssao__tile_programs tiles;
 } glssao__frame_programs;
 

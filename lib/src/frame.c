@@ -30,6 +30,8 @@ static glssao_result fit_maps(glssao_effect *effect, const glssao_frame *frame, 
         result = glssao__maps_fit_tiles(effect, width, height, glssao__tiles_variant(settings) & VARIANT_FROM_DEPTH);
     if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_RESOLVE].run)
         result = glssao__maps_fit_accumulation(effect);
+    if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_UPSAMPLE].run && !plan->passes[GLSSAO_PASS_UPSAMPLE].compute)
+        result = glssao__maps_fit_block(effect, width, height);
     if (result != GLSSAO_OK)
         return result;
     const bool apart = is_apart(plan, frame);
@@ -185,7 +187,10 @@ static void blur(const frame_run *r)
 {
     const int count = r->plan->passes[GLSSAO_PASS_BLUR].draw_calls;
     for (int i = 1; i <= count; ++i) {
-        const glssao__program_object *program = i < count ? &r->programs.blur : &r->programs.last_blur;
+        const bool is_first = i <= (r->programs.blur.compute ? 1 : 2);
+        const glssao__program_object *program = i == count ? &r->programs.last_blur
+                                                : is_first ? &r->programs.blur
+                                                           : &r->programs.wide_blur;
         glssao__draw_use(r->effect, program);
         /* Horizontal 0 to 1, vertical 1 to 0. */
         r->effect->gl.Uniform1i(program->horizontal_location, i % 2);
@@ -199,10 +204,18 @@ static void upsample(const frame_run *r)
 {
     glssao_effect *effect = r->effect;
     glssao__draw_use(effect, &r->programs.upsample);
-    select_tiles(r, &r->programs.upsample, 2, 0, r->rings);
     glssao__draw_bind(effect, UNIT_DEPTH, depth_source(r->frame), SAMPLER_POINT_CLAMP);
     glssao__draw_bind(effect, UNIT_AMBIENT, turns(effect)->texture[r->plan->passes[GLSSAO_PASS_BLUR].draw_calls % 2],
                       SAMPLER_POINT_CLAMP);
+    if (!r->programs.upsample.compute) {
+        select_tiles(r, &r->programs.upsample, 1, 0, r->rings);
+        const glssao__region blocks =
+            glssao__plan_inner(effect->ambient.width, effect->ambient.height, r->frame->margin / 2);
+        glssao__draw_region(effect, &effect->block_map, &blocks);
+        glssao__draw_use(effect, &r->programs.spread);
+        select_tiles(r, &r->programs.spread, 2, 0, r->rings);
+        glssao__draw_bind(effect, UNIT_AMBIENT, effect->block_map.texture, SAMPLER_POINT_CLAMP);
+    }
     glssao__draw_crop(effect, &effect->result_map, effect->width, effect->height, &r->delivered);
 }
 

@@ -98,6 +98,11 @@ glssao_result glssao__maps_fit_distance(glssao_effect *effect, int width, int he
     return fit_target(effect, has_layers ? GL_RGBA32F : GL_R32F, width, height, "distance", &effect->distance_map);
 }
 
+glssao_result glssao__maps_fit_block(glssao_effect *effect, int width, int height)
+{
+    return fit_target(effect, GL_RGBA16, width, height, "block", &effect->block_map);
+}
+
 glssao_result glssao__maps_fit_accumulation(glssao_effect *effect)
 {
     glssao__accumulation *a = &effect->accumulation;

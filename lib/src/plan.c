@@ -11,7 +11,7 @@ void glssao__plan_ambient_size(const glssao_effect *effect, const glssao_setting
     *out_height = settings->half_resolution ? (effect->height + 1) / 2 : effect->height;
 }
 
-static glssao__region inner(int width, int height, int margin)
+glssao__region glssao__plan_inner(int width, int height, int margin)
 {
     return (glssao__region){margin, margin, width - 2 * margin, height - 2 * margin};
 }
@@ -29,11 +29,10 @@ static glssao__region grown(glssao__region r, int by, int width, int height)
 
 int glssao__plan_reach(const glssao_settings *settings, const glssao_plan *plan)
 {
-    int taps = settings->blur == GLSSAO_BLUR_BOX || settings->blur == GLSSAO_BLUR_PLANAR ? 2 : 5;
-    return (plan->passes[GLSSAO_PASS_BLUR].run || glssao__compute_rounds_within(settings, plan) > 0
-                ? taps * settings->blur_rounds
-                : 0) +
-           (plan->passes[GLSSAO_PASS_UPSAMPLE].run ? 1 : 0);
+    const bool planar = settings->blur == GLSSAO_BLUR_PLANAR;
+    const int first = planar || settings->blur == GLSSAO_BLUR_BOX ? 2 : 5, later = planar ? 3 : first;
+    const bool blurs = plan->passes[GLSSAO_PASS_BLUR].run || glssao__compute_rounds_within(settings, plan) > 0;
+    return (blurs ? first + later * (settings->blur_rounds - 1) : 0) + (plan->passes[GLSSAO_PASS_UPSAMPLE].run ? 1 : 0);
 }
 
 bool glssao__plan_is_paired(const glssao_settings *settings, const glssao_plan *plan)
@@ -48,8 +47,8 @@ glssao__region glssao__plan_result(const glssao_effect *effect, const glssao_fra
     int width, height;
     glssao__plan_ambient_size(effect, settings, &width, &height);
     if (settings->half_resolution && !plan->passes[GLSSAO_PASS_UPSAMPLE].run)
-        return inner(width, height, frame->margin / 2);
-    return inner(effect->width, effect->height, frame->margin);
+        return glssao__plan_inner(width, height, frame->margin / 2);
+    return glssao__plan_inner(effect->width, effect->height, frame->margin);
 }
 
 glssao__region glssao__plan_region(const glssao_effect *effect, const glssao_frame *frame,
@@ -58,14 +57,15 @@ glssao__region glssao__plan_region(const glssao_effect *effect, const glssao_fra
     int width, height, factor = settings->half_resolution ? 2 : 1, by = glssao__plan_reach(settings, plan);
     glssao__plan_ambient_size(effect, settings, &width, &height);
     if (pass == GLSSAO_PASS_INPUTS)
-        return inner(effect->width, effect->height, 0);
+        return glssao__plan_inner(effect->width, effect->height, 0);
     if (pass == GLSSAO_PASS_UPSAMPLE)
-        return inner(effect->width, effect->height, frame->margin);
+        return glssao__plan_inner(effect->width, effect->height, frame->margin);
     if (pass == GLSSAO_PASS_NORMALS)
-        return grown(inner(effect->width, effect->height, frame->margin), factor * by, effect->width, effect->height);
+        return grown(glssao__plan_inner(effect->width, effect->height, frame->margin), factor * by, effect->width,
+                     effect->height);
     if (pass == GLSSAO_PASS_DISTANCE || pass == GLSSAO_PASS_TILES) /* occluders are looked for in the margin */
-        return inner(width, height, 0);
-    return grown(inner(width, height, frame->margin / factor), by, width, height);
+        return glssao__plan_inner(width, height, 0);
+    return grown(glssao__plan_inner(width, height, frame->margin / factor), by, width, height);
 }
 
 /* Why every pixel would come out as 1; NULL where one may not. */
@@ -173,6 +173,7 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
                            : pass == blur              ? blur_calls(settings, &plan)
                            : pass == tiles             ? TILE_PASSES
                            : i == GLSSAO_PASS_INPUTS   ? copies
+                           : pass == upsample          ? (pass->compute ? 1 : 2)
                            : pass == estimate && fills ? 2
                                                        : 1;
         pass->width = region.width;

@@ -32,6 +32,7 @@ static const char *const macros[VARIANT_FLAGS] = {
     "UPSAMPLE",
     "ROUNDS_1",
     "ROUNDS_2",
+    "WIDE",
 };
 
 enum {
@@ -71,16 +72,17 @@ static const struct shader {
                         {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_resolve_frag}},
     [SHADER_PROBE] = {"probe", 0, {shader_view_glsl, shader_probe_frag}},
     [SHADER_PLANAR_BLUR] = {"planar-blur",
-                            VARIANT_PAIRED,
+                            VARIANT_PAIRED | VARIANT_WIDE,
                             {shader_view_glsl, shader_paired_glsl, shader_planar_blur_glsl, shader_planar_blur_frag,
                              shader_entry_glsl}},
     [SHADER_UPSAMPLE] = {"upsample",
                          NORMAL_FLAGS | DEPTH_FLAGS,
                          {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_upsample_glsl,
-                          shader_upsample_frag, shader_entry_glsl}},
+                          shader_upsample_frag}},
+    [SHADER_SPREAD] = {"spread", 0, {shader_view_glsl, shader_spread_frag}},
     [SHADER_PLANAR_TILE] = {"planar-tile",
                             NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_PAIRED | VARIANT_COMPUTE | VARIANT_UPSAMPLE |
-                                ROUND_FLAGS,
+                                ROUND_FLAGS | VARIANT_WIDE,
                             {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_planar_blur_glsl,
                              shader_upsample_glsl, shader_planar_tile_comp}},
     [SHADER_BLUR] = {"blur",
@@ -108,7 +110,10 @@ static const char tile_sizes[] = "#define GROUP_X 32\n#define GROUP_Y 8\n#define
 /* Pixels of the target that a work group makes. */
 static void find_group(enum glssao__shader shader, unsigned variant, int out[2])
 {
-    const int halo = variant & VARIANT_ROUNDS_2 ? 4 : variant & VARIANT_ROUNDS_1 ? 2 : 0;
+    const int first_reach = variant & VARIANT_WIDE ? 3 : 2, later_reach = 3;
+    const int halo = variant & VARIANT_ROUNDS_2   ? first_reach + later_reach
+                     : variant & VARIANT_ROUNDS_1 ? first_reach
+                                                  : 0;
     const int factor = variant & VARIANT_UPSAMPLE ? 2 : 1;
     const bool tile = shader == SHADER_PLANAR_TILE;
     out[0] = tile ? factor * (TILE_WIDTH - 2 * halo - factor + 1) : PIXEL_GROUP;
@@ -133,6 +138,7 @@ bool glssao__program_exists(enum glssao__shader shader, unsigned variant)
     bool tile_known =
         shader != SHADER_PLANAR_TILE ||
         ((variant & VARIANT_COMPUTE) && (variant & ROUND_FLAGS) != ROUND_FLAGS &&
+         ((variant & ROUND_FLAGS) || !(variant & VARIANT_WIDE)) &&
          (variant & VARIANT_UPSAMPLE ? !(variant & VARIANT_PAIRED)
                                      : (variant & ROUND_FLAGS) && !(variant & (NORMAL_FLAGS | DEPTH_FLAGS))));
     return (variant & ~shaders[shader].flags) == 0 && !both_encodings && !is_sum && !drawn_alone &&
@@ -397,7 +403,7 @@ glssao_result glssao__program_get(glssao_effect *effect, enum glssao__shader sha
     if (shader == SHADER_BLUR && !(variant & VARIANT_EDGE_AWARE))
         variant &= VARIANT_BOX | VARIANT_PAIRED | VARIANT_COMPUTE; /* it reads neither normals nor depth */
     if (shader == SHADER_PLANAR_TILE && !(variant & VARIANT_UPSAMPLE))
-        variant &= VARIANT_PAIRED | VARIANT_COMPUTE | ROUND_FLAGS;
+        variant &= VARIANT_PAIRED | VARIANT_COMPUTE | ROUND_FLAGS | VARIANT_WIDE;
     const glssao__program_object *found = find(effect, shader, variant);
     if (found) {
         *out = *found;

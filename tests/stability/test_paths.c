@@ -204,7 +204,7 @@ static void blurs_and_sizes_of_the_result_agree(void **state)
         for (int size = 0; size < 3; ++size) { /* full, half, brought to full */
             glssao_settings s = wide_horizon(GLSSAO_LOW);
             s.blur = (glssao_blur)blur;
-            s.blur_rounds = 1 + blur % 2;
+            s.blur_rounds = blur == GLSSAO_BLUR_PLANAR ? 5 - size : 1 + blur % 2; /* a dispatch runs up to two */
             s.half_resolution = size > 0;
             s.upsample = size > 1;
             char what[64];
