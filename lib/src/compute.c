@@ -46,11 +46,6 @@ bool glssao__compute_gives_up(glssao_effect *effect, const glssao_plan *plan, gl
     return true;
 }
 
-bool glssao__compute_reads_depth(const glssao_frame *frame, const glssao_plan *plan)
-{
-    return plan->passes[GLSSAO_PASS_ESTIMATE].compute && !frame->back_texture;
-}
-
 int glssao__compute_rounds_within(const glssao_settings *settings, const glssao_plan *plan)
 {
     const struct glssao_planned_pass *upsample = &plan->passes[GLSSAO_PASS_UPSAMPLE];
