@@ -25,13 +25,11 @@ const int FACTOR = 2; // pixels of the target per texel
 const int FACTOR = 1;
 #endif
 #if WIDE
-const int FIRST_REACH = 3; // texels that each direction of the first round reads on either side
+const int FIRST_REACH = 3; // texels that the first round reads on either side
 #else
 const int FIRST_REACH = 2;
 #endif
 const int LATER_REACH = 3;
-const bool LAST_WIDE = WIDE == 1 || ROUNDS == 2;
-const int LAST_REACH = LAST_WIDE ? LATER_REACH : FIRST_REACH;
 const int HALO = ROUNDS == 0 ? 0 : FIRST_REACH + (ROUNDS - 1) * LATER_REACH;
 const int WIDTH = GROUP_X;
 const int MADE_X = WIDTH - 2 * HALO - FACTOR + 1; // upsampling reads one more to the right and above
@@ -42,16 +40,35 @@ const int FIRST = LATER_REACH;
 const int SECOND = FIRST + WIDTH * HEIGHT;
 shared vec2 tiles[SECOND + WIDTH * HEIGHT + LATER_REACH];
 
+// The steps of the blur: a round takes one along x and one along y, a later one a single step.
+const int ALONG_X = 0;
+const int ALONG_Y = 1;
+const int AROUND = 2;
+
+// The last of them, and which tile it reads.
+#if WIDE || ROUNDS_2
+const int LAST_STEP = AROUND;
+#else
+const int LAST_STEP = ALONG_Y;
+#endif
+#if WIDE == ROUNDS_2
+const int LAST_FROM = SECOND;
+const int LAST_TO = FIRST;
+#else
+const int LAST_FROM = FIRST;
+const int LAST_TO = SECOND;
+#endif
+
 // Where the map begins and ends, in texels of the tile.
 ivec2 low, high;
 
-// Accessibility at a place, blurred along x (`by` 1) or y (`by` WIDTH), in the blur's first round or a later.
-float blurred_at(int at, int by, bool wide)
+float blurred_at(int at, int kind)
 {
-    vec2 way = by == 1 ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
-    if (wide)
-        return blurred_wide(tiles[at - 3 * by], tiles[at], tiles[at + 3 * by], way);
-    return blurred(tiles[at - 2 * by], tiles[at - by], tiles[at], tiles[at + by], tiles[at + 2 * by], way);
+    if (kind == AROUND)
+        return blurred_wide(tiles[at - 3], tiles[at - 3 * WIDTH], tiles[at], tiles[at + 3 * WIDTH], tiles[at + 3]);
+    int by = kind == ALONG_X ? 1 : WIDTH;
+    return blurred(tiles[at - 2 * by], tiles[at - by], tiles[at], tiles[at + by], tiles[at + 2 * by],
+                   kind == ALONG_X ? vec2(1.0, 0.0) : vec2(0.0, 1.0));
 }
 
 // A place in the tile that begins at `tile`. Beyond the map lies its edge.
@@ -61,13 +78,13 @@ int place(int tile, int row)
 }
 
 // Blurs all rows but so many at either end from one tile into the other.
-void blur_tile(int from, int to, int but, int by, bool wide)
+void blur_tile(int from, int to, int but, int kind)
 {
     for (int row = but + int(gl_LocalInvocationID.y); row < HEIGHT - but; row += GROUP_Y) {
         int at = place(from, row);
         vec2 center = tiles[at];
         tiles[to + row * WIDTH + int(gl_LocalInvocationID.x)] =
-            paired(blurred_at(at, by, wide), center.y, normal_code(center));
+            paired(blurred_at(at, kind), center.y, normal_code(center));
     }
     barrier();
 }
@@ -82,7 +99,7 @@ void store(ivec2 pixel, float accessibility)
 // The four pixels that the texel is the lower left of.
 void write(int row, ivec2 texel)
 {
-    int at = FIRST + row * WIDTH + int(gl_LocalInvocationID.x);
+    int at = (ROUNDS == 0 ? FIRST : LAST_TO) + row * WIDTH + int(gl_LocalInvocationID.x);
     vec2 a = tiles[at];
     vec2 b = tiles[at + 1];
     vec2 c = tiles[at + WIDTH];
@@ -98,12 +115,12 @@ void write(int row, ivec2 texel)
     store(pixel + ivec2(1, 1), upsampled(a, b, c, d, vec2(1.0), full_next));
 }
 #else
-// The last direction of the last round, whose accessibility the paired map would round.
+// The last step, whose accessibility the paired map would round.
 void write(int row, ivec2 texel)
 {
-    int at = place(SECOND, row);
+    int at = place(LAST_FROM, row);
     vec2 center = tiles[at];
-    float accessibility = blurred_at(at, WIDTH, LAST_WIDE);
+    float accessibility = blurred_at(at, LAST_STEP);
     if (any(greaterThanEqual(texel, gRegion.zw)))
         return;
 #if PAIRED
@@ -125,15 +142,16 @@ void main()
         tiles[FIRST + row * WIDTH + column] =
             texelFetch(u_ambient_map, corner + clamp(ivec2(column, row), low, high), 0).rg;
     barrier();
+#if WIDE && ROUNDS_2
+    blur_tile(FIRST, SECOND, FIRST_REACH, AROUND);
+#elif !WIDE && (ROUNDS_1 || ROUNDS_2)
+    blur_tile(FIRST, SECOND, 0, ALONG_X);
 #if ROUNDS_2
-    blur_tile(FIRST, SECOND, 0, 1, WIDE == 1);
-    blur_tile(SECOND, FIRST, FIRST_REACH, WIDTH, WIDE == 1);
+    blur_tile(SECOND, FIRST, FIRST_REACH, ALONG_Y);
 #endif
-#if ROUNDS_1 || ROUNDS_2
-    blur_tile(FIRST, SECOND, HALO - LAST_REACH, 1, LAST_WIDE);
-#if UPSAMPLE
-    blur_tile(SECOND, FIRST, HALO, WIDTH, LAST_WIDE);
 #endif
+#if UPSAMPLE && (ROUNDS_1 || ROUNDS_2)
+    blur_tile(LAST_FROM, LAST_TO, HALO, LAST_STEP);
 #endif
     if (column >= HALO && column < HALO + MADE_X)
         for (int row = HALO + int(gl_LocalInvocationID.y); row < HALO + MADE_Y; row += GROUP_Y)

@@ -102,8 +102,10 @@ static glssao_plan plan_of_skips(const char *reason)
 
 static int blur_calls(const glssao_settings *settings, const glssao_plan *plan)
 {
-    if (!plan->passes[GLSSAO_PASS_BLUR].compute || settings->blur != GLSSAO_BLUR_PLANAR)
+    if (settings->blur != GLSSAO_BLUR_PLANAR || settings->blur_rounds == 0)
         return 2 * settings->blur_rounds;
+    if (!plan->passes[GLSSAO_PASS_BLUR].compute)
+        return settings->blur_rounds + 1; /* the first round takes two */
     const int rounds = settings->blur_rounds - glssao__compute_rounds_within(settings, plan);
     return (rounds + COMPUTE_ROUNDS - 1) / COMPUTE_ROUNDS;
 }
