@@ -187,7 +187,8 @@ typedef struct glssao_frame { /* zero a field that you don't use */
 
 typedef enum glssao_map_id { /* textures to look at */
     GLSSAO_MAP_AMBIENT = 0,   /* the result: accessibility in red, R16; half size where it was estimated so and not upsampled */
-    GLSSAO_MAP_AMBIENT_OTHER, /* the second of the two ping-pong maps: the last horizontal blur, in red. R16; after
+    GLSSAO_MAP_AMBIENT_OTHER, /* the second of the two ping-pong maps: the last horizontal blur, in red, where fragment
+                                 shaders blur (compute shaders may do without it). R16; after
                                  upsampling or the planar blur RG32F, in green what is linear in the picture of a plane,
                                  and red's ten lowest bits hold the normal */
     GLSSAO_MAP_NORMAL,        /* the effect's own normal map, RGBA16F, full size */
