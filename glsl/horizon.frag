@@ -111,10 +111,17 @@ struct slice_frame {
     vec2 low, high;        // the map's first and last texel as seen from the point, pixels
     float center_distance; // scene units
     float per_scale;       // of a step, at the point: STEP over what a pixel's size grows with
-    vec2 x_per_px;         // for the plus side
+    vec2 x_per_px;
     vec2 y_per_px;
     float y_per_distance;
     float y_step; // of the depth format
+};
+
+// What one side of a slice has to itself.
+struct slice_side {
+    polynomial sectors; // numbered from the far end of the minus side
+    uint flip;          // all bits on the minus side, where numbers grow towards the eye; 0 on the plus side
+    float lowest;       // cosine of the angle at which the hemisphere ends
 };
 
 // What a sample must exceed to be an occluder.
@@ -147,21 +154,20 @@ vec3 sample_at(slice_frame f, vec2 first_px, vec2 step_px, float number, out vec
 }
 
 // Sectors that are hidden at x between two heights, where they lie within the sphere, by its half chord there.
-uint hidden_between(float x2, float chord, float top, float bottom, polynomial sectors, bool minus, float lowest,
-                    out float cos_top)
+uint hidden_between(float x2, float chord, float top, float bottom, slice_side side, out float cos_top)
 {
     top = min(top, chord);
     bottom = max(bottom, -chord);
-    cos_top = max(top * inversesqrt(x2 + top * top), lowest);
-    float cos_bottom = clamp(bottom * inversesqrt(x2 + bottom * bottom), lowest, cos_top);
-    uint near = 1u << sector(sectors, cos_top);
-    uint far = 1u << sector(sectors, cos_bottom);
-    return minus ? near - far : far - near;
+    cos_top = max(top * inversesqrt(x2 + top * top), side.lowest);
+    float cos_bottom = clamp(bottom * inversesqrt(x2 + bottom * bottom), side.lowest, cos_top);
+    uint near = 1u << sector(side.sectors, cos_top);
+    uint far = 1u << sector(side.sectors, cos_bottom);
+    return (far - near + side.flip) ^ side.flip; // the difference, or with all bits to flip its negative
 }
 
 // Sectors that one sample hides, whose run is `width` steps wide. Raises `highest` to the sample's top where it veils what is
 // behind it.
-uint hidden_by(vec3 at, vec2 layers, float width, polynomial sectors, bool minus, float lowest, least from, inout float highest)
+uint hidden_by(vec3 at, vec2 layers, float width, slice_side side, least from, inout float highest)
 {
     // x is 0 on the point's own texel, and below it where the border holds a sample on the other side; held right across the
     // slice, its angle is all error. And what the depth format can't tell from the tangent plane is no occluder.
@@ -174,18 +180,16 @@ uint hidden_by(vec3 at, vec2 layers, float width, polynomial sectors, bool minus
     uint mask = 0u;
 #if LAYERS
     float second = min(at.y - layers.y, chord); // its thickness counts from where it is within the sphere
-    mask = hidden_between(x2, chord, second, second - SECOND * thickness, sectors, minus, lowest, cos_top);
+    mask = hidden_between(x2, chord, second, second - SECOND * thickness, side, cos_top);
     thickness = layers.x >= 0.0 ? layers.x : thickness;
 #endif
-    mask |= hidden_between(x2, chord, at.y, at.y - thickness, sectors, minus, lowest, cos_top);
+    mask |= hidden_between(x2, chord, at.y, at.y - thickness, side, cos_top);
     highest = counts && thickness > VEIL_WIDTH ? max(highest, cos_top) : highest;
     return counts ? mask : 0u;
 }
 
-// Sectors that one side's samples hide. `lowest` is the cosine of the angle at which the hemisphere ends there, `highest`
-// that of the horizon over occluders that veil what is behind them.
-uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, polynomial sectors, bool minus, float lowest,
-                    least from, out float highest)
+// Sectors that one side's samples hide. `highest` is the cosine of the horizon over occluders that veil what is behind them.
+uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, slice_side side, least from, out float highest)
 {
     float change[STEPS];
     bool bend[STEPS + 1];
@@ -208,8 +212,8 @@ uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, polyn
 #define FIND_END(i) end[i] = boundary; boundary = jump[i] ? float(i) : boundary;
     EACH_STEP_BACK(FIND_END)
     uint mask = 0u;
-    highest = lowest;
-#define HIDE(i) mask |= hidden_by(samples[i], layers[i], end[i] - start[i], sectors, minus, lowest, from, highest);
+    highest = side.lowest;
+#define HIDE(i) mask |= hidden_by(samples[i], layers[i], end[i] - start[i], side, from, highest);
     EACH_STEP(HIDE)
     return mask;
 }
@@ -239,6 +243,29 @@ vec2 tile_noise()
     return noise;
 }
 
+// Adds the sectors that the samples of the plus side (`sign` 1) or the minus side (-1) hide, and takes from `veiled` what
+// their horizon leaves open. `g`: cosine and sine of the normal's lean; the sectors' measure is multiplied by `scale`, and
+// `origin` is that of the eye's direction.
+void add_side(slice_frame f, vec2 first_px, vec2 step_px, vec2 g, float scale, float origin, float least_x, float jitter,
+              float sign, inout uint mask, inout float veiled)
+{
+    f.x_per_px *= sign;
+    first_px *= sign;
+    step_px *= sign;
+    slice_side side;
+    side.sectors = measure(sign * g.x, g.y, scale);
+    side.sectors.low.x += origin;
+    side.flip = sign > 0.0 ? 0u : ~0u;
+    side.lowest = -sign * g.y;
+    vec3 samples[STEPS];
+    vec2 layers[STEPS];
+#define TAKE(i) samples[i] = sample_at(f, first_px, step_px, float(i), layers[i]);
+    EACH_STEP(TAKE)
+    float highest;
+    mask |= hidden_sectors(samples, layers, jitter, side, least(least_x, side.lowest / max(g.x, 1e-3), f.y_step), highest);
+    veiled -= value(measure(g.x, sign * g.y, 1.0), highest);
+}
+
 // What the slice adds to occlusion. `px`: view xy that a pixel gains, per unit of distance in perspective.
 float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float angle, float jitter)
 {
@@ -260,34 +287,22 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
     float projected = sqrt(max(normal_along * normal_along + normal_up * normal_up, 1e-12));
     float cos_g = normal_up / projected;
     float sin_g = normal_along / projected;
-    polynomial plus = measure(cos_g, sin_g, 1.0);
-    polynomial minus = measure(cos_g, -sin_g, 1.0);
-    float total_minus = value(minus, sin_g);
-    float total = max(value(plus, -sin_g) + total_minus, 1e-6);
     // Sectors are numbered from the far end of the minus side.
+    float total_minus = value(measure(cos_g, -sin_g, 1.0), sin_g);
+    float total = max(value(measure(cos_g, sin_g, 1.0), -sin_g) + total_minus, 1e-6);
     float scale = SECTORS / total;
-    polynomial plus_sectors = measure(cos_g, sin_g, scale);
-    polynomial minus_sectors = measure(-cos_g, sin_g, scale);
-    plus_sectors.low.x += total_minus * scale;
-    minus_sectors.low.x += total_minus * scale;
-
-    vec3 plus_samples[STEPS];
-    vec3 minus_samples[STEPS];
-    vec2 plus_layers[STEPS];
-    vec2 minus_layers[STEPS];
-    vec3 mirror = vec3(-1.0, 1.0, 1.0);
-#define TAKE_PLUS(i) plus_samples[i] = sample_at(f, first_px, step_px, float(i), plus_layers[i]);
-#define TAKE_MINUS(i) minus_samples[i] = mirror * sample_at(f, -first_px, -step_px, float(i), minus_layers[i]);
-    EACH_STEP(TAKE_PLUS)
-    EACH_STEP(TAKE_MINUS)
-    float tangent = sin_g / max(cos_g, 1e-3);
-    least from_plus = least(0.2 * STEP * length(f.x_per_px) / f.per_scale, -tangent, f.y_step); // a fifth of a pixel
-    least from_minus = least(from_plus.x, tangent, f.y_step);
-    float highest_plus, highest_minus;
-    uint mask = hidden_sectors(plus_samples, plus_layers, jitter, plus_sectors, false, -sin_g, from_plus, highest_plus) |
-                hidden_sectors(minus_samples, minus_layers, jitter, minus_sectors, true, sin_g, from_minus, highest_minus);
+    float least_x = 0.2 * STEP * length(f.x_per_px) / f.per_scale; // a fifth of a pixel
+    uint mask = 0u;
+    float veiled = total;
+#if COMPUTE
+    for (int i = 0; i < 2; ++i)
+        add_side(f, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, least_x, jitter,
+                 i == 0 ? 1.0 : -1.0, mask, veiled);
+#else
+    add_side(f, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, least_x, jitter, 1.0, mask, veiled);
+    add_side(f, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, least_x, jitter, -1.0, mask, veiled);
+#endif
     float hidden = total * float(count_bits(mask)) / SECTORS;
-    float veiled = total - value(plus, highest_plus) - value(minus, highest_minus);
     return projected * mix(hidden, veiled, VEIL);
 }
 
@@ -325,9 +340,17 @@ RESULT result()
     f.y_per_distance = ray_length / gOcclusionRadius;
     f.y_step = f.y_per_distance * depth_step(distance + gOcclusionRadius);
     vec2 noise = tile_noise();
+    // By loops a GPU's caches hold all of the program, which they don't written out.
+#if COMPUTE
+    float occlusion = 0.0;
+    for (int i = 0; i < SLICES; ++i)
+        occlusion += slice_occlusion(f, normal_view, up, px, (noise.x + float(i)) / float(SLICES), noise.y);
+    occlusion /= float(SLICES);
+#else
     float occlusion = slice_occlusion(f, normal_view, up, px, noise.x / float(SLICES), noise.y);
 #if SLICES_2
     occlusion = 0.5 * (occlusion + slice_occlusion(f, normal_view, up, px, 0.5 * (noise.x + 1.0), noise.y));
+#endif
 #endif
     // pow() is undefined for a base of 0 with power 0, and for the negative that rounding can leave, as it can leave more
     // than 1.

@@ -94,7 +94,8 @@ enum glssao__variant {
     VARIANT_ROUNDS_1 = 2097152,
     VARIANT_ROUNDS_2 = 4194304,
     VARIANT_WIDE = 8388608,
-    VARIANT_FLAGS = 24, /* how many there are */
+    VARIANT_PERSPECTIVE = 16777216,
+    VARIANT_FLAGS = 25, /* how many there are */
     VARIANT_COUNT = 1 << VARIANT_FLAGS
 };
 

@@ -33,6 +33,7 @@ static const char *const macros[VARIANT_FLAGS] = {
     "ROUNDS_1",
     "ROUNDS_2",
     "WIDE",
+    "PERSPECTIVE",
 };
 
 enum {
@@ -64,7 +65,7 @@ static const struct shader {
                          {shader_view_glsl, shader_distance_frag, shader_entry_glsl}},
     [SHADER_HORIZON] = {"horizon",
                         NORMAL_FLAGS | STEP_FLAGS | VARIANT_SLICES_2 | VARIANT_ACCUMULATE | VARIANT_LAYERS |
-                            VARIANT_PAIRED | VARIANT_OPEN | VARIANT_COMPUTE,
+                            VARIANT_PAIRED | VARIANT_OPEN | VARIANT_COMPUTE | VARIANT_PERSPECTIVE,
                         {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_horizon_frag,
                          shader_entry_glsl}},
     [SHADER_RESOLVE] = {"resolve",
@@ -103,9 +104,9 @@ static const struct shader {
 };
 
 /* Invocations of a work group, and how many rows of a tile they share; glsl/planar_tile.comp, glsl/entry.glsl. */
-enum { PIXEL_GROUP = 8, TILE_WIDTH = 32, TILE_HEIGHT = 32 };
-static const char pixel_sizes[] = "#define GROUP_X 8\n#define GROUP_Y 8\n";
-static const char tile_sizes[] = "#define GROUP_X 32\n#define GROUP_Y 8\n#define HEIGHT 32\n";
+enum { PIXEL_GROUP_X = 8, PIXEL_GROUP_Y = 16, TILE_WIDTH = 32, TILE_HEIGHT = 32 };
+static const char pixel_sizes[] = "#define GROUP_X 8\n#define GROUP_Y 16\n";
+static const char tile_sizes[] = "#define GROUP_X 32\n#define GROUP_Y 16\n#define HEIGHT 32\n";
 
 /* Pixels of the target that a work group makes. */
 static void find_group(enum glssao__shader shader, unsigned variant, int out[2])
@@ -116,8 +117,8 @@ static void find_group(enum glssao__shader shader, unsigned variant, int out[2])
                                                   : 0;
     const int factor = variant & VARIANT_UPSAMPLE ? 2 : 1;
     const bool tile = shader == SHADER_PLANAR_TILE;
-    out[0] = tile ? factor * (TILE_WIDTH - 2 * halo - factor + 1) : PIXEL_GROUP;
-    out[1] = tile ? factor * (TILE_HEIGHT - 2 * halo - factor + 1) : PIXEL_GROUP;
+    out[0] = tile ? factor * (TILE_WIDTH - 2 * halo - factor + 1) : PIXEL_GROUP_X;
+    out[1] = tile ? factor * (TILE_HEIGHT - 2 * halo - factor + 1) : PIXEL_GROUP_Y;
 }
 
 const char *glssao__program_shader_name(enum glssao__shader shader)
@@ -127,6 +128,8 @@ const char *glssao__program_shader_name(enum glssao__shader shader)
 
 bool glssao__program_exists(enum glssao__shader shader, unsigned variant)
 {
+    if (variant & ~shaders[shader].flags)
+        return false;
     bool both_encodings = (variant & NORMAL_FLAGS) == NORMAL_FLAGS;
     unsigned steps = variant & STEP_FLAGS;
     bool alpha_alone = (variant & VARIANT_DEPTH_IN_ALPHA) && !(variant & VARIANT_DEPTH_IS_DISTANCE);
@@ -141,8 +144,10 @@ bool glssao__program_exists(enum glssao__shader shader, unsigned variant)
          ((variant & ROUND_FLAGS) || !(variant & VARIANT_WIDE)) &&
          (variant & VARIANT_UPSAMPLE ? !(variant & VARIANT_PAIRED)
                                      : (variant & ROUND_FLAGS) && !(variant & (NORMAL_FLAGS | DEPTH_FLAGS))));
-    return (variant & ~shaders[shader].flags) == 0 && !both_encodings && !is_sum && !drawn_alone &&
-           (steps & (steps - 1)) == 0 && !alpha_alone && tile_known && (shader != SHADER_BLUR || edges_needed);
+    /* The others ask the constants, since a branch that all pixels take alike costs them nothing to speak of. */
+    bool projection_known = (variant & VARIANT_PERSPECTIVE) && !(variant & VARIANT_COMPUTE);
+    return !both_encodings && !projection_known && !is_sum && !drawn_alone && (steps & (steps - 1)) == 0 &&
+           !alpha_alone && tile_known && (shader != SHADER_BLUR || edges_needed);
 }
 
 int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enum stage,
