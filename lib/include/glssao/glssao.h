@@ -134,7 +134,7 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     bool half_resolution;          /* estimate at half the size, (w + 1) / 2 by (h + 1) / 2 */
     bool upsample;                 /* a half-size result is brought to full size along surfaces; else it stays half size */
     glssao_blur blur;              /* of the estimate, before upsampling */
-    int blur_rounds;               /* 0 to 16: each is one horizontal and one vertical pass */
+    int blur_rounds;               /* 0 to 16: each is a horizontal and a vertical pass; planar: after the first, one */
     float blur_sigma;              /* pixels of the ambient map, above 0 to 2.5 */
     float blur_normal_threshold;   /* cosine, -1 to 1: taps whose normals' dot product is below are dropped */
     float blur_depth_threshold;    /* scene units, >= 0: taps farther off in view distance are dropped */
