@@ -203,7 +203,7 @@ static void logarithms_are_undone(void **state)
 static void assert_refused(fixture *f, const glssao_frame *frame, const char *named)
 {
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
-    glssao_effect *effect = subject_effect(f, W, H);
+    glssao_effect *effect = fixture_shared_effect(f, W, H);
     fixture_clear_log(f);
     assert_int_equal(glssao_compute(effect, frame, &settings), GLSSAO_INVALID_ARGUMENT);
     if (!strstr(f->log, named))
@@ -249,7 +249,7 @@ static void a_map_that_a_pass_draws_into_is_refused(void **state)
     subject s = room();
     glssao_frame frame = subject_frame(&s, DEPTH_24, NORMAL_NONE), bad = frame;
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
-    glssao_effect *effect = subject_effect(f, W, H);
+    glssao_effect *effect = fixture_shared_effect(f, W, H);
     int w, h;
     bad.depth_texture = glssao_map(effect, GLSSAO_MAP_NORMAL, &w, &h); /* where normals would be rebuilt */
     assert_refused(f, &bad, "the effect's own map");
@@ -292,12 +292,6 @@ static void depth_may_stay_attached_to_the_bound_framebuffer(void **state)
     subject_free(&s);
 }
 
-static void end(void **state)
-{
-    (void)state;
-    subject_end();
-}
-
 int main(void)
 {
 #define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
@@ -308,7 +302,6 @@ int main(void)
         GL_TEST(unreadable_inputs_are_named),
         GL_TEST(a_map_that_a_pass_draws_into_is_refused),
         GL_TEST(depth_may_stay_attached_to_the_bound_framebuffer),
-        GL_TEST(end),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
 }
