@@ -142,6 +142,14 @@ float stored_depth(vec2 uv)
     return depth_component(texture(u_depth_map, uv));
 }
 
+// What classic and hemisphere make of a radius below a pixel is what the depth filter shows between two texels, where no surface
+// is: 1 from a pixel of the target on, below it less in proportion.
+float radius_fade(float distance)
+{
+    vec2 pixel = abs(gRayOrigin.xy + distance * gRayDirection.xy) * gInvRenderTargetSize;
+    return clamp(gOcclusionRadius / max(min(pixel.x, pixel.y), 1e-30), 0.0, 1.0); // at the eye, a pixel has no width
+}
+
 // The point that is seen at uv at a view distance (scene units).
 vec3 position_view_from_uv(vec2 uv, float distance)
 {

@@ -162,6 +162,8 @@ static const hard_case cases[] = {
     {"half float distances", SEE_PLANE, 60.0, 30.0, .zoom = 10.0, .depth = DISTANCE_16F, .normal = NORMAL_32F,
      .lengths = 0.3, .least = {0.95, 0.97, 0.95}},
     {"half floats past 65504", SEE_PLANE, .spoil = distance_1e6, .depth = ALPHA_16F, .least = EXACT, .turn = 1},
+    {"a radius below a tenth of a pixel", SEE_ROOM, .lengths = 0.006, .depth = DEPTH_32F, .normal = NORMAL_32F,
+     .least = {0.9, 0.9, 0.9}},
     {"a scene of 10^-10", SEE_PLANE, 60.0, 3e-10, .near_plane = 1e-11, .far_plane = 1e-7, .depth = DEPTH_32F,
      .normal = NORMAL_32F, .least = OPEN},
     {"a scene of 10^11", SEE_PLANE, 60.0, 3e11, .near_plane = 1e10, .far_plane = 1e14, .depth = DEPTH_32F,
