@@ -7,10 +7,24 @@ uniform sampler2D u_depth_map; // as the host stores it
 // Where the target's lower left corner lies in the maps, in pixels: not 0 for the last pass of a frame with a margin.
 uniform vec2 gOrigin;
 
-// The pixel's centre in the maps that the passes read.
+#if COMPUTE
+uniform ivec4 gRegion; // of the target, pixels: lower left corner and size of what is written
+#endif
+
+// The pixel's centre in the target.
+vec2 target_center()
+{
+#if COMPUTE
+    return vec2(ivec2(gl_GlobalInvocationID.xy) + gRegion.xy) + 0.5;
+#else
+    return gl_FragCoord.xy;
+#endif
+}
+
+// The same in the maps that the passes read.
 vec2 pixel_center()
 {
-    return gl_FragCoord.xy + gOrigin;
+    return target_center() + gOrigin;
 }
 
 // The same in uv, as every pass has it, whatever geometry it is drawn with.
@@ -53,10 +67,14 @@ float depth_step(float distance)
 }
 
 // A quantity that is linear across the picture of a plane: 1 / distance in perspective, distance itself where the
-// projection is orthographic.
+// projection is orthographic. PERSPECTIVE 1: it is known not to be, which spares a GPU registers.
 bool orthographic()
 {
+#if PERSPECTIVE
+    return false;
+#else
     return gRayDirection.x == 0.0;
+#endif
 }
 
 float linear_from_distance(float distance)

@@ -51,7 +51,7 @@ static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, co
     if (!p->wants.normals) {
         return true;
     }
-    if (p->kept && (p->seed != o->seed || p->kept_timers != p->wants.timers)) {
+    if (p->kept && (p->seed != o->seed || p->kept_timers != p->wants.timers || p->kept_path != (glssao_path)o->path)) {
         glssao_destroy(p->kept);
         p->kept = NULL;
     }
@@ -62,13 +62,15 @@ static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, co
                                       .width = p->width,
                                       .height = p->height,
                                       .seed = o->seed,
-                                      .no_timers = !p->wants.timers};
+                                      .no_timers = !p->wants.timers,
+                                      .path = (glssao_path)o->path};
         const glssao_result result = glssao_create(&config, &p->kept);
         if (result != GLSSAO_OK) {
             snprintf(error, error_size, "the effect can't be made: %s", glssao_result_string(result));
             return false;
         }
         p->kept_timers = p->wants.timers;
+        p->kept_path = (glssao_path)o->path;
     }
     p->effect = p->kept;
     return true;
