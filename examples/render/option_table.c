@@ -82,6 +82,8 @@ const option option_table[] = {
      1, 1000000, "I/N with I from 0 to N-1", SCOPE_BATCH},
     {0, "cache", "MIB", "of a batch, how large scenes kept for later jobs may be (1024)", KIND_INT, AT(cache_mib), 0,
      1048576, "a whole number from 0 to 1048576", SCOPE_BATCH},
+    {0, "program-cache", "DIR", "a folder where the effect's linked programs are kept for the next run", KIND_FILE,
+     AT(program_cache), 0, 0, "", SCOPE_RUN},
     {0, "seed", "N", "of every random input (0)", KIND_SEED, AT(seed), 0, 4294967295.0,
      "a whole number from 0 to 4294967295", SCOPE_PICTURE},
     {'h', "help", NULL, "prints this", KIND_FLAG, AT(help), 0, 0, NULL, SCOPE_RUN},

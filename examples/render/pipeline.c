@@ -2,6 +2,7 @@
  *
  * The passes of one frame, and what they need beside targets.
  */
+#define _POSIX_C_SOURCE 200809L
 #include "pipeline.h"
 
 #include "camera.h"
@@ -10,6 +11,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* The effect's lengths belong together: a radius other than the default's scales the others along. */
 glssao_settings pipeline_settings(const options *o, const scene *s)
@@ -44,6 +46,12 @@ glssao_settings pipeline_settings(const options *o, const scene *s)
     return settings;
 }
 
+static bool is_folder(const char *path)
+{
+    struct stat found;
+    return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
+}
+
 static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, const options *o, char *error,
                            size_t error_size)
 {
@@ -56,13 +64,18 @@ static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, co
         p->kept = NULL;
     }
     if (!p->kept) {
+        if (o->program_cache && !is_folder(o->program_cache)) {
+            snprintf(error, error_size, "--program-cache %s: there is no folder of that name", o->program_cache);
+            return false;
+        }
         const glssao_config config = {.load = load,
                                       .load_user = load_user,
                                       .log = glssao_log_to_stderr,
                                       .width = p->width,
                                       .height = p->height,
                                       .seed = o->seed,
-                                      .no_timers = !p->wants.timers};
+                                      .no_timers = !p->wants.timers,
+                                      .program_cache = o->program_cache};
         const glssao_result result = glssao_create(&config, &p->kept);
         if (result != GLSSAO_OK) {
             snprintf(error, error_size, "the effect can't be made: %s", glssao_result_string(result));

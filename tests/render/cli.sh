@@ -181,6 +181,18 @@ size="-s 65x37"
     want 2 "--budget and --bench exclude each other" --budget 10 --bench 3
     want 2 "--error and --no-ao exclude each other" --error 0.01 --no-ao -o e4.png
 
+    # Programs kept for the next run, which draws the same; a folder that is not there is told.
+    mkdir programs
+    for run in 1 2; do
+        want 0 "" $size --context egl --ao "c$run.pfm" --program-cache programs
+        for file in programs/*.bin; do
+            [ -s "$file" ] || fail "--program-cache keeps nothing"
+            [ $run = 1 ] || [ ! "$file" -nt c1.pfm ] || fail "--program-cache compiles $file again"
+        done
+    done
+    cmp c1.pfm c2.pfm || fail "--program-cache changes the picture"
+    want 1 "--program-cache no-folder: there is no folder" $size --ao c3.pfm --program-cache no-folder
+
     # Built-in scenes and both kinds of context.
     for scene in columns cornell steps plane; do
         want 0 "" $size --scene $scene -o scene.png
