@@ -101,6 +101,25 @@ struct scene_renderer {
  * matrix that mirrors. */
 bool draw_normal_matrix(const float affine[16], float out[3][3]);
 
+/* What is the same for all draw calls of a pass, and what the last one left bound. */
+typedef struct draw_pass {
+    const scene_renderer *renderer;
+    const scene_view *view;
+    draw_kind kind;
+    float normal_view_from_world[3][3];
+    double clip_from_world[16];
+    float depth_offset; /* layers */
+    float ambient[3], ambient_tilt[3], up_view[3], directional[3], to_light_view[3]; /* main pass */
+    float lights[MOST_LIGHTS][4][4];
+    int light_count;
+
+    const draw_program *program;
+    unsigned variant;
+    int material;
+    bool mirrored;
+    uint32_t first_instance;
+} draw_pass;
+
 /* draw_items.c: decides which draw calls the scene takes; fills instances[s->instance_count]. */
 bool draw_plan_items(scene_renderer *r, draw_instance *instances);
 /* False where the item lies wholly outside what the matrix shows. */
@@ -127,7 +146,13 @@ bool draw_build_map_programs(draw_pool *pool, char *error, size_t error_size);
 /* draw.c: GL's defaults; one texture; all items of a kind, with the view's matrices. */
 void draw_set_defaults(void);
 void draw_bind_texture(unsigned unit, unsigned texture, unsigned sampler);
-/* Draws opaque items as `kind`, those that are seen; returns how many, and adds those that are not to *out_culled. */
+draw_pass draw_begin(const scene_renderer *r, const scene_view *view, draw_kind kind);
+void draw_item_now(draw_pass *pass, const draw_item *item);
+/* Opaque items that are seen; returns how many, and adds those that are not to *out_culled. */
+unsigned draw_opaque(draw_pass *pass, unsigned *out_culled);
+/* A renderer that nobody configured draws plainly; false where that fails, with a line on stderr. */
+bool draw_is_ready(scene_renderer *r);
+/* The whole of a pass: draws opaque items as `kind`, those that are seen; returns how many, and adds those that are not to *out_culled. */
 unsigned draw_opaque_items(scene_renderer *r, const scene_view *view, draw_kind kind, unsigned *out_culled);
 
 #endif
