@@ -74,6 +74,8 @@ const option option_table[] = {
      0, NULL, SCOPE_PICTURE},
     {0, "multi-bounce", NULL, "occluded light takes on the surface's colour", KIND_FLAG, AT(multi_bounce), 0, 0, NULL,
      SCOPE_PICTURE},
+    {0, "environment", "FILE", "equirectangular picture (.hdr, .png, .jpg) that lights the scene, and its sky", KIND_FILE,
+     AT(environment), 0, 0, ".hdr|.pic|.png|.jpg|.jpeg", SCOPE_PICTURE},
     {0, "debug-map", "NAME", "in the picture's lower right: ao, normals, depth, random, shadow or tiles", KIND_WORD,
      AT(debug_map), 0, 0, "none|ao|normals|depth|random|shadow|tiles", SCOPE_PICTURE},
     {0, "batch", "LIST", "renders each line of LIST (-: standard input), which holds options and a scene as here",

@@ -10,6 +10,7 @@
 #include "setting_table.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -87,13 +88,40 @@ static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, co
     return true;
 }
 
+static void drop_environment(pipeline *p)
+{
+    scene_environment_destroy(p->environment);
+    free(p->environment_path);
+    p->environment = NULL;
+    p->environment_path = NULL;
+}
+
+/* The one there is stays where the path is the same. */
+static bool prepare_environment(pipeline *p, const char *path, char *error, size_t error_size)
+{
+    if (path && p->environment_path && strcmp(path, p->environment_path) == 0) {
+        return true;
+    }
+    drop_environment(p);
+    if (!path) {
+        return true;
+    }
+    p->environment = scene_environment_load(path, error, error_size);
+    p->environment_path = p->environment ? strdup(path) : NULL;
+    return p->environment;
+}
+
 bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_user, const options *o,
                       pipeline_wants wants, char *error, size_t error_size)
 {
     const int width = o->width + 2 * o->margin, height = o->height + 2 * o->margin;
     p->wants = wants;
     p->renderer = st->renderer;
+    if (wants.picture && !prepare_environment(p, o->environment, error, error_size)) {
+        return false;
+    }
     p->lighting = st->lighting;
+    scene_lighting_surround(&p->lighting, st->scene, wants.picture ? p->environment : NULL);
     if ((width != p->width || height != p->height) && !pipeline_change_size(p, width, height, error, error_size)) {
         return false;
     }
@@ -136,6 +164,7 @@ void pipeline_destroy(pipeline *p)
     glssao_destroy(p->kept);
     truth_close(&p->truth);
     if (p->renderer) {
+        drop_environment(p);
         pipeline_free_targets(p);
     }
     stage_close(&p->own);
@@ -175,15 +204,6 @@ static bool draw_prepass(pipeline *p, const scene_view *view, char *error, size_
     return true;
 }
 
-static bool has_ambient(const scene_lighting *l)
-{
-    bool any = false;
-    for (int i = 0; i < 3; i++) {
-        any = any || l->ambient[i] != 0 || l->ambient_tilt[i] != 0;
-    }
-    return any;
-}
-
 glssao_frame pipeline_frame(const pipeline *p, const scene_view *view)
 {
     glssao_frame frame = {.depth_texture = p->depth,
@@ -194,7 +214,7 @@ glssao_frame pipeline_frame(const pipeline *p, const scene_view *view)
     memcpy(frame.projection, view->clip_from_view, sizeof frame.projection);
     frame.only_sky = scene_find_seen(p->renderer, view).opaque == 0;
     /* Accessibility scales nothing else; but a map that was asked for itself is made. */
-    frame.no_ambient_light = p->wants.picture && !p->wants.ao_map && !has_ambient(&p->lighting);
+    frame.no_ambient_light = p->wants.picture && !p->wants.ao_map && !scene_lighting_has_ambient(&p->lighting);
     return frame;
 }
 

@@ -34,6 +34,8 @@ typedef struct pipeline {
     stage own;                /* pipeline_create's */
     scene_renderer *renderer; /* of the stage */
     scene_lighting lighting;
+    scene_environment *environment; /* of the lighting; NULL: the built-in one */
+    char *environment_path;
     glssao_effect *effect; /* NULL where neither occlusion passes nor normals are wanted; else: */
     glssao_effect *kept;   /* of these, and of the targets' size */
     bool kept_timers;

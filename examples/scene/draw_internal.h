@@ -26,7 +26,7 @@ typedef struct draw_instance {
     float normal_world_from_mesh[3][3];
 } draw_instance;
 
-typedef enum draw_kind { DRAW_NORMALS = 0, DRAW_MAIN, DRAW_SHADOW, DRAW_LAYER, DRAW_KIND_COUNT } draw_kind;
+typedef enum draw_kind { DRAW_NORMALS = 0, DRAW_MAIN, DRAW_SHADOW, DRAW_LAYER, DRAW_KIND_COUNT, DRAW_SKY = DRAW_KIND_COUNT } draw_kind;
 
 /* One draw call: a primitive for the instances of its mesh that are mirrored, or for those that are not. Blended
  * primitives get an item for each instance, since each has its place in the order of depth. */
@@ -57,8 +57,13 @@ typedef struct draw_pool {
     int users;
     draw_variant *variants; /* built as items need them */
     int variant_count;
-    draw_program map, view_distance, sky;
+    draw_program map, view_distance;
 } draw_pool;
+
+struct scene_environment {
+    unsigned sky, mirrors, sampler; /* the mirrors' mip levels are their roughness */
+    float irradiance[9][3];         /* as in environment.h */
+};
 
 typedef struct draw_shadow {
     bool used;
@@ -90,7 +95,8 @@ struct scene_renderer {
     draw_pool *pool;
     scene_draw_options options;
     bool configured;
-    draw_program map, view_distance, sky; /* the pool's */
+    draw_program map, view_distance; /* the pool's */
+    int sky;                         /* index into the pool's variants; -1: no program is called for */
     draw_shadow shadow;
     draw_sky_seen sky_seen;
     scene_draw_counts counts;
@@ -112,6 +118,8 @@ typedef struct draw_pass {
     float ambient[3], ambient_tilt[3], up_view[3], directional[3], to_light_view[3]; /* main pass */
     float lights[MOST_LIGHTS][4][4];
     int light_count;
+    const scene_environment *environment;
+    float world_from_view[3][3];
 
     const draw_program *program;
     unsigned variant;
@@ -128,6 +136,9 @@ bool draw_item_is_seen(const draw_item *item, const double clip_from_world[16]);
 /* draw_programs.c: gives every item the programs that the options call for, building those that are missing. */
 bool draw_choose_programs(scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options,
                           bool shadowed, char *error, size_t error_size);
+
+/* False where the sky is one colour. */
+bool draw_has_sky(const scene_lighting *lighting);
 
 /* draw_shadow.c */
 bool draw_shadow_wanted(const scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options);

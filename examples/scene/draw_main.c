@@ -90,14 +90,13 @@ static void set_lighting(draw_pass *pass, const scene_lighting *lighting)
     glm_vec3_negate(pass->to_light_view);
     glm_vec3_normalize(pass->to_light_view);
     glm_vec3_normalize(pass->up_view);
+    pass->environment = lighting->environment;
+    for (int c = 0; c < 3; c++)
+        for (int row = 0; row < 3; row++) /* a view only turns: its inverse is its transpose */
+            pass->world_from_view[c][row] = pass->view->view_from_world[4 * row + c];
     pass->light_count = (int)(lighting->light_count < MOST_LIGHTS ? lighting->light_count : MOST_LIGHTS);
     for (int i = 0; i < pass->light_count; i++)
         pack_light(&lighting->lights[i], pass->view, pass->lights[i]);
-}
-
-static bool is_gradient(const scene_lighting *lighting)
-{
-    return lighting->sky_tilt[0] != 0 || lighting->sky_tilt[1] != 0 || lighting->sky_tilt[2] != 0;
 }
 
 /* Whether the sky of this view was drawn before and no pixel of it passed: the scene stands still, so none will. Never
@@ -123,12 +122,14 @@ static void draw_sky(scene_renderer *r, const scene_view *view, const scene_ligh
     view_from_world[3][0] = view_from_world[3][1] = view_from_world[3][2] = 0;
     glm_mat4_mul((vec4 *)view->clip_from_view, view_from_world, clip_from_world);
     glm_mat4_inv(clip_from_world, world_from_clip);
-    const draw_program *p = &r->sky;
+    const draw_program *p = &r->pool->variants[r->sky].program;
     gl.UseProgram(p->name);
     gl.BindVertexArray(r->empty_vertex_array);
     gl.UniformMatrix4fv(p->world_from_clip, 1, GL_FALSE, world_from_clip[0]);
     gl.Uniform3fv(p->sky, 1, lighting->sky);
     gl.Uniform3fv(p->sky_tilt, 1, lighting->sky_tilt);
+    if (lighting->environment)
+        draw_bind_texture(UNIT_ENVIRONMENT, lighting->environment->sky, lighting->environment->sampler);
     gl.Disable(GL_CULL_FACE);
     gl.FrontFace(GL_CCW);
     gl.DepthFunc(GL_LEQUAL);
@@ -159,13 +160,17 @@ void scene_draw_main(scene_renderer *r, const scene_view *view, const scene_ligh
     gl.ClearBufferfv(GL_COLOR, 0, sky);
 
     draw_bind_texture(UNIT_AMBIENT, ambient_map ? ambient_map : r->white_texture, r->linear_sampler);
+    if (lighting->environment)
+        draw_bind_texture(UNIT_ENVIRONMENT, lighting->environment->mirrors, lighting->environment->sampler);
     if (r->shadow.used)
         draw_bind_texture(UNIT_SHADOW, r->shadow.texture, r->shadow.sampler);
     gl.DepthMask(GL_FALSE);
     gl.DepthFunc(GL_EQUAL);
     r->counts.main = draw_opaque(&pass, &r->counts.culled);
-    if (is_gradient(lighting) && !is_sky_hidden(r, view)) {
+    if (r->sky >= 0 && draw_has_sky(lighting) && !is_sky_hidden(r, view)) {
         draw_sky(r, view, lighting);
+        if (lighting->environment)
+            draw_bind_texture(UNIT_ENVIRONMENT, lighting->environment->mirrors, lighting->environment->sampler);
         gl.BindVertexArray(r->vertex_array);
         pass.program = NULL;
     }

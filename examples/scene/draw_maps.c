@@ -66,6 +66,5 @@ bool draw_build_map_programs(draw_pool *pool, char *error, size_t error_size)
 {
     return draw_program_build(&pool->map, "map pass", shader_fullscreen_vert, "", shader_map_frag, 0, error, error_size) &&
            draw_program_build(&pool->view_distance, "view distance pass", shader_fullscreen_vert, "",
-                              shader_view_distance_frag, 0, error, error_size) &&
-           draw_program_build(&pool->sky, "sky pass", shader_sky_vert, "", shader_sky_frag, 0, error, error_size);
+                              shader_view_distance_frag, 0, error, error_size);
 }

@@ -21,7 +21,7 @@ bool draw_pool_join(scene_renderer *r, const scene_renderer *like, char *error, 
         return false; /* scene_renderer_destroy leaves the pool */
     r->map = pool->map;
     r->view_distance = pool->view_distance;
-    r->sky = pool->sky;
+    r->sky = -1;
     return true;
 }
 
@@ -35,7 +35,6 @@ void draw_pool_leave(scene_renderer *r)
         gl.DeleteProgram(pool->variants[i].program.name);
     gl.DeleteProgram(pool->map.name);
     gl.DeleteProgram(pool->view_distance.name);
-    gl.DeleteProgram(pool->sky.name);
     free(pool->variants);
     free(pool);
 }

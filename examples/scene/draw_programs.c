@@ -13,7 +13,8 @@
 /* Index of the program, built where it is not there yet; -1 on failure. */
 static int find_program(draw_pool *pool, draw_kind kind, unsigned variant, char *error, size_t error_size)
 {
-    static const char *const what[] = {"scene normals pass", "scene main pass", "shadow pass", "layer pass"};
+    static const char *const what[] = {"scene normals pass", "scene main pass", "shadow pass", "layer pass", "sky pass"};
+    const bool is_sky = kind == DRAW_SKY;
     for (int i = 0; i < pool->variant_count; i++)
         if (pool->variants[i].kind == kind && pool->variants[i].variant == variant)
             return i;
@@ -24,8 +25,12 @@ static int find_program(draw_pool *pool, draw_kind kind, unsigned variant, char 
     }
     pool->variants = grown;
     draw_variant made = {.kind = kind, .variant = variant};
-    if (!draw_program_build(&made.program, what[kind], shader_scene_vert, shader_surface_glsl, kind == DRAW_MAIN ? shader_main_frag : shader_normals_frag, variant,
-                            error, error_size))
+    if (!draw_program_build(&made.program, what[kind], is_sky ? shader_sky_vert : shader_scene_vert,
+                            is_sky ? "" : shader_surface_glsl,
+                            is_sky              ? shader_sky_frag
+                            : kind == DRAW_MAIN ? shader_main_frag
+                                                : shader_normals_frag,
+                            variant, error, error_size))
         return -1;
     pool->variants[pool->variant_count] = made;
     return pool->variant_count++;
@@ -51,6 +56,7 @@ static unsigned main_variant(const draw_item *item, const scene_lighting *lighti
         return item->variant;
     const bool occluded = !item->blended;
     return item->variant | (shadowed ? VARIANT_SHADOWED : 0u) | (lighting->light_count ? VARIANT_LIGHTS : 0u) |
+           (lighting->environment ? VARIANT_ENVIRONMENT : 0u) |
            (options->specular_occlusion && occluded && item->variant & VARIANT_REFLECTIVE ? VARIANT_SPECULAR_OCCLUSION
                                                                                           : 0u) |
            (options->multi_bounce && occluded ? VARIANT_MULTI_BOUNCE : 0u);
@@ -63,9 +69,21 @@ static unsigned depth_variant(unsigned normals)
     return normals & VARIANT_MASKED ? normals & test : 0u;
 }
 
+bool draw_has_sky(const scene_lighting *lighting)
+{
+    const float *tilt = lighting->sky_tilt;
+    return lighting->environment || tilt[0] != 0 || tilt[1] != 0 || tilt[2] != 0;
+}
+
 bool draw_choose_programs(scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options,
                           bool shadowed, char *error, size_t error_size)
 {
+    int sky = -1;
+    if (!options->no_picture && draw_has_sky(lighting)) {
+        sky = find_program(r->pool, DRAW_SKY, lighting->environment ? VARIANT_ENVIRONMENT : 0u, error, error_size);
+        if (sky < 0)
+            return false;
+    }
     for (uint32_t i = 0; i < r->item_count; i++) {
         draw_item *item = &r->items[i];
         const scene_material *m = &r->scene->materials[item->material];
@@ -94,6 +112,7 @@ bool draw_choose_programs(scene_renderer *r, const scene_lighting *lighting, con
         for (int k = 0; k < DRAW_KIND_COUNT; k++)
             item->program[k] = chosen[k];
     }
+    r->sky = sky;
     return true;
 }
 
@@ -142,8 +161,7 @@ void scene_renderer_effects(const scene_renderer *r, const scene_lighting *light
     const bool mapped = any_item(r, VARIANT_NORMAL_MAPPED), masked = any_item(r, VARIANT_MASKED);
     const bool instanced = any_instances(r), blended = r->item_count > r->opaque_count;
     const bool reflective = any_item(r, VARIANT_REFLECTIVE);
-    const float *tilt = lighting->sky_tilt;
-    const bool gradient = tilt[0] != 0 || tilt[1] != 0 || tilt[2] != 0;
+    const bool surrounded = lighting->environment, sky = draw_has_sky(lighting);
     const scene_effect effects[SCENE_EFFECT_COUNT] = {
         {"shadow map", shadow_reason(r, lighting), r->shadow.used},
         {"normal maps",
@@ -157,7 +175,12 @@ void scene_renderer_effects(const scene_renderer *r, const scene_lighting *light
         {"blending", blended ? "blended materials, back to front" : "no material is blended", blended},
         {"lights", lighting->light_count ? "the file has more than the shadow's" : "none beside the directional one",
          lighting->light_count > 0},
-        {"sky", gradient ? "a gradient, last, at the far plane, until a view shows none of it" : "one colour: the clear's", gradient},
+        {"environment", surrounded ? "ambient light from a picture" : "no picture given: a gradient", surrounded},
+        {"sky",
+         surrounded ? "the environment's picture, last, until a view shows none of it"
+         : sky      ? "a gradient, last, at the far plane, until a view shows none of it"
+                    : "one colour: the clear's",
+         sky},
     };
     for (int i = 0; i < SCENE_EFFECT_COUNT; i++)
         out[i] = effects[i];

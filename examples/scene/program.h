@@ -27,7 +27,8 @@ enum {
     VARIANT_SPECULAR_OCCLUSION = 16384, /* where REFLECTIVE and not BLENDED */
     VARIANT_MULTI_BOUNCE = 32768,  /* where not BLENDED */
     VARIANT_BASE_MAPPED = 65536,   /* base colour texture */
-    VARIANT_BEHIND = 131072        /* a layer: depth alone, of what lies behind the pre-pass's */
+    VARIANT_BEHIND = 131072,       /* a layer: depth alone, of what lies behind the pre-pass's */
+    VARIANT_ENVIRONMENT = 262144   /* ambient light, or the sky, from a picture */
 };
 
 /* Texture units, fixed when a program is made. */
@@ -41,6 +42,7 @@ enum {
     UNIT_METALLIC_ROUGHNESS,
     UNIT_OCCLUSION,
     UNIT_EMISSION,
+    UNIT_ENVIRONMENT,
     UNIT_COUNT
 };
 
@@ -57,11 +59,13 @@ typedef struct draw_program {
     int shadow_from_world, lights, light_count;
     int pixel_uv, origin, depth_offset;
     int world_from_clip, sky, sky_tilt;
+    int irradiance, world_from_view;
     int scale, bias, red_only;
     int numerator, denominator, far_depth;
 } draw_program;
 
-/* Compiles and links; `shared_source` (may be "") comes before the fragment shader's own. False on failure, with `what`
+/* Compiles and links; `shared_source` (may be "") comes before the fragment shader's own, and environment.glsl where
+ * the variant has an environment. False on failure, with `what`
  * and the driver's log in one line of `error`. */
 bool draw_program_build(draw_program *p, const char *what, const char *vertex_source, const char *shared_source,
                         const char *fragment_source, unsigned variant, char *error, size_t error_size);
