@@ -96,7 +96,6 @@ struct scene_renderer {
     scene_draw_options options;
     bool configured;
     draw_program map, view_distance; /* the pool's */
-    int sky;                         /* index into the pool's variants; -1: no program is called for */
     draw_shadow shadow;
     draw_sky_seen sky_seen;
     scene_draw_counts counts;
@@ -139,6 +138,9 @@ bool draw_choose_programs(scene_renderer *r, const scene_lighting *lighting, con
 
 /* False where the sky is one colour. */
 bool draw_has_sky(const scene_lighting *lighting);
+/* Index of its program among the pool's variants, built where it is not there yet; -1, with one line in `error`, on
+ * failure. */
+int draw_find_sky(scene_renderer *r, const scene_lighting *lighting, char *error, size_t error_size);
 
 /* draw_shadow.c */
 bool draw_shadow_wanted(const scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options);

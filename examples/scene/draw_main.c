@@ -9,6 +9,7 @@
 #include <cglm/cglm.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -122,7 +123,13 @@ static void draw_sky(scene_renderer *r, const scene_view *view, const scene_ligh
     view_from_world[3][0] = view_from_world[3][1] = view_from_world[3][2] = 0;
     glm_mat4_mul((vec4 *)view->clip_from_view, view_from_world, clip_from_world);
     glm_mat4_inv(clip_from_world, world_from_clip);
-    const draw_program *p = &r->pool->variants[r->sky].program;
+    char error[1024];
+    const int program = draw_find_sky(r, lighting, error, sizeof error); /* as a rule there since configuring */
+    if (program < 0) {
+        fprintf(stderr, "scene: %s\n", error);
+        return;
+    }
+    const draw_program *p = &r->pool->variants[program].program;
     gl.UseProgram(p->name);
     gl.BindVertexArray(r->empty_vertex_array);
     gl.UniformMatrix4fv(p->world_from_clip, 1, GL_FALSE, world_from_clip[0]);
@@ -167,7 +174,7 @@ void scene_draw_main(scene_renderer *r, const scene_view *view, const scene_ligh
     gl.DepthMask(GL_FALSE);
     gl.DepthFunc(GL_EQUAL);
     r->counts.main = draw_opaque(&pass, &r->counts.culled);
-    if (r->sky >= 0 && draw_has_sky(lighting) && !is_sky_hidden(r, view)) {
+    if (draw_has_sky(lighting) && !is_sky_hidden(r, view)) {
         draw_sky(r, view, lighting);
         if (lighting->environment)
             draw_bind_texture(UNIT_ENVIRONMENT, lighting->environment->mirrors, lighting->environment->sampler);

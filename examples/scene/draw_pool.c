@@ -21,7 +21,6 @@ bool draw_pool_join(scene_renderer *r, const scene_renderer *like, char *error, 
         return false; /* scene_renderer_destroy leaves the pool */
     r->map = pool->map;
     r->view_distance = pool->view_distance;
-    r->sky = -1;
     return true;
 }
 

@@ -13,7 +13,8 @@
 /* Index of the program, built where it is not there yet; -1 on failure. */
 static int find_program(draw_pool *pool, draw_kind kind, unsigned variant, char *error, size_t error_size)
 {
-    static const char *const what[] = {"scene normals pass", "scene main pass", "shadow pass", "layer pass", "sky pass"};
+    static const char *const what[] = {"scene normals pass", "scene main pass", "shadow pass", "layer pass",
+                                       "sky pass"};
     const bool is_sky = kind == DRAW_SKY;
     for (int i = 0; i < pool->variant_count; i++)
         if (pool->variants[i].kind == kind && pool->variants[i].variant == variant)
@@ -75,15 +76,16 @@ bool draw_has_sky(const scene_lighting *lighting)
     return lighting->environment || tilt[0] != 0 || tilt[1] != 0 || tilt[2] != 0;
 }
 
+int draw_find_sky(scene_renderer *r, const scene_lighting *lighting, char *error, size_t error_size)
+{
+    return find_program(r->pool, DRAW_SKY, lighting->environment ? VARIANT_ENVIRONMENT : 0u, error, error_size);
+}
+
 bool draw_choose_programs(scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options,
                           bool shadowed, char *error, size_t error_size)
 {
-    int sky = -1;
-    if (!options->no_picture && draw_has_sky(lighting)) {
-        sky = find_program(r->pool, DRAW_SKY, lighting->environment ? VARIANT_ENVIRONMENT : 0u, error, error_size);
-        if (sky < 0)
-            return false;
-    }
+    if (!options->no_picture && draw_has_sky(lighting) && draw_find_sky(r, lighting, error, error_size) < 0)
+        return false;
     for (uint32_t i = 0; i < r->item_count; i++) {
         draw_item *item = &r->items[i];
         const scene_material *m = &r->scene->materials[item->material];
@@ -104,7 +106,8 @@ bool draw_choose_programs(scene_renderer *r, const scene_lighting *lighting, con
             done = chosen[DRAW_SHADOW] >= 0;
         }
         if (done && !item->blended && options->layers) {
-            chosen[DRAW_LAYER] = find_program(r->pool, DRAW_LAYER, depth_variant(normals) | VARIANT_BEHIND, error, error_size);
+            chosen[DRAW_LAYER] =
+                find_program(r->pool, DRAW_LAYER, depth_variant(normals) | VARIANT_BEHIND, error, error_size);
             done = chosen[DRAW_LAYER] >= 0;
         }
         if (!done)
@@ -112,7 +115,6 @@ bool draw_choose_programs(scene_renderer *r, const scene_lighting *lighting, con
         for (int k = 0; k < DRAW_KIND_COUNT; k++)
             item->program[k] = chosen[k];
     }
-    r->sky = sky;
     return true;
 }
 

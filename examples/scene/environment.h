@@ -3,8 +3,8 @@
  * A picture of all that surrounds a scene, as a source of light: irradiance as nine spherical harmonics, and what
  * mirrors of growing roughness show. No OpenGL.
  *
- * The picture is equirectangular: twice as wide as high, straight up along its upper edge, straight down along its lower
- * one. Its middle lies along -z of the world, to the right of it +x.
+ * The picture is equirectangular: twice as wide as high, straight up along its upper edge, straight down along its
+ * lower one. Its middle lies along -z of the world, to the right of it +x.
  */
 #ifndef GLSSAO_EXAMPLES_ENVIRONMENT_H
 #define GLSSAO_EXAMPLES_ENVIRONMENT_H
@@ -21,8 +21,8 @@ typedef struct environment_picture {
 } environment_picture;
 
 typedef struct environment {
-    environment_picture sky; /* the file's own, made smaller by halves until it is no wider than ENVIRONMENT_MOST_WIDTH */
-    /* What a mirror of roughness i / 5 shows; each is half as large as the one before, the first ENVIRONMENT_WIDTH wide. */
+    environment_picture sky; /* the file's own, halved until it is no wider than ENVIRONMENT_MOST_WIDTH */
+    /* What mirrors of roughness i / 5 show: ENVIRONMENT_WIDTH wide, then each half as wide as the one before. */
     environment_picture mirrors[ENVIRONMENT_LEVELS];
     /* Irradiance / pi, times: 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2 of the unit normal. */
     float irradiance[9][3];

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * What an environment gives a surface: Ramamoorthi and Hanrahan 2001, "An Efficient Representation for Irradiance
- * Environment Maps", for matte ones; for mirrors the sums of GGX lobes of Karis 2013, "Real Shading in Unreal Engine 4",
- * seen along the normal, whose samples read levels of a pyramid as large as their share of the lobe (Krivanek and
+ * Environment Maps", for matte ones; for mirrors the sums of GGX lobes of Karis 2013, "Real Shading in Unreal Engine
+ * 4", seen along the normal, whose samples read levels of a pyramid as large as their share of the lobe (Krivanek and
  * Colbert 2008, "Real-time Shading with Filtered Importance Sampling").
  */
 #include "environment.h"
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SAMPLES = 32, PYRAMID = 10 /* levels, ENVIRONMENT_WIDTH to 1 */ };
+enum { MOST_SAMPLES = 256, PYRAMID = 10 /* levels, ENVIRONMENT_WIDTH to 1 */ };
 static const float pi = 3.14159265358979f;
 
 typedef struct pyramid {
@@ -117,20 +117,14 @@ static void project(environment *e)
 {
     /* Squares of the harmonics' constants. */
     const float one = 1 / (4 * pi), linear = 3 / (4 * pi), product = 15 / (4 * pi);
-    const float norms[9] = {one,
-                            linear * 2 / 3,
-                            linear * 2 / 3,
-                            linear * 2 / 3,
-                            product / 4,
-                            product / 4,
-                            5 / (16 * pi) / 4,
-                            product / 4,
-                            product / 4 / 4};
+    const float norms[9] = {one,         linear * 2 / 3,    linear * 2 / 3, linear * 2 / 3, product / 4,
+                            product / 4, 5 / (16 * pi) / 4, product / 4,    product / 4 / 4};
     const environment_picture *p = &e->mirrors[0];
     double sums[9][3] = {{0}};
     for (int y = 0; y < p->height; y++) {
-        const float solid_angle = 2 * pi / (float)p->width *
-                                  (cosf(pi * (float)y / (float)p->height) - cosf(pi * (float)(y + 1) / (float)p->height));
+        const float solid_angle =
+            2 * pi / (float)p->width *
+            (cosf(pi * (float)y / (float)p->height) - cosf(pi * (float)(y + 1) / (float)p->height));
         for (int x = 0; x < p->width; x++) {
             float direction[3], terms[9];
             direction_of(p, x, y, direction);
@@ -160,26 +154,35 @@ static float reversed_bits(uint32_t i)
     return (float)reversed * 2.3283064e-10f;
 }
 
-static void make_lobe(float roughness, lobe_sample out[SAMPLES])
+typedef struct lobe {
+    lobe_sample samples[MOST_SAMPLES];
+    int count;
+} lobe;
+
+static void make_lobe(float roughness, int count, lobe *out)
 {
+    out->count = count;
     const float alpha2 = roughness * roughness * roughness * roughness;
     const float texel_angle = 4 * pi / (ENVIRONMENT_WIDTH * ENVIRONMENT_WIDTH / 2);
     float sum = 0;
-    for (uint32_t i = 0; i < SAMPLES; i++) {
-        const float share = ((float)i + 0.5f) / SAMPLES, turn = 2 * pi * reversed_bits(i);
+    for (uint32_t i = 0; i < (uint32_t)count; i++) {
+        /* In pairs that lie opposite, so that the lobe leans to no side. */
+        const uint32_t pair = i / 2;
+        const float share = ((float)pair + 0.5f) / (0.5f * (float)count);
+        const float turn = pi * (reversed_bits(pair) + (float)(i % 2));
         const float cos2 = (1 - share) / (1 + (alpha2 - 1) * share), cos_half = sqrtf(cos2);
         const float sin_half = sqrtf(fmaxf(1 - cos2, 0)), spread = cos2 * (alpha2 - 1) + 1;
         const float density = alpha2 / (pi * spread * spread) / 4; /* of reflected directions */
-        lobe_sample *s = &out[i];
+        lobe_sample *s = &out->samples[i];
         s->direction[0] = 2 * cos_half * sin_half * cosf(turn);
         s->direction[1] = 2 * cos_half * sin_half * sinf(turn);
         s->direction[2] = 2 * cos2 - 1;
         s->weight = fmaxf(s->direction[2], 0);
-        s->level = fminf(fmaxf(0.5f * log2f(1 / (SAMPLES * density) / texel_angle) + 1, 0), PYRAMID - 2);
+        s->level = fminf(fmaxf(0.5f * log2f(1 / ((float)count * density) / texel_angle), 0), PYRAMID - 2);
         sum += s->weight;
     }
-    for (int i = 0; i < SAMPLES; i++)
-        out[i].weight /= sum;
+    for (int i = 0; i < count; i++)
+        out->samples[i].weight /= sum;
 }
 
 /* Two unit vectors square to a unit one and to each other. */
@@ -200,13 +203,13 @@ static void make_frame(const float axis[3], float out[2][3])
     }
 }
 
-static void sum_lobe(const pyramid *from, const lobe_sample lobe[SAMPLES], const float axis[3], float out[3])
+static void sum_lobe(const pyramid *from, const lobe *over, const float axis[3], float out[3])
 {
     float frame[2][3];
     make_frame(axis, frame);
     memset(out, 0, 3 * sizeof *out);
-    for (int i = 0; i < SAMPLES; i++) {
-        const lobe_sample *s = &lobe[i];
+    for (int i = 0; i < over->count; i++) {
+        const lobe_sample *s = &over->samples[i];
         float direction[3], uv[2];
         if (s->weight <= 0)
             continue;
@@ -222,15 +225,16 @@ static void sum_lobe(const pyramid *from, const lobe_sample lobe[SAMPLES], const
 
 static bool make_mirror(const pyramid *from, int level, environment_picture *out)
 {
-    lobe_sample lobe[SAMPLES];
+    lobe over;
     if (!make_picture(out, ENVIRONMENT_WIDTH >> level, ENVIRONMENT_WIDTH / 2 >> level))
         return false;
-    make_lobe((float)level / (ENVIRONMENT_LEVELS - 1), lobe);
+    /* Wider lobes take more samples, and have fewer texels. */
+    make_lobe((float)level / (ENVIRONMENT_LEVELS - 1), 8 << level, &over);
     for (int y = 0; y < out->height; y++)
         for (int x = 0; x < out->width; x++) {
             float axis[3];
             direction_of(out, x, y, axis);
-            sum_lobe(from, lobe, axis, out->rgb + 3 * (y * out->width + x));
+            sum_lobe(from, &over, axis, out->rgb + 3 * (y * out->width + x));
         }
     return true;
 }

@@ -17,8 +17,8 @@ typedef struct radiance {
     int width, height;
 } radiance;
 
-/* Reads the head. False where the file is of another kind, has no size from 1 to 65535 a side, or is laid out other than
- * from the top row down and from left to right. */
+/* Reads the head. False where the file is of another kind, has no size from 1 to 65535 a side, or is laid out other
+ * than from the top row down and from left to right. */
 bool radiance_open(radiance *r, const uint8_t *data, size_t size);
 
 /* The next row: linear RGB, `width` of them; `scratch` has room for 4 bytes of each. False where the file is cut off or
