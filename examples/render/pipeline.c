@@ -96,19 +96,22 @@ static void drop_environment(pipeline *p)
     p->environment_path = NULL;
 }
 
-/* The one there is stays where the path is the same. */
-static bool prepare_environment(pipeline *p, const char *path, char *error, size_t error_size)
+bool pipeline_surround(pipeline *p, const stage *st, const char *path, char *error, size_t error_size)
 {
-    if (path && p->environment_path && strcmp(path, p->environment_path) == 0) {
-        return true;
-    }
-    drop_environment(p);
     if (!path) {
-        return true;
+        drop_environment(p);
+    } else if (!p->environment_path || strcmp(path, p->environment_path) != 0) {
+        scene_environment *loaded = scene_environment_load(path, error, error_size);
+        if (!loaded) {
+            return false;
+        }
+        drop_environment(p);
+        p->environment = loaded;
+        p->environment_path = strdup(path);
     }
-    p->environment = scene_environment_load(path, error, error_size);
-    p->environment_path = p->environment ? strdup(path) : NULL;
-    return p->environment;
+    p->lighting = st->lighting;
+    scene_lighting_surround(&p->lighting, st->scene, p->environment);
+    return true;
 }
 
 bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_user, const options *o,
@@ -117,11 +120,9 @@ bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_us
     const int width = o->width + 2 * o->margin, height = o->height + 2 * o->margin;
     p->wants = wants;
     p->renderer = st->renderer;
-    if (wants.picture && !prepare_environment(p, o->environment, error, error_size)) {
+    if (!pipeline_surround(p, st, wants.picture ? o->environment : NULL, error, error_size)) {
         return false;
     }
-    p->lighting = st->lighting;
-    scene_lighting_surround(&p->lighting, st->scene, wants.picture ? p->environment : NULL);
     if ((width != p->width || height != p->height) && !pipeline_change_size(p, width, height, error, error_size)) {
         return false;
     }

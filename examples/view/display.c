@@ -110,7 +110,8 @@ static void draw_map(viewer *v)
     static const options_map maps[SHOWN_COUNT] = {
         [SHOWN_AO] = OPTIONS_MAP_AO,           [SHOWN_RAW] = OPTIONS_MAP_AO,
         [SHOWN_NORMALS] = OPTIONS_MAP_NORMALS, [SHOWN_DISTANCE] = OPTIONS_MAP_DEPTH,
-        [SHOWN_RANDOM] = OPTIONS_MAP_RANDOM,   [SHOWN_SHADOW] = OPTIONS_MAP_SHADOW};
+        [SHOWN_RANDOM] = OPTIONS_MAP_RANDOM,   [SHOWN_SHADOW] = OPTIONS_MAP_SHADOW,
+        [SHOWN_TILES] = OPTIONS_MAP_TILES};
     scene_rectangle place = {0, 0, v->width, v->height};
     const float black[4] = {0, 0, 0, 1};
     if (!v->map)

@@ -192,7 +192,7 @@ same "accessibility" ao.png render-ao.png
 press n
 shot normals
 same "normals" normals.png render-normals.png
-for map in u v x h; do
+for map in u v x h z; do
     before=$last
     press $map
     shot map-$map
@@ -258,6 +258,21 @@ cp broken.gltf 'broken too.gltf'
 "$hands" drop "$window" "$PWD/broken too.gltf" || fail "the dropped file is refused"
 await grep -q 'glssao-view: .*broken too.gltf' view.err
 has_title 'dropped one.gltf' || fail "a broken file that was dropped took the scene away"
+
+# A picture that lights the scene, and one that is none.
+{
+    printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n'
+    for _ in $(seq 32); do printf '\100\200\100\200'; done
+} >'light it.hdr'
+"$hands" drop "$window" "$PWD/light it.hdr" || fail "the dropped picture is refused"
+shot lit
+different "the dropped picture" 100000 dropped.png lit.png
+save
+[[ $command = *"--environment"*"light it.hdr"* ]] || fail "the command line has no environment: $command"
+echo no picture >none.hdr
+"$hands" drop "$window" "$PWD/none.hdr" || fail "the dropped picture is refused"
+await grep -q 'glssao-view: .*none.hdr: neither a sound' view.err
+save
 
 # Resized: the camera that frames the scene follows.
 xdotool windowsize "$window" 300 400
