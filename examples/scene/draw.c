@@ -106,41 +106,45 @@ static void use_map(const scene_renderer *r, unsigned unit, int texture, bool is
     gl.Uniform4fv(uv_location, 3, rows[0]);
 }
 
-static void use_further_maps(const scene_renderer *r, const scene_material *m, const draw_program *p, unsigned variant)
+/* The maps of the program; those that the item has none of are neutral. */
+static void use_maps(const scene_renderer *r, const scene_material *m, const draw_program *p, unsigned variant,
+                     unsigned own)
 {
+    const scene_map base = {.texture = m->base_color_texture, .uv = m->base_color_uv};
     const struct {
         unsigned bit, unit;
         const scene_map *map;
+        const float *uv_from_uv;
         bool is_srgb;
         int uv_location;
     } maps[] = {
-        {VARIANT_NORMAL_MAPPED, UNIT_NORMAL, &m->normal_map, false, p->normal_uv},
-        {VARIANT_ROUGHNESS_MAPPED, UNIT_METALLIC_ROUGHNESS, &m->metallic_roughness_map, false,
-         p->metallic_roughness_uv},
-        {VARIANT_BAKED, UNIT_OCCLUSION, &m->occlusion_map, false, p->occlusion_uv},
-        {VARIANT_EMISSION_MAPPED, UNIT_EMISSION, &m->emissive_map, true, p->emission_uv},
+        {VARIANT_BASE_MAPPED, UNIT_BASE_COLOR, &base, m->base_color_uv_from_uv, true, p->base_color_uv},
+        {VARIANT_NORMAL_MAPPED, UNIT_NORMAL, &m->normal_map, m->normal_map.uv_from_uv, false, p->normal_uv},
+        {VARIANT_ROUGHNESS_MAPPED, UNIT_METALLIC_ROUGHNESS, &m->metallic_roughness_map,
+         m->metallic_roughness_map.uv_from_uv, false, p->metallic_roughness_uv},
+        {VARIANT_BAKED, UNIT_OCCLUSION, &m->occlusion_map, m->occlusion_map.uv_from_uv, false, p->occlusion_uv},
+        {VARIANT_EMISSION_MAPPED, UNIT_EMISSION, &m->emissive_map, m->emissive_map.uv_from_uv, true, p->emission_uv},
     };
     for (size_t i = 0; i < sizeof maps / sizeof maps[0]; i++)
-        if (variant & maps[i].bit)
+        if (variant & own & maps[i].bit)
             use_map(r, maps[i].unit, maps[i].map->texture, maps[i].is_srgb, maps[i].uv_location, maps[i].map->uv,
-                    maps[i].map->uv_from_uv);
-    gl.Uniform1f(p->normal_scale, m->normal_scale);
-    gl.Uniform2f(p->metallic_roughness, m->metallic, m->roughness);
-    gl.Uniform1f(p->occlusion_strength, m->occlusion_strength);
-    gl.Uniform3fv(p->emission, 1, m->emissive);
+                    maps[i].uv_from_uv);
+        else if (variant & maps[i].bit)
+            draw_bind_texture(maps[i].unit, r->neutral[maps[i].bit == VARIANT_NORMAL_MAPPED], r->linear_sampler);
 }
 
-static void use_material(draw_pass *pass, int index)
+static void use_material(draw_pass *pass, int index, unsigned own)
 {
     const scene_renderer *r = pass->renderer;
     const scene_material *m = &r->scene->materials[index];
     const draw_program *p = pass->program;
+    use_maps(r, m, p, pass->variant, own);
     gl.Uniform4fv(p->base_color, 1, m->base_color);
-    gl.Uniform1f(p->alpha_cutoff, m->alpha_cutoff);
-    if (pass->variant & VARIANT_BASE_MAPPED)
-        use_map(r, UNIT_BASE_COLOR, m->base_color_texture, true, p->base_color_uv, m->base_color_uv,
-                m->base_color_uv_from_uv);
-    use_further_maps(r, m, p, pass->variant);
+    gl.Uniform1f(p->alpha_cutoff, own & VARIANT_MASKED ? m->alpha_cutoff : 0);
+    gl.Uniform1f(p->normal_scale, m->normal_scale);
+    gl.Uniform2f(p->metallic_roughness, m->metallic, m->roughness);
+    gl.Uniform1f(p->occlusion_strength, m->occlusion_strength);
+    gl.Uniform3fv(p->emission, 1, m->emissive);
     if (m->double_sided)
         gl.Disable(GL_CULL_FACE);
     else
@@ -169,7 +173,7 @@ void draw_item_now(draw_pass *pass, const draw_item *item)
     if (pass->program != &variant->program)
         use_program(pass, &variant->program);
     if (pass->material != item->material)
-        use_material(pass, item->material);
+        use_material(pass, item->material, item->variant);
     if (pass->first_instance != item->first_instance)
         use_instances(pass, item->first_instance);
     gl.Uniform1f(pass->program->handedness, item->mirrored ? -1.0f : 1.0f);
@@ -183,7 +187,7 @@ unsigned draw_opaque(draw_pass *pass, unsigned *out_culled)
     const scene_renderer *r = pass->renderer;
     unsigned drawn = 0;
     for (uint32_t i = 0; i < r->opaque_count; i++) {
-        if (draw_item_is_seen(&r->items[i], pass->clip_from_world)) {
+        if (r->options.everything || draw_item_is_seen(&r->items[i], pass->clip_from_world)) {
             draw_item_now(pass, &r->items[i]);
             drawn++;
         } else {

@@ -67,6 +67,9 @@ typedef struct scene_draw_options { /* zero is the plainest */
     bool specular_occlusion; /* accessibility darkens ambient reflections by their lobe; else like the rest */
     bool layers;             /* scene_draw_layer will be called */
     bool no_picture;         /* the main pass is not drawn: neither its programs nor a shadow map are made */
+    /* For measuring what leaving out spares: every part of the shaders on every surface, whatever the scene holds, nothing
+     * culled, and shadow map and sky drawn in each frame. Matte and unlit materials then look otherwise. */
+    bool everything;
     bool multi_bounce;       /* occluded ambient light takes on the surface's colour */
 } scene_draw_options;
 

@@ -89,6 +89,7 @@ struct scene_renderer {
     unsigned *samplers;  /* of each of the scene's textures, 0 likewise */
     unsigned linear_sampler, nearest_sampler; /* clamped, for screen-sized maps */
     unsigned white_texture;                   /* stands in for the ambient map */
+    unsigned neutral[2]; /* where options.everything: white, and a normal along the surface's, for what has no map */
     draw_item *items; /* opaque ones first, sorted by program and material; then blended ones as in the file */
     uint32_t opaque_count, item_count;
     draw_order *blended_order; /* scratch, one for each blended item */
@@ -126,6 +127,9 @@ typedef struct draw_pass {
     bool mirrored;
     uint32_t first_instance;
 } draw_pass;
+
+/* draw_upload.c: r->neutral, where it is not there yet. */
+void draw_make_neutral(scene_renderer *r);
 
 /* draw_items.c: decides which draw calls the scene takes; fills instances[s->instance_count]. */
 bool draw_plan_items(scene_renderer *r, draw_instance *instances);

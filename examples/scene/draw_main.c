@@ -42,7 +42,7 @@ static void draw_blended(draw_pass *pass, scene_renderer *r)
     gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     for (uint32_t i = 0; i < r->item_count - r->opaque_count; i++) {
         const draw_item *item = &r->items[r->blended_order[i].item];
-        if (draw_item_is_seen(item, pass->clip_from_world)) {
+        if (r->options.everything || draw_item_is_seen(item, pass->clip_from_world)) {
             draw_item_now(pass, item);
             r->counts.blended++;
         } else {
@@ -174,7 +174,7 @@ void scene_draw_main(scene_renderer *r, const scene_view *view, const scene_ligh
     gl.DepthMask(GL_FALSE);
     gl.DepthFunc(GL_EQUAL);
     r->counts.main = draw_opaque(&pass, &r->counts.culled);
-    if (draw_has_sky(lighting) && !is_sky_hidden(r, view)) {
+    if (r->options.everything || (draw_has_sky(lighting) && !is_sky_hidden(r, view))) {
         draw_sky(r, view, lighting);
         if (lighting->environment)
             draw_bind_texture(UNIT_ENVIRONMENT, lighting->environment->mirrors, lighting->environment->sampler);

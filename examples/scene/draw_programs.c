@@ -40,6 +40,9 @@ static int find_program(draw_pool *pool, draw_kind kind, unsigned variant, char 
 static unsigned normals_variant(const draw_item *item, const scene_material *m, const scene_draw_options *options,
                                 bool has_tangents)
 {
+    if (options->everything)
+        return VARIANT_LIT | VARIANT_DOUBLE_SIDED | VARIANT_MASKED | VARIANT_COLORED | VARIANT_BASE_MAPPED |
+               VARIANT_TEXTURED | VARIANT_NORMAL_MAPPED;
     unsigned variant = VARIANT_LIT | (m->double_sided ? VARIANT_DOUBLE_SIDED : 0u);
     if (m->alpha == SCENE_ALPHA_MASK) {
         variant |= VARIANT_MASKED | (item->colored ? VARIANT_COLORED : 0u);
@@ -53,6 +56,8 @@ static unsigned normals_variant(const draw_item *item, const scene_material *m, 
 static unsigned main_variant(const draw_item *item, const scene_lighting *lighting, const scene_draw_options *options,
                              bool shadowed)
 {
+    if (options->everything)
+        return VARIANT_EVERYTHING | (item->blended ? VARIANT_BLENDED : 0u);
     if (!(item->variant & VARIANT_LIT))
         return item->variant;
     const bool occluded = !item->blended;
@@ -84,7 +89,8 @@ int draw_find_sky(scene_renderer *r, const scene_lighting *lighting, char *error
 bool draw_choose_programs(scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options,
                           bool shadowed, char *error, size_t error_size)
 {
-    if (!options->no_picture && draw_has_sky(lighting) && draw_find_sky(r, lighting, error, error_size) < 0)
+    if (!options->no_picture && (options->everything || draw_has_sky(lighting)) &&
+        draw_find_sky(r, lighting, error, error_size) < 0)
         return false;
     for (uint32_t i = 0; i < r->item_count; i++) {
         draw_item *item = &r->items[i];
@@ -127,6 +133,8 @@ bool scene_renderer_configure(scene_renderer *r, const scene_lighting *lighting,
         return false;
     if (!draw_choose_programs(r, lighting, options, shadowed, error, error_size))
         return false;
+    if (options->everything)
+        draw_make_neutral(r);
     r->shadow.used = shadowed;
     r->options = *options;
     r->configured = true;

@@ -31,6 +31,14 @@ enum {
     VARIANT_ENVIRONMENT = 262144   /* ambient light, or the sky, from a picture */
 };
 
+/* All that a material and its light can call for; without what is another kind of surface. */
+enum {
+    VARIANT_EVERYTHING = VARIANT_TEXTURED | VARIANT_COLORED | VARIANT_MASKED | VARIANT_LIT | VARIANT_DOUBLE_SIDED |
+                         VARIANT_NORMAL_MAPPED | VARIANT_REFLECTIVE | VARIANT_ROUGHNESS_MAPPED | VARIANT_BAKED |
+                         VARIANT_EMISSIVE | VARIANT_EMISSION_MAPPED | VARIANT_SHADOWED | VARIANT_LIGHTS |
+                         VARIANT_SPECULAR_OCCLUSION | VARIANT_MULTI_BOUNCE | VARIANT_BASE_MAPPED
+};
+
 /* Texture units, fixed when a program is made. */
 enum {
     UNIT_BASE_COLOR = 0,
