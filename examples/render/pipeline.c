@@ -213,9 +213,11 @@ glssao_frame pipeline_frame(const pipeline *p, const scene_view *view)
                           .second_texture = p->draw_options.layers ? p->layers[1] : 0,
                           .normal_texture = glssao_map(p->effect, GLSSAO_MAP_NORMAL, NULL, NULL)};
     memcpy(frame.projection, view->clip_from_view, sizeof frame.projection);
-    frame.only_sky = scene_find_seen(p->renderer, view).opaque == 0;
+    const scene_seen seen = scene_find_seen(p->renderer, view);
+    frame.only_sky = seen.opaque == 0;
     /* Accessibility scales nothing else; but a map that was asked for itself is made. */
-    frame.no_ambient_light = p->wants.picture && !p->wants.ao_map && !scene_lighting_has_ambient(&p->lighting);
+    frame.no_ambient_light =
+        p->wants.picture && !p->wants.ao_map && (seen.lit == 0 || !scene_lighting_has_ambient(&p->lighting));
     return frame;
 }
 

@@ -233,9 +233,13 @@ scene_seen scene_find_seen(const scene_renderer *r, const scene_view *view)
     scene_seen seen = {.opaque_total = r->opaque_count, .blended_total = r->item_count - r->opaque_count};
     double clip_from_world[16];
     find_clip_from_world(view, clip_from_world);
-    for (uint32_t i = 0; i < r->item_count; i++)
-        if (draw_item_is_seen(&r->items[i], clip_from_world))
-            *(i < r->opaque_count ? &seen.opaque : &seen.blended) += 1;
+    for (uint32_t i = 0; i < r->item_count; i++) {
+        if (!draw_item_is_seen(&r->items[i], clip_from_world))
+            continue;
+        const bool opaque = i < r->opaque_count;
+        *(opaque ? &seen.opaque : &seen.blended) += 1;
+        seen.lit += opaque && r->items[i].variant & VARIANT_LIT;
+    }
     return seen;
 }
 

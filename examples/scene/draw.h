@@ -106,6 +106,7 @@ scene_draw_counts scene_renderer_counts(const scene_renderer *r);
 /* Draw calls of the scene, and those that lie within the view; the rest is not issued. */
 typedef struct scene_seen {
     unsigned opaque, opaque_total, blended, blended_total;
+    unsigned lit; /* of the opaque ones within the view, those that light falls on */
 } scene_seen;
 scene_seen scene_find_seen(const scene_renderer *r, const scene_view *view);
 

@@ -243,17 +243,20 @@ static void each_scene_causes_these_calls(void **state)
     static const struct {
         const char *scene;
         bool away; /* the eye looks up, past all there is */
-        bool dark;
+        bool dark, unlit;
         int draws;
     } scenes[] = {
-        {"columns", false, false, 7}, {"plane", false, false, 7}, {"plane", true, false, 0},
-        {"columns", false, true, 0},  {"", false, false, 0}, /* no meshes at all */
+        {"columns", false, false, false, 7}, {"plane", false, false, false, 7},
+        {"plane", true, false, false, 0},    {"columns", false, true, false, 0},
+        {"plane", false, false, true, 0},    {"", false, false, false, 0}, /* no meshes */
     };
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; ++i) {
         fixture *f = *state;
         char error[1024] = "";
         const scene empty = {.name = ""};
         scene *s = scenes[i].scene[0] ? scene_make(scenes[i].scene, error, sizeof error) : NULL;
+        for (uint32_t k = 0; s && scenes[i].unlit && k < s->material_count; ++k)
+            s->materials[k].unlit = true;
         options o;
         char *arguments[] = {"test", "-s", "64x48", "-q", "medium", "-o", "unused.png"};
         assert_int_equal(options_parse(7, arguments, &o, error, sizeof error), OPTIONS_RUN);

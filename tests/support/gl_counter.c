@@ -10,6 +10,7 @@ static struct {
     void *user;
     gl_counts counts;
     void(APIENTRY *draw_arrays)(GLenum, GLint, GLsizei);
+    void(APIENTRY *draw_elements)(GLenum, GLsizei, GLenum, const void *, GLsizei);
     void(APIENTRY *compile_shader)(GLuint);
     void(APIENTRY *link_program)(GLuint);
     void(APIENTRY *program_binary)(GLuint, GLenum, const void *, GLsizei);
@@ -21,6 +22,12 @@ static void APIENTRY draw_arrays(GLenum mode, GLint first, GLsizei count)
 {
     counter.counts.draws++;
     counter.draw_arrays(mode, first, count);
+}
+
+static void APIENTRY draw_elements(GLenum mode, GLsizei count, GLenum type, const void *indices, GLsizei instances)
+{
+    counter.counts.elements++;
+    counter.draw_elements(mode, count, type, indices, instances);
 }
 
 static void APIENTRY compile_shader(GLuint shader)
@@ -49,8 +56,12 @@ static int bytes_of(GLint internal_format)
     case GL_RGBA16F:
     case GL_RG32F:
         return 8;
+    case GL_RGB16F:
+        return 6;
     case GL_R16:
         return 2;
+    case GL_R8:
+        return 1;
     default:
         return 4; /* R32F, RGBA8 */
     }
@@ -90,6 +101,7 @@ void *gl_counter_load(const char *wanted, void *user)
     (void)user;
     void *address = counter.load(wanted, counter.user);
     COUNTED("glDrawArrays", draw_arrays, draw_arrays)
+    COUNTED("glDrawElementsInstanced", draw_elements, draw_elements)
     COUNTED("glCompileShader", compile_shader, compile_shader)
     COUNTED("glLinkProgram", link_program, link_program)
     COUNTED("glProgramBinary", program_binary, program_binary)

@@ -10,6 +10,7 @@
 
 typedef struct gl_counts {
     int draws;     /* glDrawArrays */
+    int elements;  /* glDrawElementsInstanced */
     int shaders;   /* glCompileShader */
     int programs;  /* glLinkProgram */
     int binaries;  /* glProgramBinary */
