@@ -57,7 +57,7 @@ typedef struct draw_pool {
     int users;
     draw_variant *variants; /* built as items need them */
     int variant_count;
-    draw_program map, view_distance;
+    draw_program map, view_distance; /* the same */
 } draw_pool;
 
 struct scene_environment {
@@ -96,7 +96,6 @@ struct scene_renderer {
     draw_pool *pool;
     scene_draw_options options;
     bool configured;
-    draw_program map, view_distance; /* the pool's */
     draw_shadow shadow;
     draw_sky_seen sky_seen;
     scene_draw_counts counts;
@@ -156,9 +155,6 @@ void draw_shadow_offset(void);
 /* draw_pool.c: joins the pool of `like`, or makes one where that is NULL; leaves it, and frees it with its last user. */
 bool draw_pool_join(scene_renderer *r, const scene_renderer *like, char *error, size_t error_size);
 void draw_pool_leave(scene_renderer *r);
-
-/* draw_maps.c */
-bool draw_build_map_programs(draw_pool *pool, char *error, size_t error_size);
 
 /* draw.c: GL's defaults; one texture; all items of a kind, with the view's matrices. */
 void draw_set_defaults(void);

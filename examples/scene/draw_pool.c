@@ -17,10 +17,6 @@ bool draw_pool_join(scene_renderer *r, const scene_renderer *like, char *error, 
     }
     pool->users++;
     r->pool = pool;
-    if (!like && !draw_build_map_programs(pool, error, error_size))
-        return false; /* scene_renderer_destroy leaves the pool */
-    r->map = pool->map;
-    r->view_distance = pool->view_distance;
     return true;
 }
 
