@@ -148,10 +148,10 @@ draw -s 320x200 --scene plane -o render-restored.png
 same "restored" restored.png render-restored.png
 stop
 
-start -s 640x400 -o saved.png
+start -s 640x400 --set tiles=on -o saved.png
 press g # the panel away
 shot on
-draw -s 640x400 -o render-on.png
+draw -s 640x400 --set tiles=on -o render-on.png
 draw -s 640x400 --no-ao -o render-off.png
 same "on the screen is what glssao-render draws" on.png render-on.png
 different "the panel is seen" 20000 started.png on.png
@@ -185,7 +185,7 @@ sleep 0.3
 last=still.png
 
 # Maps.
-draw -s 640x400 --ao render-ao.png --normals render-normals.png
+draw -s 640x400 --set tiles=on --ao render-ao.png --normals render-normals.png
 press o
 shot ao
 same "accessibility" ao.png render-ao.png
@@ -198,6 +198,7 @@ for map in u v x h z; do
     shot map-$map
     different "map $map" 20000 map-$map.png "$before"
 done
+[ "$("$eyes" colors map-z.png)" -gt 1 ] || fail "no tile is left out, or the map does not show it"
 press t
 shot truth # black until the first rays are there
 [ "$("$eyes" colors truth.png)" -gt 50 ] || shot truth
