@@ -4,11 +4,11 @@
 // weights that are left are scaled to sum to 1.
 // in  u_ambient_map  accessibility, with PAIRED 1 the paired map; point sampled
 // in  u_normal_map, u_depth_map  as for the estimate, fetched (EDGE_AWARE 1)
-// out o_ambient      the same
+// out result         the same
 
 uniform sampler2D u_ambient_map;
 uniform bool gHorizontalBlur;
-out AMBIENT o_ambient;
+#define RESULT AMBIENT
 
 #if EDGE_AWARE
 ivec2 last;
@@ -38,7 +38,7 @@ void add_tap(int i, float weight, vec2 step_uv, inout float sum, inout float wei
     weights += weight;
 }
 
-void main()
+RESULT result()
 {
     vec2 step_uv = gHorizontalBlur ? vec2(gInvRenderTargetSize.x, 0.0) : vec2(0.0, gInvRenderTargetSize.y);
 #if EDGE_AWARE
@@ -69,5 +69,5 @@ void main()
     add_tap(5, gBlurWeights[2].z, step_uv, sum, weights);
 #endif
     vec2 own = texture(u_ambient_map, pixel_uv()).rg;
-    o_ambient = ambient(sum / weights, own.g, normal_code(own));
+    return ambient(sum / weights, own.g, normal_code(own));
 }

@@ -2,12 +2,12 @@
 // Makes the distance map, so that the passes after it fetch view distances ready-made.
 // in  u_depth_map  stored depth, point sampled
 // LAYERS 1: in u_back_map the nearest back face at or behind the surface, in u_second_map the nearest front face behind it
-// out o_distance   x: view distance (scene units); FAR_AWAY where nothing was drawn. With LAYERS 1 also
+// out result       x: view distance (scene units); FAR_AWAY where nothing was drawn. With LAYERS 1 also
 //                  y: how thick what is seen there is (scene units); negative: not known
 //                  z: how far behind it the next front face lies (scene units); FAR_AWAY: none
 
 #if LAYERS
-out vec4 o_distance;
+#define RESULT vec4
 uniform sampler2D u_back_map;
 uniform sampler2D u_second_map;
 
@@ -15,7 +15,7 @@ uniform sampler2D u_second_map;
 const float GAP = 0.15;  // where another front face begins less than this behind the back, both may be one solid
 const float THIN = 0.03; // what is thinner is a sheet or a seam, whose thickness says nothing of what is behind it
 #else
-out float o_distance;
+#define RESULT float
 #endif
 
 float distance_at(sampler2D map, vec2 uv)
@@ -24,9 +24,9 @@ float distance_at(sampler2D map, vec2 uv)
     return is_sky(depth) ? FAR_AWAY : distance_from_depth(depth);
 }
 
-void main()
+RESULT result()
 {
-    vec2 uv = (floor(gl_FragCoord.xy) * float(gFactor) + 0.5) / vec2(textureSize(u_depth_map, 0));
+    vec2 uv = (floor(pixel_center()) * float(gFactor) + 0.5) / vec2(textureSize(u_depth_map, 0));
     float depth = depth_component(textureLod(u_depth_map, uv, 0.0));
     float distance = is_sky(depth) ? FAR_AWAY : distance_from_depth(depth);
 #if LAYERS
@@ -34,8 +34,8 @@ void main()
     float second = distance_at(u_second_map, uv);
     bool known = back < FAR_AWAY && second - back >= GAP * gOcclusionRadius && back - distance >= THIN * gOcclusionRadius;
     float behind = second < FAR_AWAY ? max(second - distance, 0.0) : FAR_AWAY;
-    o_distance = vec4(distance, known ? back - distance : -1.0, behind, 0.0);
+    return vec4(distance, known ? back - distance : -1.0, behind, 0.0);
 #else
-    o_distance = distance;
+    return distance;
 #endif
 }

@@ -6,8 +6,9 @@
 // in  u_normal_map    view space; point sampled
 // in  u_distance_map  view distance at the estimate's size, with LAYERS 1 thickness and second layer too; point sampled,
 //                     clamped
-// in  u_depth_map     bound for its size alone
-// out o_ambient       accessibility, with PAIRED 1 what passes after this one read; with ACCUMULATE 1 the linear
+// in  u_depth_map     bound for its size alone; with FROM_DEPTH 1 (by compute shader) depth as the host stores it, and there
+//                     is no distance map
+// out result          accessibility, with PAIRED 1 what passes after this one read; with ACCUMULATE 1 the linear
 //                     accessibility, to be added to the sum of its replicate
 // STEPS_8, STEPS_12, STEPS_16 1: that many samples on each side of a slice, else 6. SLICES_2 1: two slices, else one.
 // OPEN 1: nothing occludes.
@@ -17,10 +18,32 @@
 // not unroll them, and a loop of a single turn still costs it a third of this pass.
 
 uniform sampler2D u_distance_map;
-#if ACCUMULATE
-out vec2 o_ambient;
+
+// Of the estimate, whether or not it has a distance map.
+vec2 map_size()
+{
+#if FROM_DEPTH
+    return vec2((textureSize(u_depth_map, 0) + gFactor - 1) / gFactor);
 #else
-out AMBIENT o_ambient;
+    return vec2(textureSize(u_distance_map, 0));
+#endif
+}
+
+// View distance at a texel of the estimate, FAR_AWAY on sky.
+float distance_at(vec2 texel, vec2 size)
+{
+#if FROM_DEPTH
+    float depth = fetched_depth(ivec2(texel) * gFactor);
+    return is_sky(depth) ? FAR_AWAY : distance_from_depth(depth);
+#else
+    return textureLod(u_distance_map, (texel + 0.5) / size, 0.0).r;
+#endif
+}
+
+#if ACCUMULATE
+#define RESULT vec2
+#else
+#define RESULT AMBIENT
 #endif
 
 #if STEPS_16
@@ -135,7 +158,7 @@ vec3 sample_at(slice_frame f, vec2 step_px, float along, out vec2 layers)
     layers = min(f.y_per_distance * texels.gb, vec2(1e6)); // bounded, so that no square overflows
 #else
     layers = vec2(0.0);
-    float distance = textureLod(u_distance_map, (texel + 0.5) / f.size, 0.0).r;
+    float distance = distance_at(texel, f.size);
 #endif
     vec2 offset = texel + 0.5 - f.center;
     float scale = orthographic() ? 1.0 : distance;
@@ -167,6 +190,12 @@ uint hidden_by(vec3 at, vec2 layers, float width, polynomial sectors, bool minus
     // slice, its angle is all error. And what the depth format can't tell from the tangent plane is no occluder.
     bool counts = at.x > from.x && at.y > from.tangent * at.x + from.above;
     float x2 = at.x * at.x + 1e-12;
+#if COMPUTE
+    // A GPU is spared what follows where all samples of a group of invocations are like that; no sectors and nothing
+    // higher would come of it.
+    if (!(counts && x2 < 1.0))
+        return 0u;
+#endif
     float chord = sqrt(max(1.0 - x2, 0.0));
     float thickness = WIDTH * width * at.z;
     float cos_top;
@@ -289,30 +318,32 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
     return projected * mix(hidden, veiled, VEIL);
 }
 
-void main()
+RESULT result()
 {
-    vec2 map_size = vec2(textureSize(u_distance_map, 0));
-    float distance = textureLod(u_distance_map, pixel_center() / map_size, 0.0).r;
+    vec2 size = map_size();
+    float distance = distance_at(floor(pixel_center()), size);
     vec2 full_size = vec2(textureSize(u_depth_map, 0));
     vec2 uv = (floor(pixel_center()) * float(gFactor) + 0.5) / full_size;
     vec3 normal_view = normal_view_at_uv(uv);
 #if ACCUMULATE
-    o_ambient = gAccumulation.xy;
+    RESULT open = gAccumulation.xy;
 #else
     float linear = linear_from_distance(distance);
     uint code = normal_code(normal_view);
-    o_ambient = ambient(1.0, linear, code);
+    RESULT open = ambient(1.0, linear, code);
 #endif
-#if !OPEN
+#if OPEN
+    return open;
+#else
     // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
     if (distance >= FAR_AWAY || normal_view == vec3(0.0))
-        return;
+        return open;
     vec3 ray = vec3(uv * gRayDirection.xy + gRayDirection.zw, -1.0);
     float ray_length = length(ray);
     vec3 up = -ray / ray_length;
     vec2 px = float(gFactor) / full_size * (orthographic() ? gRayOrigin.xy : gRayDirection.xy);
     slice_frame f;
-    f.size = map_size;
+    f.size = size;
     f.center = pixel_center();
     f.center_distance = distance;
     f.per_scale = STEP / (orthographic() ? 1.0 : distance);
@@ -325,11 +356,11 @@ void main()
 #endif
     // pow() is undefined for a base of 0 with power 0, and for the negative that rounding can leave, as it can leave more
     // than 1.
-    float open = max(1.0 - occlusion, 1e-6);
+    float share = max(1.0 - occlusion, 1e-6);
 #if ACCUMULATE
-    o_ambient = gAccumulation.xy * min(pow(open, CALIBRATION), 1.0);
+    return gAccumulation.xy * min(pow(share, CALIBRATION), 1.0);
 #else
-    o_ambient = ambient(clamp(pow(open, CALIBRATION * gPower), 0.0, 1.0), linear, code);
+    return ambient(clamp(pow(share, CALIBRATION * gPower), 0.0, 1.0), linear, code);
 #endif
 #endif
 }

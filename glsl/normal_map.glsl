@@ -4,9 +4,8 @@
 
 uniform sampler2D u_normal_map; // view space, any length
 
-// View-space unit normal, or 0 where the map holds none (length 0, infinite, not a number): a comparison with
-// something that is no number is false, so all three take the same way out, and normalize() never divides by 0.
-vec3 normal_view_from_stored(vec3 normal)
+// View-space normal of any length, of which nothing is checked.
+vec3 decoded_normal(vec3 normal)
 {
 #if OCTAHEDRAL_NORMALS
     normal.z = 1.0 - abs(normal.x) - abs(normal.y);
@@ -16,6 +15,14 @@ vec3 normal_view_from_stored(vec3 normal)
 #elif UNSIGNED_NORMALS
     normal = normal * 2.0 - 1.0;
 #endif
+    return normal;
+}
+
+// View-space unit normal, or 0 where the map holds none (length 0, infinite, not a number): a comparison with
+// something that is no number is false, so all three take the same way out, and normalize() never divides by 0.
+vec3 normal_view_from_stored(vec3 stored)
+{
+    vec3 normal = decoded_normal(stored);
     float length_squared = dot(normal, normal);
     if (!(length_squared > 1e-20 && length_squared < 1e20))
         return vec3(0.0);

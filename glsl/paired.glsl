@@ -7,10 +7,17 @@
 
 const float NORMAL_STEP = 0.1; // of its two coordinates, -1.5 to 1.6
 
+// A normal of any length, projected, in steps. The bound keeps one of length 0 from a division by 0.
+vec2 projected_normal(vec3 normal)
+{
+    float length_squared = dot(normal, normal);
+    float scale = inversesqrt(max(0.5 * (length_squared + normal.z * sqrt(length_squared)), 1e-30));
+    return normal.xy * (scale / NORMAL_STEP);
+}
+
 uint normal_code(vec3 normal_view)
 {
-    vec2 projected = normal_view.xy * inversesqrt(max(0.5 + 0.5 * normal_view.z, 1e-4));
-    uvec2 code = uvec2(clamp(projected / NORMAL_STEP + 15.5, 0.0, 31.0));
+    uvec2 code = uvec2(clamp(projected_normal(normal_view) + 15.5, 0.0, 31.0));
     return code.x << 5 | code.y;
 }
 
@@ -19,10 +26,10 @@ uint normal_code(vec2 paired)
     return floatBitsToUint(paired.x) & 1023u;
 }
 
-// The change of the projected normal from one code to another.
-vec2 normal_change(uint from, uint to)
+// The middle of the code's step.
+vec2 projected_normal(uint code)
 {
-    return NORMAL_STEP * vec2(ivec2(to >> 5, to & 31u) - ivec2(from >> 5, from & 31u));
+    return vec2(ivec2(code >> 5, code & 31u)) - 15.0;
 }
 
 float accessibility_of(vec2 paired)
@@ -30,14 +37,19 @@ float accessibility_of(vec2 paired)
     return uintBitsToFloat(floatBitsToUint(paired.x) & ~1023u);
 }
 
-#if PAIRED
-#define AMBIENT vec2
 // Rounded to the 13 bits left, 4 steps of R16 about 1. The floor, which R16 rounds to 0, keeps the bits from being those
 // of a denormal number, which drivers may flush.
-vec2 ambient(float accessibility, float linear, uint code)
+vec2 paired(float accessibility, float linear, uint code)
 {
     uint bits = floatBitsToUint(max(accessibility, 2e-6)) + 512u;
     return vec2(uintBitsToFloat((bits & ~1023u) | code), linear);
+}
+
+#if PAIRED
+#define AMBIENT vec2
+vec2 ambient(float accessibility, float linear, uint code)
+{
+    return paired(accessibility, linear, code);
 }
 #else
 #define AMBIENT float
@@ -48,11 +60,12 @@ float ambient(float accessibility, float linear, uint code)
 #endif
 
 // Chord of two unit normals that belong to different sides of a crease, 41 degrees; found by experiment.
-const float CHORD = 0.7;
+const float CHORD = 0.69;
 
-// Whether a surface turns away from the eye toward a neighbour in the picture: by how much its projected normal changes on
-// the way, and where the neighbour lies. In a hollow both sides darken, and smoothing over it does no harm.
+// Whether a surface turns away from the eye toward a neighbour in the picture: by how many steps its projected normal changes
+// on the way, and where the neighbour lies. In a hollow both sides darken, and smoothing over it does no harm.
 bool turns_away(vec2 change, vec2 way)
 {
-    return dot(change, change) > CHORD * CHORD && dot(change, way) > 0.0;
+    const float STEPS_APART = CHORD / NORMAL_STEP;
+    return dot(change, change) > STEPS_APART * STEPS_APART && dot(change, way) > 0.0;
 }

@@ -1,49 +1,27 @@
 // SPDX-License-Identifier: MIT
-// One direction of the box over one period of a 4x4 tile, 1/2 1 1 1 1/2, along surfaces: a tap counts where it lies on a
-// line with two neighbours in the same direction, or with the two about the pixel, and where the surface does not turn
-// away from the eye in between. A silhouette breaks both lines; a plane seen at any angle breaks neither. A pixel left
-// without a tap takes neighbours that are merely near.
+// One direction of the planar blur, see planar_blur.glsl.
+// WIDE 1: of a later round.
 // in  u_ambient_map  paired map; point sampled, clamped
-// out o_ambient      the same with PAIRED 1, else accessibility alone
+// out result         the same with PAIRED 1, else accessibility alone
 
 uniform sampler2D u_ambient_map;
 uniform bool gHorizontalBlur;
-out AMBIENT o_ambient;
+#define RESULT AMBIENT
 
-// All found by experiment. How far off a line may be, in units of the radius.
-const float TOLERANCE = 0.02;
-// How far off a neighbour of a pixel without others may be, in units of the radius.
-const float NEAR = 0.1;
-
-void main()
+RESULT result()
 {
     vec2 way = gHorizontalBlur ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
-    vec2 step_uv = way * gInvRenderTargetSize;
+    vec2 step_uv = (WIDE == 1 ? 3.0 : 1.0) * way * gInvRenderTargetSize;
     vec2 uv = pixel_center() * gInvRenderTargetSize;
     vec2 center = textureLod(u_ambient_map, uv, 0.0).rg;
     vec2 before = textureLod(u_ambient_map, uv - step_uv, 0.0).rg;
     vec2 after = textureLod(u_ambient_map, uv + step_uv, 0.0).rg;
+#if WIDE
+    float accessibility = blurred_wide(before, center, after, way);
+#else
     vec2 before_2 = textureLod(u_ambient_map, uv - 2.0 * step_uv, 0.0).rg;
     vec2 after_2 = textureLod(u_ambient_map, uv + 2.0 * step_uv, 0.0).rg;
-    float tolerance = linear_error(TOLERANCE * gOcclusionRadius, center.y);
-    float near = linear_error(NEAR * gOcclusionRadius, center.y);
-    bool on_line = abs(before.y - 2.0 * center.y + after.y) < tolerance;
-    bool on_before = abs(before_2.y - 2.0 * before.y + center.y) < tolerance;
-    bool on_after = abs(after_2.y - 2.0 * after.y + center.y) < tolerance;
-    uint code = normal_code(center);
-    uvec4 codes = uvec4(normal_code(before_2), normal_code(before), normal_code(after), normal_code(after_2));
-    bvec4 joins = bvec4(true);
-    // Most pixels lie amid neighbours that all face one way: there a GPU is spared this.
-    if (any(notEqual(codes, uvec4(code))))
-        joins = not(bvec4(turns_away(normal_change(code, codes.x), -way), turns_away(normal_change(code, codes.y), -way),
-                          turns_away(normal_change(code, codes.z), way), turns_away(normal_change(code, codes.w), way)));
-    vec4 weights = vec4(on_before && joins.x ? 0.5 : 0.0, (on_before || on_line) && joins.y ? 1.0 : 0.0,
-                        (on_after || on_line) && joins.z ? 1.0 : 0.0, on_after && joins.w ? 0.5 : 0.0);
-    if (weights.y + weights.z == 0.0)
-        weights.yz = vec2(joins.y && abs(before.y - center.y) < near ? 1.0 : 0.0,
-                          joins.z && abs(after.y - center.y) < near ? 1.0 : 0.0);
-    vec4 taps = vec4(accessibility_of(before_2), accessibility_of(before), accessibility_of(after),
-                     accessibility_of(after_2));
-    float sum = accessibility_of(center) + dot(weights, taps);
-    o_ambient = ambient(sum / (1.0 + dot(weights, vec4(1.0))), center.y, code);
+    float accessibility = blurred(before_2, before, center, after, after_2, way);
+#endif
+    return ambient(accessibility, center.y, normal_code(center));
 }

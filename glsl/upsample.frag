@@ -1,60 +1,32 @@
 // SPDX-License-Identifier: MIT
-// Brings a half-size result to full size: linearly where the pixel lies on the plane of its neighbours, else from those
-// of them that lie near it on the same surface, else from the one that is nearest in distance.
+// A half-size result brought to full size, see upsample.glsl: for each half-size texel the four full-size pixels that it is
+// the lower left of, which share the fetches of their neighbours and most of the decisions. spread.frag lays them out.
 // in  u_ambient_map    paired map, half size; point sampled, clamped
-// in  u_depth_map      stored depth, full size; point sampled
-// in  u_normal_map     view space, full size; point sampled
-// out o_accessibility  0..1, R16, full size
+// out o_accessibility  of the lower left, lower right, upper left and upper right pixel
 
 uniform sampler2D u_ambient_map;
-out float o_accessibility;
+out vec4 o_accessibility;
 
-// How far off the plane a pixel may be, and how far off a neighbour on the same surface, in units of the radius; found by
-// experiment.
-const float TOLERANCE = 0.02;
-const float NEAR = 0.1;
-// By how much farther those around a crease count, where the nearest is looked for.
-const float AROUND_CREASE = 1000.0;
+vec2 paired_at(vec2 uv)
+{
+    return textureLod(u_ambient_map, uv, 0.0).rg;
+}
 
 void main()
 {
-    vec2 pixel = pixel_center() - 0.5;
-    // A half-size texel stands for the full-size texel of twice its index: odd pixels lie midway between two, and where
-    // a coordinate is even, both are the same, so that the mean of the four is the linear interpolation.
-    vec2 half_pixel = floor(0.5 * pixel);
-    vec2 odd = pixel - 2.0 * half_pixel;
-    vec2 uv_a = (half_pixel + 0.5) * gInvRenderTargetSize;
-    vec2 uv_d = uv_a + odd * gInvRenderTargetSize;
-    vec2 a = textureLod(u_ambient_map, uv_a, 0.0).rg;
-    vec2 b = textureLod(u_ambient_map, vec2(uv_d.x, uv_a.y), 0.0).rg;
-    vec2 c = textureLod(u_ambient_map, vec2(uv_a.x, uv_d.y), 0.0).rg;
-    vec2 d = textureLod(u_ambient_map, uv_d, 0.0).rg;
-    vec2 full_uv = pixel_center() / vec2(textureSize(u_depth_map, 0));
-    float depth = depth_component(textureLod(u_depth_map, full_uv, 0.0));
-    float own = linear_from_depth(depth);
-    vec4 values = vec4(accessibility_of(a), accessibility_of(b), accessibility_of(c), accessibility_of(d));
-    vec4 apart = vec4(a.y, b.y, c.y, d.y) - own;
-    bool on_plane = abs(dot(apart, vec4(0.25))) < linear_error(TOLERANCE * gOcclusionRadius, own);
-    uvec4 codes = uvec4(normal_code(a), normal_code(b), normal_code(c), normal_code(d));
-    bvec4 turned = bvec4(false);
-    // Most pixels lie amid neighbours that all face one way: there a GPU is spared the rest.
-    if (any(notEqual(codes.xxx, codes.yzw))) {
-        uint code = normal_code(normal_view_at_uv(full_uv));
-        turned = bvec4(turns_away(normal_change(code, codes.x), -odd),
-                       turns_away(normal_change(code, codes.y), vec2(odd.x, -odd.y)),
-                       turns_away(normal_change(code, codes.z), vec2(-odd.x, odd.y)),
-                       turns_away(normal_change(code, codes.w), odd));
-    }
-    float accessibility = dot(values, vec4(0.25));
-    if (!on_plane || any(turned)) {
-        bvec4 near = lessThan(abs(apart), vec4(linear_error(NEAR * gOcclusionRadius, own)));
-        vec4 weights = vec4(!turned.x && near.x, !turned.y && near.y, !turned.z && near.z, !turned.w && near.w);
-        float total = dot(weights, vec4(1.0));
-        vec4 off = abs(apart) * mix(vec4(1.0), vec4(AROUND_CREASE), turned);
-        vec2 ab = off.x <= off.y ? vec2(values.x, off.x) : vec2(values.y, off.y);
-        vec2 cd = off.w <= off.z ? vec2(values.w, off.w) : vec2(values.z, off.z);
-        float nearest = ab.y <= cd.y ? ab.x : cd.x;
-        accessibility = total > 0.0 ? dot(weights, values) / total : nearest;
-    }
-    o_accessibility = is_sky(depth) ? 1.0 : accessibility;
+    vec2 uv = pixel_uv();
+    vec2 next = uv + gInvRenderTargetSize;
+    vec2 a = paired_at(uv);
+    vec2 b = paired_at(vec2(next.x, uv.y));
+    vec2 c = paired_at(vec2(uv.x, next.y));
+    vec2 d = paired_at(next);
+    vec2 full_texel = 1.0 / vec2(textureSize(u_depth_map, 0));
+    vec2 full_uv = (2.0 * pixel_center() - 0.5) * full_texel;
+    vec2 full_next = full_uv + full_texel;
+    // The lower left pixel is the texel's own.
+    bool sky = is_sky(depth_component(textureLod(u_depth_map, full_uv, 0.0)));
+    o_accessibility = vec4(sky ? 1.0 : accessibility_of(a),
+                           upsampled(a, b, a, b, vec2(1.0, 0.0), vec2(full_next.x, full_uv.y)),
+                           upsampled(a, a, c, c, vec2(0.0, 1.0), vec2(full_uv.x, full_next.y)),
+                           upsampled(a, b, c, d, vec2(1.0), full_next));
 }

@@ -7,10 +7,18 @@ uniform sampler2D u_depth_map; // as the host stores it
 // Where the target's lower left corner lies in the maps, in pixels: not 0 for the last pass of a frame with a margin.
 uniform vec2 gOrigin;
 
+#if COMPUTE
+uniform ivec4 gRegion; // of the target, pixels: lower left corner and size of what is written
+#endif
+
 // The pixel's centre in the maps that the passes read.
 vec2 pixel_center()
 {
+#if COMPUTE
+    return vec2(ivec2(gl_GlobalInvocationID.xy) + gRegion.xy) + 0.5 + gOrigin;
+#else
     return gl_FragCoord.xy + gOrigin;
+#endif
 }
 
 // The same in uv, as every pass has it, whatever geometry it is drawn with.

@@ -57,6 +57,8 @@ const option option_table[] = {
     {0, "scene", "NAME", "built-in scene: columns, cornell, steps or plane (columns)", KIND_TEXT, AT(scene_name), 0, 0,
      "", SCOPE_PICTURE},
     {0, "context", "KIND", "auto, egl or osmesa (auto)", KIND_WORD, AT(context), 0, 0, "auto|egl|osmesa", SCOPE_RUN},
+    {0, "path", "WAY", "compute or fragment shaders: auto, fragment or compute (auto)", KIND_WORD, AT(path), 0, 0,
+     "auto|fragment|compute", SCOPE_PICTURE},
     {0, "frames", "N", "turntable: N pictures a full turn, FILE-0001.png and so on", KIND_INT, AT(frames), 1, 100000,
      "a whole number from 1 to 100000", SCOPE_PICTURE},
     {0, "bench", "N", "draws N frames and prints their times", KIND_INT, AT(bench), 1, 100000,

@@ -25,7 +25,7 @@ typedef struct options {
     const char *set;                                   /* setting_table.h; NULL: nothing */
     const char *output, *ao, *normals, *depth, *stats; /* NULL: not wanted */
     int width, height;
-    int quality, technique, context; /* glssao_quality, glssao_technique, context_kind */
+    int quality, technique, context, path; /* glssao_quality, glssao_technique, context_kind, glssao_path */
     options_number radius, power, fov_deg, near_plane, far_plane, error, budget_ms, time_s;
     options_vector eye, target, up;
     int sample_count;  /* 0: the quality's own */

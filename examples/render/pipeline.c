@@ -60,7 +60,7 @@ static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, co
     if (!p->wants.normals) {
         return true;
     }
-    if (p->kept && (p->seed != o->seed || p->kept_timers != p->wants.timers)) {
+    if (p->kept && (p->seed != o->seed || p->kept_timers != p->wants.timers || p->kept_path != (glssao_path)o->path)) {
         glssao_destroy(p->kept);
         p->kept = NULL;
     }
@@ -76,6 +76,7 @@ static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, co
                                       .height = p->height,
                                       .seed = o->seed,
                                       .no_timers = !p->wants.timers,
+                                      .path = (glssao_path)o->path,
                                       .program_cache = o->program_cache};
         const glssao_result result = glssao_create(&config, &p->kept);
         if (result != GLSSAO_OK) {
@@ -83,6 +84,7 @@ static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, co
             return false;
         }
         p->kept_timers = p->wants.timers;
+        p->kept_path = (glssao_path)o->path;
     }
     p->effect = p->kept;
     return true;

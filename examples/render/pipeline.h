@@ -39,6 +39,7 @@ typedef struct pipeline {
     glssao_effect *effect; /* NULL where neither occlusion passes nor normals are wanted; else: */
     glssao_effect *kept;   /* of these, and of the targets' size */
     bool kept_timers;
+    glssao_path kept_path;
     uint32_t seed;
     truth truth; /* where traced */
     glssao_settings settings;

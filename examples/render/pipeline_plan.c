@@ -6,6 +6,12 @@
 
 #include <stdio.h>
 
+/* How passes run that can run as compute shaders, too. */
+static void print_path(const glssao_plan *plan)
+{
+    printf("%-12s %-25s %s\n", "path", plan->path == GLSSAO_PATH_COMPUTE ? "compute" : "fragment", plan->path_reason);
+}
+
 static void print_row(const char *name, bool run, int draws, int width, int height, const char *reason)
 {
     char draw_text[16] = "-", size_text[32] = "-";
@@ -30,6 +36,7 @@ void pipeline_print_plan(const pipeline *p, const scene_view *view)
     } else if (p->wants.ao) {
         const glssao_frame frame = pipeline_frame(p, view);
         const glssao_plan plan = glssao_plan_frame(p->effect, &frame, &p->settings);
+        print_path(&plan);
         for (int i = 0; i < GLSSAO_PASS_COUNT; i++) {
             if (i != GLSSAO_PASS_APPLY) { /* the main pass reads the map itself */
                 print_row(plan.passes[i].name, plan.passes[i].run, plan.passes[i].draw_calls, plan.passes[i].width,

@@ -51,8 +51,9 @@ static uint64_t key_of(const glssao_effect *effect, enum glssao__shader shader, 
     const gl_enum names[] = {GL_VENDOR, GL_RENDERER, GL_VERSION};
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
         hash = hash_text(hash, (const char *)gl->GetString(names[i]));
-    const gl_enum stages[] = {GL_VERTEX_SHADER, GL_FRAGMENT_SHADER};
-    for (size_t i = 0; i < sizeof stages / sizeof *stages; ++i) {
+    const bool drawn = !(variant & VARIANT_COMPUTE);
+    const gl_enum stages[] = {drawn ? GL_VERTEX_SHADER : GL_COMPUTE_SHADER, GL_FRAGMENT_SHADER};
+    for (size_t i = 0; i < (drawn ? 2 : 1); ++i) {
         const char *sources[GLSSAO__PROGRAM_MAX_SOURCES];
         const int count = glssao__program_sources(shader, variant, stages[i], sources);
         for (int k = 0; k < count; ++k)

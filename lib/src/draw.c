@@ -25,6 +25,7 @@ void glssao__draw_bind(const glssao_effect *effect, enum glssao__unit unit, gl_u
 
 void glssao__draw_use(glssao_effect *effect, const glssao__program_object *program)
 {
+    effect->program = *program;
     effect->tiles.point = 0;
     effect->gl.UseProgram(program->name);
     effect->gl.Uniform2f(program->origin_location, 0.0f, 0.0f); /* a location of -1 is ignored */
@@ -32,11 +33,12 @@ void glssao__draw_use(glssao_effect *effect, const glssao__program_object *progr
 }
 
 /* Draws over a picture of that size whose lower left corner lies there. */
-static void draw_over(const glssao_effect *effect, int x, int y, int width, int height)
+static void draw_over(glssao_effect *effect, int x, int y, int width, int height)
 {
     const glssao__gl *gl = &effect->gl;
     const glssao__target *tiles = &effect->tiles.rings;
     const int point = effect->tiles.point;
+    glssao__compute_finish(effect);
     gl->BindVertexArray(effect->vertex_array);
     if (point > 0) {
         width = tiles->width * point;
@@ -49,14 +51,18 @@ static void draw_over(const glssao_effect *effect, int x, int y, int width, int 
         gl->DrawArrays(GL_TRIANGLES, 0, 6);
 }
 
-void glssao__draw(const glssao_effect *effect, gl_uint framebuffer, int width, int height)
+void glssao__draw(glssao_effect *effect, gl_uint framebuffer, int width, int height)
 {
     effect->gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     draw_over(effect, 0, 0, width, height);
 }
 
-void glssao__draw_region(const glssao_effect *effect, const glssao__target *target, const glssao__region *region)
+void glssao__draw_region(glssao_effect *effect, const glssao__target *target, const glssao__region *region)
 {
+    if (effect->program.compute) {
+        glssao__compute_dispatch(effect, target, region);
+        return;
+    }
     const bool whole = region->width == target->width && region->height == target->height;
     if (!whole)
         glssao__state_set_scissor(&effect->gl, (const gl_int[4]){region->x, region->y, region->width, region->height});
@@ -65,11 +71,15 @@ void glssao__draw_region(const glssao_effect *effect, const glssao__target *targ
         glssao__state_set_scissor(&effect->gl, NULL);
 }
 
-void glssao__draw_crop(const glssao_effect *effect, const glssao__program_object *program, const glssao__target *target,
-                       int width, int height, const glssao__region *region)
+void glssao__draw_crop(glssao_effect *effect, const glssao__target *target, int width, int height,
+                       const glssao__region *region)
 {
     const glssao__gl *gl = &effect->gl;
-    gl->Uniform2f(program->origin_location, (gl_float)region->x, (gl_float)region->y);
+    gl->Uniform2f(effect->program.origin_location, (gl_float)region->x, (gl_float)region->y);
+    if (effect->program.compute) {
+        glssao__compute_dispatch(effect, target, &(glssao__region){0, 0, region->width, region->height});
+        return;
+    }
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, target->framebuffer);
     /* The maps' picture, moved so that the region comes to lie on the target: uv runs over the maps as ever. */
     draw_over(effect, -region->x, -region->y, width, height);

@@ -15,6 +15,14 @@ static bool check_size(const glssao__log_sink *log, int width, int height, int m
     return false;
 }
 
+static bool check_path(const glssao__log_sink *log, glssao_path path)
+{
+    if ((unsigned)path <= GLSSAO_PATH_COMPUTE)
+        return true;
+    glssao__log_write(log, GLSSAO_LOG_ERROR, "config.path = %d: unknown", (int)path);
+    return false;
+}
+
 static glssao_result make_sized(glssao_effect *effect, int width, int height, glssao__target *out_normal,
                                 glssao__ambient_maps *out_ambient)
 {
@@ -72,6 +80,7 @@ glssao_result glssao_create(const glssao_config *config, glssao_effect **out_eff
     effect->log = log;
     effect->seed = config->seed;
     effect->has_timers = !config->no_timers;
+    effect->path = config->path;
     effect->accumulation.sampling_error = -1.0;
     effect->width = config->width;
     effect->height = config->height;
@@ -82,9 +91,17 @@ glssao_result glssao_create(const glssao_config *config, glssao_effect **out_eff
         free(effect);
         return GLSSAO_UNSUPPORTED_CONTEXT;
     }
-    if (!check_size(&log, config->width, config->height, effect->gl.max_size)) {
+    if (!check_size(&log, config->width, config->height, effect->gl.max_size) || !check_path(&log, config->path)) {
         free(effect);
         return GLSSAO_INVALID_ARGUMENT;
+    }
+    if (glssao__compute_is_out(effect)) /* its state is then none of ours */
+        effect->gl.compute = false;
+    if (config->path == GLSSAO_PATH_COMPUTE && !effect->gl.compute) {
+        glssao__log_write(&log, GLSSAO_LOG_ERROR,
+                          "the context lacks compute shaders that write images, which config.path requires");
+        free(effect);
+        return GLSSAO_UNSUPPORTED_CONTEXT;
     }
     if (config->program_cache) {
         const size_t size = strlen(config->program_cache) + 1;
@@ -125,6 +142,7 @@ void glssao_destroy(glssao_effect *effect)
     glssao__maps_delete_ambient(gl, &effect->paired);
     glssao__maps_delete_target(gl, &effect->distance_map);
     glssao__maps_delete_target(gl, &effect->result_map);
+    glssao__maps_delete_target(gl, &effect->block_map);
     glssao__tiles_destroy(effect);
     glssao__accumulate_destroy(effect);
     gl->DeleteTextures(1, &effect->random_vector_map);
@@ -163,6 +181,7 @@ glssao_result glssao_resize(glssao_effect *effect, int width, int height)
     glssao__maps_delete_ambient(&effect->gl, &effect->paired); /* made again when next needed, as are these: */
     glssao__maps_delete_target(&effect->gl, &effect->distance_map);
     glssao__maps_delete_target(&effect->gl, &effect->result_map);
+    glssao__maps_delete_target(&effect->gl, &effect->block_map);
     glssao__tiles_destroy(effect);
     glssao__accumulate_destroy(effect);
     effect->has_result_map = false;

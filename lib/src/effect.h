@@ -58,6 +58,8 @@ enum glssao__shader {
     SHADER_BLUR,
     SHADER_PLANAR_BLUR,
     SHADER_UPSAMPLE,
+    SHADER_SPREAD,
+    SHADER_PLANAR_TILE, /* both in one, by compute shader alone */
     SHADER_APPLY,
     SHADER_TILE_ROWS,
     SHADER_TILE_BOUNDS,
@@ -87,7 +89,12 @@ enum glssao__variant {
     VARIANT_OPEN = 65536,
     VARIANT_PLANES = 131072,
     VARIANT_FROM_DEPTH = 262144,
-    VARIANT_FLAGS = 19, /* how many there are */
+    VARIANT_COMPUTE = 524288,
+    VARIANT_UPSAMPLE = 1048576,
+    VARIANT_ROUNDS_1 = 2097152,
+    VARIANT_ROUNDS_2 = 4194304,
+    VARIANT_WIDE = 8388608,
+    VARIANT_FLAGS = 24, /* how many there are */
     VARIANT_COUNT = 1 << VARIANT_FLAGS
 };
 
@@ -100,6 +107,7 @@ enum {
     TILE_ESTIMATES = 16,
     TILE_PASSES = 4,
     TIMER_FRAMES = 4,
+    COMPUTE_ROUNDS = 2, /* of the planar blur that one dispatch runs, at most */
     MAX_DRAW_BUFFERS = 8,
     INPUT_COUNT = 4,
     TOGGLE_CAPACITY = 32
@@ -159,6 +167,7 @@ typedef struct glssao__projection {
 typedef struct glssao__ambient_maps {
     gl_uint texture[2], framebuffer[2];
     int width, height;
+    gl_enum format;
 } glssao__ambient_maps;
 
 /* A texture and the framebuffer that draws into it; 0 where it is not made. */
@@ -185,7 +194,9 @@ typedef struct glssao__region {
 typedef struct glssao__program_object {
     gl_uint name;
     gl_int horizontal_location, origin_location; /* of gHorizontalBlur and gOrigin, -1 where there is none */
-    gl_int tile_range_location;                  /* of gTileRange */
+    gl_int tile_range_location, region_location; /* of gTileRange and gRegion */
+    bool compute;
+    int group[2]; /* pixels of the target that a work group makes */
 } glssao__program_object;
 
 typedef struct glssao__tile_programs {
@@ -214,6 +225,7 @@ typedef struct glssao__host_state {
     gl_int program, vertex_array, draw_framebuffer, read_framebuffer, active_texture;
     gl_float viewport[4];
     gl_int textures[UNIT_COUNT], samplers[UNIT_COUNT];
+    gl_int image[6]; /* of image unit 0: name, level, layered, layer, access, format */
     gl_int uniform_buffer;
     struct {
         gl_int buffer;
@@ -236,17 +248,21 @@ struct glssao_effect {
     glssao__log_sink log;
     uint32_t seed;
     bool has_timers;
-    char *cache_folder; /* of linked programs; NULL: not kept */
+    glssao_path path;     /* as the config has it */
+    bool compute_refused; /* the driver did not take a compute shader */
+    char *cache_folder;   /* of linked programs; NULL: not kept */
     int width, height;
 
     glssao__target inputs[INPUT_COUNT]; /* copies of the host's textures; made when first needed */
     glssao__target normal_map;
     glssao__target distance_map; /* at the estimate's size; made when first needed */
     glssao__target result_map;   /* the result, where it has another size than the estimate; made when first needed */
+    glssao__target block_map;    /* RGBA16, as glsl/upsample.frag writes it; made when first needed */
     bool has_result_map;         /* the last result lies there */
     int margin;                  /* of the last frame */
     glssao__ambient_maps ambient;
     glssao__ambient_maps paired; /* RG32F, see paired.glsl; made when first needed */
+    bool is_dispatched;          /* what compute shaders wrote waits for a barrier */
     bool is_paired;              /* the last frame's passes drew into them */
     glssao__tiles tiles;
     bool ambient_is_one; /* both ambient maps hold 1 everywhere: nothing to clear */
@@ -259,7 +275,8 @@ struct glssao_effect {
         enum glssao__shader shader;
         unsigned variant;
         glssao__program_object object;
-    } * programs; /* those compiled so far */
+    } * programs;                   /* those compiled so far */
+    glssao__program_object program; /* in use */
     int program_count;
 
     glssao_constants constants;
@@ -365,16 +382,35 @@ void glssao__state_set_viewport(const glssao__gl *gl, const gl_float viewport[4]
 void glssao__draw_bind(const glssao_effect *effect, enum glssao__unit unit, gl_uint texture,
                        enum glssao__sampler sampler);
 void glssao__draw_use(glssao_effect *effect, const glssao__program_object *program);
-/* Covers width x height of the framebuffer with the bound program. */
-void glssao__draw(const glssao_effect *effect, gl_uint framebuffer, int width, int height);
-/* The same, but draws no pixel outside of the region. */
-void glssao__draw_region(const glssao_effect *effect, const glssao__target *target, const glssao__region *region);
+/* Covers width x height of the framebuffer with the program in use, which is none of compute shaders. */
+void glssao__draw(glssao_effect *effect, gl_uint framebuffer, int width, int height);
+/* The same for a target, by compute shader where the program is one, but draws no pixel outside of the region. */
+void glssao__draw_region(glssao_effect *effect, const glssao__target *target, const glssao__region *region);
 /* Draws the region of maps of width x height into a target of the region's size. */
-void glssao__draw_crop(const glssao_effect *effect, const glssao__program_object *program, const glssao__target *target,
-                       int width, int height, const glssao__region *region);
+void glssao__draw_crop(glssao_effect *effect, const glssao__target *target, int width, int height,
+                       const glssao__region *region);
 bool glssao__draw_is_between_normals(const glssao_effect *effect, const char *function); /* logs it, too */
 /* With GLSSAO_CHECK_GL only: names the pass after which the driver holds an error. Eats errors of the host. */
 void glssao__draw_check(const glssao_effect *effect, const char *where);
+
+/* compute.c */
+/* Why the passes of the frame that could run as compute shaders do or don't. */
+bool glssao__compute_decide(const glssao_effect *effect, const glssao_settings *settings, const char **out_reason);
+/* Whether no frame of the effect runs any. */
+bool glssao__compute_is_out(const glssao_effect *effect);
+bool glssao__compute_can_run(const glssao_settings *settings, glssao_pass pass);
+/* Whether the frame is to be tried again without, after its programs could not be made. */
+bool glssao__compute_gives_up(glssao_effect *effect, const glssao_plan *plan, glssao_result result);
+/* Whether horizon's estimate makes view distances of depth itself, without a distance map. */
+bool glssao__compute_reads_depth(const glssao_frame *frame, const glssao_plan *plan);
+/* Of the blur's rounds, those that run within the dispatch that brings the result to full size. */
+/* What is left of a map without so many pixels along each side. */
+glssao__region glssao__plan_inner(int width, int height, int margin);
+int glssao__compute_rounds_within(const glssao_settings *settings, const glssao_plan *plan);
+/* The program in use writes the region of the target. */
+void glssao__compute_dispatch(glssao_effect *effect, const glssao__target *target, const glssao__region *region);
+/* What was dispatched can be read, and drawn over, by whatever follows; nothing where nothing was. */
+void glssao__compute_finish(glssao_effect *effect);
 
 /* accumulate.c */
 /* The settings that one more estimate is computed with: at full size. */
@@ -399,7 +435,7 @@ glssao_result glssao__inputs_fit(glssao_effect *effect, const glssao_frame *fram
 glssao_frame glssao__inputs_frame(const glssao_effect *effect, const glssao_frame *frame);
 glssao_result glssao__inputs_programs(glssao_effect *effect, const glssao_frame *frame,
                                       glssao__program_object out_programs[INPUT_COUNT]);
-void glssao__inputs_copy(const glssao_effect *effect, const glssao_frame *frame,
+void glssao__inputs_copy(glssao_effect *effect, const glssao_frame *frame,
                          const glssao__program_object programs[INPUT_COUNT]);
 
 /* maps.c */
@@ -408,6 +444,7 @@ void glssao__maps_delete_ambient(const glssao__gl *gl, glssao__ambient_maps *map
 glssao_result glssao__maps_make_normal(glssao_effect *effect, int width, int height, glssao__target *out_map);
 /* Makes or remakes the map where it has another size; on failure it is as it was. */
 glssao_result glssao__maps_fit_input(glssao_effect *effect, bool has_normals, glssao__target *map);
+glssao_result glssao__maps_fit_block(glssao_effect *effect, int width, int height);
 glssao_result glssao__maps_fit_distance(glssao_effect *effect, int width, int height, bool has_layers);
 glssao_result glssao__maps_fit_accumulation(glssao_effect *effect);
 /* The ambient maps, the paired ones and the result's own (width 0: neither is needed), all or none. */
@@ -425,7 +462,9 @@ void glssao__maps_make_samplers(glssao_effect *effect);
 glssao_result glssao__maps_check_texture(glssao_effect *effect, gl_uint texture, bool needs_depth, const char *field);
 
 /* program.c */
-enum { GLSSAO__PROGRAM_MAX_SOURCES = 3 * VARIANT_FLAGS + 12 }; /* three a macro, eight about blocks, four files */
+enum {
+    GLSSAO__PROGRAM_MAX_SOURCES = 3 * VARIANT_FLAGS + 15
+}; /* three a macro, nine about blocks and sizes, six files */
 /* Pieces of a shader stage of a variant, in the order that the driver gets them; returns how many. */
 int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enum stage,
                             const char *out_sources[GLSSAO__PROGRAM_MAX_SOURCES]);
@@ -442,8 +481,8 @@ void glssao__cache_write(const glssao_effect *effect, enum glssao__shader shader
 
 /* frame_programs.c */
 typedef struct glssao__frame_programs {
-    glssao__program_object inputs[INPUT_COUNT], normals, distance, estimate, open, resolve, probe, blur, last_blur,
-        upsample;
+    glssao__program_object inputs[INPUT_COUNT], normals, distance, estimate, open, resolve, probe, upsample, spread;
+    glssao__program_object blur, wide_blur, last_blur; /* the first round's, later ones', that of the last call */
     glssao__tile_programs tiles;
 } glssao__frame_programs;
 

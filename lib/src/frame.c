@@ -30,6 +30,8 @@ static glssao_result fit_maps(glssao_effect *effect, const glssao_frame *frame, 
         result = glssao__maps_fit_tiles(effect, width, height, glssao__tiles_variant(settings) & VARIANT_FROM_DEPTH);
     if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_RESOLVE].run)
         result = glssao__maps_fit_accumulation(effect);
+    if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_UPSAMPLE].run && !plan->passes[GLSSAO_PASS_UPSAMPLE].compute)
+        result = glssao__maps_fit_block(effect, width, height);
     if (result != GLSSAO_OK)
         return result;
     const bool apart = is_apart(plan, frame);
@@ -100,7 +102,8 @@ static void map_distance(const frame_run *r)
         glssao__draw_bind(effect, UNIT_BACK, r->frame->back_texture, SAMPLER_POINT_CLAMP);
         glssao__draw_bind(effect, UNIT_SECOND, r->frame->second_texture, SAMPLER_POINT_CLAMP);
     }
-    glssao__draw(effect, effect->distance_map.framebuffer, effect->distance_map.width, effect->distance_map.height);
+    const glssao__region region = region_of(r, GLSSAO_PASS_DISTANCE);
+    glssao__draw_region(effect, &effect->distance_map, &region);
     glssao__draw_bind(effect, UNIT_DISTANCE, effect->distance_map.texture, SAMPLER_POINT_CLAMP);
 }
 
@@ -126,21 +129,22 @@ static const glssao__ambient_maps *turns(const glssao_effect *effect)
 
 static glssao__target target_of(const glssao__ambient_maps *maps, int i)
 {
-    return (glssao__target){
-        .texture = maps->texture[i], .framebuffer = maps->framebuffer[i], .width = maps->width, .height = maps->height};
+    return (glssao__target){.texture = maps->texture[i],
+                            .framebuffer = maps->framebuffer[i],
+                            .width = maps->width,
+                            .height = maps->height,
+                            .format = maps->format};
 }
 
 /* Draws the `number`-th of the estimate (0) and the blur's passes; the last leaves the result, if it is not brought to
  * full size, where the host looks for it. */
-static void draw_turn(const frame_run *r, const glssao__program_object *program, glssao_pass pass, int number,
-                      bool is_result)
+static void draw_turn(const frame_run *r, glssao_pass pass, int number, bool is_result)
 {
     glssao_effect *effect = r->effect;
     if (number > 0)
         glssao__draw_bind(effect, UNIT_AMBIENT, turns(effect)->texture[(number - 1) % 2], SAMPLER_POINT_CLAMP);
     if (is_result && effect->has_result_map) {
-        glssao__draw_crop(effect, program, &effect->result_map, effect->ambient.width, effect->ambient.height,
-                          &r->delivered);
+        glssao__draw_crop(effect, &effect->result_map, effect->ambient.width, effect->ambient.height, &r->delivered);
         return;
     }
     const glssao__region region = region_of(r, pass);
@@ -155,12 +159,11 @@ static void estimate(const frame_run *r)
     glssao__draw_use(effect, &r->programs.estimate);
     if (!runs(r, GLSSAO_PASS_RESOLVE)) {
         select_tiles(r, &r->programs.estimate, 1, 0, 0);
-        draw_turn(r, &r->programs.estimate, GLSSAO_PASS_ESTIMATE, 0,
-                  !runs(r, GLSSAO_PASS_BLUR) && !runs(r, GLSSAO_PASS_UPSAMPLE));
+        draw_turn(r, GLSSAO_PASS_ESTIMATE, 0, !runs(r, GLSSAO_PASS_BLUR) && !runs(r, GLSSAO_PASS_UPSAMPLE));
         if (r->plan->passes[GLSSAO_PASS_ESTIMATE].draw_calls > 1) {
             glssao__draw_use(effect, &r->programs.open);
             select_tiles(r, &r->programs.open, 1, 1, r->rings + 2);
-            draw_turn(r, &r->programs.open, GLSSAO_PASS_ESTIMATE, 0, false);
+            draw_turn(r, GLSSAO_PASS_ESTIMATE, 0, false);
         }
         return;
     }
@@ -177,20 +180,23 @@ static void resolve(const frame_run *r)
     if (r->plan->passes[GLSSAO_PASS_RESOLVE].draw_calls > 1)
         glssao__accumulate_probe(r->effect, &r->programs.probe);
     glssao__draw_use(r->effect, &r->programs.resolve);
-    draw_turn(r, &r->programs.resolve, GLSSAO_PASS_RESOLVE, 0, !runs(r, GLSSAO_PASS_BLUR));
+    draw_turn(r, GLSSAO_PASS_RESOLVE, 0, !runs(r, GLSSAO_PASS_BLUR));
 }
 
 static void blur(const frame_run *r)
 {
-    const int count = 2 * r->settings->blur_rounds;
+    const int count = r->plan->passes[GLSSAO_PASS_BLUR].draw_calls;
     for (int i = 1; i <= count; ++i) {
-        const glssao__program_object *program = i < count ? &r->programs.blur : &r->programs.last_blur;
+        const bool is_first = i <= (r->programs.blur.compute ? 1 : 2);
+        const glssao__program_object *program = i == count ? &r->programs.last_blur
+                                                : is_first ? &r->programs.blur
+                                                           : &r->programs.wide_blur;
         glssao__draw_use(r->effect, program);
         /* Horizontal 0 to 1, vertical 1 to 0. */
         r->effect->gl.Uniform1i(program->horizontal_location, i % 2);
         /* The vertical pass reads a tile farther than it draws. */
         select_tiles(r, program, 1, 0, r->rings + i % 2);
-        draw_turn(r, program, GLSSAO_PASS_BLUR, i, i == count && !runs(r, GLSSAO_PASS_UPSAMPLE));
+        draw_turn(r, GLSSAO_PASS_BLUR, i, i == count && !runs(r, GLSSAO_PASS_UPSAMPLE));
     }
 }
 
@@ -198,10 +204,19 @@ static void upsample(const frame_run *r)
 {
     glssao_effect *effect = r->effect;
     glssao__draw_use(effect, &r->programs.upsample);
-    select_tiles(r, &r->programs.upsample, 2, 0, r->rings);
     glssao__draw_bind(effect, UNIT_DEPTH, depth_source(r->frame), SAMPLER_POINT_CLAMP);
-    glssao__draw_bind(effect, UNIT_AMBIENT, turns(effect)->texture[0], SAMPLER_POINT_CLAMP);
-    glssao__draw_crop(effect, &r->programs.upsample, &effect->result_map, effect->width, effect->height, &r->delivered);
+    glssao__draw_bind(effect, UNIT_AMBIENT, turns(effect)->texture[r->plan->passes[GLSSAO_PASS_BLUR].draw_calls % 2],
+                      SAMPLER_POINT_CLAMP);
+    if (!r->programs.upsample.compute) {
+        select_tiles(r, &r->programs.upsample, 1, 0, r->rings);
+        const glssao__region blocks =
+            glssao__plan_inner(effect->ambient.width, effect->ambient.height, r->frame->margin / 2);
+        glssao__draw_region(effect, &effect->block_map, &blocks);
+        glssao__draw_use(effect, &r->programs.spread);
+        select_tiles(r, &r->programs.spread, 2, 0, r->rings);
+        glssao__draw_bind(effect, UNIT_AMBIENT, effect->block_map.texture, SAMPLER_POINT_CLAMP);
+    }
+    glssao__draw_crop(effect, &effect->result_map, effect->width, effect->height, &r->delivered);
 }
 
 /* The plan's passes, in order. */
@@ -230,6 +245,7 @@ static void run_passes(const frame_run *r)
         glssao__stats_end_pass(r->effect, (glssao_pass)i, planned->draw_calls);
         glssao__draw_check(r->effect, planned->name);
     }
+    glssao__compute_finish(r->effect);
 }
 
 /* What glssao_compute and glssao_accumulate have in common; `plan` tells which it is. */
@@ -293,21 +309,31 @@ static bool may_run(glssao_effect *effect, const glssao_frame *frame, const glss
            glssao__settings_check_frame(effect, frame, settings, &effect->log, out_projection);
 }
 
+/* Makes what the frame needs, without drawing. */
+static glssao_result prepare(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
+                             const glssao_plan *plan)
+{
+    glssao__frame_programs programs;
+    glssao_result result = glssao__inputs_fit(effect, frame);
+    const glssao_frame read = glssao__inputs_frame(effect, frame);
+    if (result == GLSSAO_OK)
+        result = glssao__frame_programs_get(effect, frame, &read, settings, plan, &programs);
+    return result == GLSSAO_OK ? fit_maps(effect, &read, settings, plan) : result;
+}
+
 glssao_result glssao_prepare(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
 {
     glssao__projection projection;
     if (!may_run(effect, frame, settings, "glssao_prepare", &projection))
         return GLSSAO_INVALID_ARGUMENT;
-    glssao__frame_programs programs;
     glssao__host_state host;
     glssao__state_save(&effect->gl, &host);
-    const glssao_plan plan = glssao_plan_frame(effect, frame, settings);
-    glssao_result result = glssao__inputs_fit(effect, frame);
-    const glssao_frame read = glssao__inputs_frame(effect, frame);
-    if (result == GLSSAO_OK)
-        result = glssao__frame_programs_get(effect, frame, &read, settings, &plan, &programs);
-    if (result == GLSSAO_OK)
-        result = fit_maps(effect, &read, settings, &plan);
+    glssao_result result;
+    glssao_plan plan;
+    do {
+        plan = glssao_plan_frame(effect, frame, settings);
+        result = prepare(effect, frame, settings, &plan);
+    } while (glssao__compute_gives_up(effect, &plan, result));
     glssao__state_restore(&effect->gl, &host);
     glssao__draw_check(effect, "glssao_prepare");
     return result;
@@ -320,8 +346,12 @@ glssao_result glssao_compute(glssao_effect *effect, const glssao_frame *frame, c
         return GLSSAO_INVALID_ARGUMENT;
     glssao__host_state host;
     glssao__state_save(&effect->gl, &host);
-    const glssao_plan plan = glssao_plan_frame(effect, frame, settings);
-    glssao_result result = run(effect, frame, settings, &projection, &plan);
+    glssao_result result;
+    glssao_plan plan;
+    do {
+        plan = glssao_plan_frame(effect, frame, settings);
+        result = run(effect, frame, settings, &projection, &plan);
+    } while (glssao__compute_gives_up(effect, &plan, result));
     glssao__state_restore(&effect->gl, &host);
     glssao__draw_check(effect, "glssao_compute");
     return result;
@@ -338,11 +368,14 @@ glssao_result glssao_accumulate(glssao_effect *effect, const glssao_frame *frame
         return GLSSAO_INVALID_ARGUMENT;
     }
     const glssao_settings estimate = glssao__accumulate_settings(settings);
-    const glssao_plan plan =
-        glssao__plan_accumulate(effect, frame, &estimate, glssao__accumulate_next(effect, frame, &estimate));
     glssao__host_state host;
     glssao__state_save(&effect->gl, &host);
-    glssao_result result = run(effect, frame, &estimate, &projection, &plan);
+    glssao_result result;
+    glssao_plan plan;
+    do {
+        plan = glssao__plan_accumulate(effect, frame, &estimate, glssao__accumulate_next(effect, frame, &estimate));
+        result = run(effect, frame, &estimate, &projection, &plan);
+    } while (glssao__compute_gives_up(effect, &plan, result));
     if (result == GLSSAO_OK && !plan.passes[GLSSAO_PASS_ESTIMATE].run)
         effect->accumulation.sampling_error = 0.0; /* nothing was sampled */
     glssao__state_restore(&effect->gl, &host);

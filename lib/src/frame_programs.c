@@ -48,6 +48,11 @@ static unsigned estimate_variant(const glssao_settings *settings)
     }
 }
 
+static unsigned rounds_variant(int rounds)
+{
+    return rounds == 0 ? 0u : rounds == 1 ? VARIANT_ROUNDS_1 : VARIANT_ROUNDS_2;
+}
+
 glssao_result glssao__frame_programs_get(glssao_effect *effect, const glssao_frame *host, const glssao_frame *frame,
                                          const glssao_settings *settings, const glssao_plan *plan,
                                          glssao__frame_programs *out)
@@ -55,7 +60,20 @@ glssao_result glssao__frame_programs_get(glssao_effect *effect, const glssao_fra
     const unsigned inputs = input_variant(frame), paired = glssao__plan_is_paired(settings, plan) ? VARIANT_PAIRED : 0u;
     const unsigned blur = inputs | (settings->blur == GLSSAO_BLUR_BILATERAL ? VARIANT_EDGE_AWARE : 0u) |
                           (settings->blur == GLSSAO_BLUR_BOX ? VARIANT_BOX : 0u);
-    const enum glssao__shader blur_shader = settings->blur == GLSSAO_BLUR_PLANAR ? SHADER_PLANAR_BLUR : SHADER_BLUR;
+    const bool planar = settings->blur == GLSSAO_BLUR_PLANAR, tiled = planar && plan->passes[GLSSAO_PASS_BLUR].compute;
+    const enum glssao__shader blur_shader = tiled ? SHADER_PLANAR_TILE : planar ? SHADER_PLANAR_BLUR : SHADER_BLUR;
+    const bool upsample_compute = plan->passes[GLSSAO_PASS_UPSAMPLE].compute;
+    /* Of a blur by compute shader, the last dispatch may run fewer rounds than those before it. */
+    const int within = glssao__compute_rounds_within(settings, plan), rounds = settings->blur_rounds - within;
+    const int calls = plan->passes[GLSSAO_PASS_BLUR].draw_calls, first_calls = tiled ? 1 : 2;
+    const unsigned all_rounds = tiled ? rounds_variant(COMPUTE_ROUNDS) : 0u, wide = planar ? VARIANT_WIDE : 0u;
+    const unsigned last_rounds =
+        tiled && rounds % COMPUTE_ROUNDS ? rounds_variant(rounds % COMPUTE_ROUNDS) : all_rounds;
+    const unsigned last_blur =
+        blur | last_rounds | (calls > first_calls ? wide : 0u) | (plan->passes[GLSSAO_PASS_UPSAMPLE].run ? paired : 0u);
+    const unsigned first_blur = calls > 1 ? blur | paired | all_rounds : last_blur;
+    const unsigned wide_blur = calls > first_calls + 1 ? first_blur | wide : last_blur;
+    const unsigned from_depth = glssao__compute_reads_depth(frame, plan) ? VARIANT_FROM_DEPTH : 0u;
     const unsigned tiles = inputs | glssao__tiles_variant(settings);
     const struct {
         glssao_pass pass;
@@ -70,20 +88,29 @@ glssao_result glssao__frame_programs_get(glssao_effect *effect, const glssao_fra
         {GLSSAO_PASS_TILES, SHADER_TILE_CLASS, tiles, &out->tiles.needed},
         {GLSSAO_PASS_TILES, SHADER_TILE_RINGS, 0, &out->tiles.rings},
         {GLSSAO_PASS_ESTIMATE, estimate_shader(settings),
-         inputs | estimate_variant(settings) | (plan->passes[GLSSAO_PASS_RESOLVE].run ? VARIANT_ACCUMULATE : paired),
+         inputs | estimate_variant(settings) | from_depth |
+             (plan->passes[GLSSAO_PASS_RESOLVE].run ? VARIANT_ACCUMULATE : paired),
          &out->estimate},
         {GLSSAO_PASS_RESOLVE, SHADER_RESOLVE, inputs | paired, &out->resolve},
         {GLSSAO_PASS_RESOLVE, SHADER_PROBE, 0, &out->probe},
-        {GLSSAO_PASS_BLUR, blur_shader, blur | paired, &out->blur},
-        {GLSSAO_PASS_BLUR, blur_shader, blur | (plan->passes[GLSSAO_PASS_UPSAMPLE].run ? paired : 0u), &out->last_blur},
-        {GLSSAO_PASS_UPSAMPLE, SHADER_UPSAMPLE, inputs, &out->upsample},
+        {GLSSAO_PASS_BLUR, blur_shader, first_blur, &out->blur},
+        {GLSSAO_PASS_BLUR, blur_shader, wide_blur, &out->wide_blur},
+        {GLSSAO_PASS_BLUR, blur_shader, last_blur, &out->last_blur},
+        {GLSSAO_PASS_UPSAMPLE, upsample_compute ? SHADER_PLANAR_TILE : SHADER_UPSAMPLE,
+         inputs | (upsample_compute ? VARIANT_UPSAMPLE | rounds_variant(within) : 0u) |
+             (within > 0 && rounds > 0 ? wide : 0u),
+         &out->upsample},
     };
     glssao_result result =
         plan->passes[GLSSAO_PASS_INPUTS].run ? glssao__inputs_programs(effect, host, out->inputs) : GLSSAO_OK;
     for (size_t i = 0; i < sizeof needed / sizeof *needed && result == GLSSAO_OK; ++i)
         if (plan->passes[needed[i].pass].run)
-            result = glssao__program_get(effect, needed[i].shader, needed[i].variant, needed[i].out);
+            result = glssao__program_get(
+                effect, needed[i].shader,
+                needed[i].variant | (plan->passes[needed[i].pass].compute ? VARIANT_COMPUTE : 0u), needed[i].out);
     if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_TILES].run && glssao__plan_is_paired(settings, plan))
         result = glssao__program_get(effect, estimate_shader(settings), inputs | paired | VARIANT_OPEN, &out->open);
+    if (result == GLSSAO_OK && plan->passes[GLSSAO_PASS_UPSAMPLE].run && !upsample_compute)
+        result = glssao__program_get(effect, SHADER_SPREAD, 0, &out->spread);
     return result;
 }

@@ -182,7 +182,7 @@ glssao_result glssao__inputs_programs(glssao_effect *effect, const glssao_frame 
     return result;
 }
 
-void glssao__inputs_copy(const glssao_effect *effect, const glssao_frame *frame,
+void glssao__inputs_copy(glssao_effect *effect, const glssao_frame *frame,
                          const glssao__program_object programs[INPUT_COUNT])
 {
     const glssao__gl *gl = &effect->gl;

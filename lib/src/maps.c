@@ -98,6 +98,11 @@ glssao_result glssao__maps_fit_distance(glssao_effect *effect, int width, int he
     return fit_target(effect, has_layers ? GL_RGBA32F : GL_R32F, width, height, "distance", &effect->distance_map);
 }
 
+glssao_result glssao__maps_fit_block(glssao_effect *effect, int width, int height)
+{
+    return fit_target(effect, GL_RGBA16, width, height, "block", &effect->block_map);
+}
+
 glssao_result glssao__maps_fit_accumulation(glssao_effect *effect)
 {
     glssao__accumulation *a = &effect->accumulation;
@@ -124,7 +129,7 @@ static void clear_to_one(const glssao__gl *gl, const glssao__ambient_maps *maps)
 static glssao_result make_pair(glssao_effect *effect, gl_enum format, int width, int height, const char *what,
                                glssao__ambient_maps *out_maps)
 {
-    *out_maps = (glssao__ambient_maps){.width = width, .height = height};
+    *out_maps = (glssao__ambient_maps){.width = width, .height = height, .format = format};
     for (int i = 0; i < 2; ++i) {
         glssao__target target;
         glssao_result result = make_target(effect, format, width, height, what, &target);

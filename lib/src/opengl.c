@@ -40,6 +40,13 @@ static int read_version(const glssao__gl *gl)
     return 10 * major + minor;
 }
 
+static bool offers_compute(const glssao__gl *gl)
+{
+    const bool shaders = gl->version >= 43 || has_extension(gl, "GL_ARB_compute_shader");
+    const bool images = gl->version >= 42 || has_extension(gl, "GL_ARB_shader_image_load_store");
+    return shaders && images && gl->BindImageTexture && gl->DispatchCompute && gl->MemoryBarrier;
+}
+
 static int smaller(int a, int b)
 {
     return a < b ? a : b;
@@ -78,6 +85,7 @@ bool glssao__gl_load(glssao__gl *gl, glssao__gl_load_fn load, void *user, const 
         gl->ViewportIndexedf = NULL;
     if (gl->version < 45 && !has_extension(gl, "GL_ARB_clip_control"))
         gl->ClipControl = NULL;
+    gl->compute = offers_compute(gl);
     gl_int formats = 0;
     if ((gl->version >= 41 || has_extension(gl, "GL_ARB_get_program_binary")) && gl->GetProgramBinary &&
         gl->ProgramBinary && gl->ProgramParameteri)

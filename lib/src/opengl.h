@@ -136,6 +136,7 @@ enum {
     GL_TEXTURE_STENCIL_SIZE = 0x88F1,
     GL_SAMPLER_BINDING = 0x8919,
     GL_RGBA16F = 0x881A,
+    GL_RGBA16 = 0x805B,
     GL_RGBA32F = 0x8814,
     GL_UNIFORM_BUFFER = 0x8A11,
     GL_UNIFORM_BUFFER_BINDING = 0x8A28,
@@ -171,6 +172,19 @@ enum {
     GL_PRIMITIVE_RESTART = 0x8F9D,
     GL_TEXTURE_2D_MULTISAMPLE = 0x9100,
     GL_TEXTURE_BINDING_2D_MULTISAMPLE = 0x9104,
+    GL_READ_ONLY = 0x88B8,
+    GL_WRITE_ONLY = 0x88B9,
+    GL_COMPUTE_SHADER = 0x91B9,
+    GL_IMAGE_BINDING_NAME = 0x8F3A,
+    GL_IMAGE_BINDING_LEVEL = 0x8F3B,
+    GL_IMAGE_BINDING_LAYERED = 0x8F3C,
+    GL_IMAGE_BINDING_LAYER = 0x8F3D,
+    GL_IMAGE_BINDING_ACCESS = 0x8F3E,
+    GL_IMAGE_BINDING_FORMAT = 0x906E,
+    GL_TEXTURE_FETCH_BARRIER_BIT = 0x0008,
+    GL_SHADER_IMAGE_ACCESS_BARRIER_BIT = 0x0020,
+    GL_TEXTURE_UPDATE_BARRIER_BIT = 0x0100,
+    GL_FRAMEBUFFER_BARRIER_BIT = 0x0400,
     GL_CLIP_ORIGIN = 0x935C,
     GL_CLIP_DEPTH_MODE = 0x935D,
     GL_SYNC_GPU_COMMANDS_COMPLETE = 0x9117,
@@ -234,8 +248,7 @@ enum {
     X(void, GetBufferSubData, (gl_enum target, gl_intptr offset, gl_sizeiptr size, void *data))                        \
     X(gl_enum, GetError, (void))                                                                                       \
     X(void, GetFloatv, (gl_enum name, gl_float * out))                                                                 \
-    X(void, GetFramebufferAttachmentParameteriv,                                                                       \
-      (gl_enum target, gl_enum attachment, gl_enum name, gl_int * out))                                                \
+    X(void, GetFramebufferAttachmentParameteriv, (gl_enum target, gl_enum attachment, gl_enum name, gl_int * out))     \
     X(void, GetInteger64i_v, (gl_enum name, gl_uint index, int64_t * out))                                             \
     X(void, GetIntegeri_v, (gl_enum name, gl_uint index, gl_int * out))                                                \
     X(void, GetIntegerv, (gl_enum name, gl_int * out))                                                                 \
@@ -271,17 +284,22 @@ enum {
     X(void, Uniform2f, (gl_int location, gl_float x, gl_float y))                                                      \
     X(void, Uniform3f, (gl_int location, gl_float x, gl_float y, gl_float z))                                          \
     X(void, Uniform1i, (gl_int location, gl_int value))                                                                \
+    X(void, Uniform4i, (gl_int location, gl_int x, gl_int y, gl_int z, gl_int w))                                      \
     X(void, UniformBlockBinding, (gl_uint program, gl_uint block, gl_uint binding))                                    \
     X(void, UseProgram, (gl_uint program))                                                                             \
     X(void, Viewport, (gl_int x, gl_int y, gl_sizei width, gl_sizei height))
 
-/* Of later versions: so that a host that uses them gets its state back exactly, and to keep linked programs. */
+/* Of later versions: so that a host that uses them gets its state back exactly, to keep linked programs, and to run
+ * passes as compute shaders. */
 #define GLSSAO_GL_OPTIONAL_FUNCTIONS(X)                                                                                \
+    X(void, BindImageTexture,                                                                                          \
+      (gl_uint unit, gl_uint texture, gl_int level, gl_boolean layered, gl_int layer, gl_enum access, gl_enum format)) \
     X(void, BlendEquationSeparatei, (gl_uint index, gl_enum rgb, gl_enum alpha))                                       \
     X(void, BlendFuncSeparatei,                                                                                        \
       (gl_uint index, gl_enum src_rgb, gl_enum dst_rgb, gl_enum src_alpha, gl_enum dst_alpha))                         \
-    X(void, GetProgramBinary,                                                                                          \
-      (gl_uint program, gl_sizei size, gl_sizei * length, gl_enum * format, void *binary))                             \
+    X(void, GetProgramBinary, (gl_uint program, gl_sizei size, gl_sizei * length, gl_enum * format, void *binary))     \
+    X(void, DispatchCompute, (gl_uint x, gl_uint y, gl_uint z))                                                        \
+    X(void, MemoryBarrier, (gl_bitfield barriers))                                                                     \
     X(void, ProgramBinary, (gl_uint program, gl_enum format, const void *binary, gl_sizei length))                     \
     X(void, ProgramParameteri, (gl_uint program, gl_enum name, gl_int value))                                          \
     X(void, ClipControl, (gl_enum origin, gl_enum depth))                                                              \
@@ -295,12 +313,13 @@ typedef struct glssao__gl {
 #undef GLSSAO_GL_MEMBER
     int version;            /* 10 * major + minor: 33 for 3.3 */
     bool compatibility;     /* a compatibility profile: fixed-function toggles exist */
+    bool compute;           /* compute shaders that write images, by version or extensions */
     bool program_binaries;  /* linked programs can be read back */
     bool depth_bounds_test; /* GL_EXT_depth_bounds_test */
     bool is_software;       /* the processor rasterises */
     int max_size;           /* largest texture and viewport side, pixels */
     int max_draw_buffers;
-    float max_point_size;   /* pixels */
+    float max_point_size; /* pixels */
     int max_clip_distances;
 } glssao__gl;
 

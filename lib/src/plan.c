@@ -11,7 +11,7 @@ void glssao__plan_ambient_size(const glssao_effect *effect, const glssao_setting
     *out_height = settings->half_resolution ? (effect->height + 1) / 2 : effect->height;
 }
 
-static glssao__region inner(int width, int height, int margin)
+glssao__region glssao__plan_inner(int width, int height, int margin)
 {
     return (glssao__region){margin, margin, width - 2 * margin, height - 2 * margin};
 }
@@ -29,9 +29,10 @@ static glssao__region grown(glssao__region r, int by, int width, int height)
 
 int glssao__plan_reach(const glssao_settings *settings, const glssao_plan *plan)
 {
-    int taps = settings->blur == GLSSAO_BLUR_BOX || settings->blur == GLSSAO_BLUR_PLANAR ? 2 : 5;
-    return (plan->passes[GLSSAO_PASS_BLUR].run ? taps * settings->blur_rounds : 0) +
-           (plan->passes[GLSSAO_PASS_UPSAMPLE].run ? 1 : 0);
+    const bool planar = settings->blur == GLSSAO_BLUR_PLANAR;
+    const int first = planar || settings->blur == GLSSAO_BLUR_BOX ? 2 : 5, later = planar ? 3 : first;
+    const bool blurs = plan->passes[GLSSAO_PASS_BLUR].run || glssao__compute_rounds_within(settings, plan) > 0;
+    return (blurs ? first + later * (settings->blur_rounds - 1) : 0) + (plan->passes[GLSSAO_PASS_UPSAMPLE].run ? 1 : 0);
 }
 
 bool glssao__plan_is_paired(const glssao_settings *settings, const glssao_plan *plan)
@@ -46,8 +47,8 @@ glssao__region glssao__plan_result(const glssao_effect *effect, const glssao_fra
     int width, height;
     glssao__plan_ambient_size(effect, settings, &width, &height);
     if (settings->half_resolution && !plan->passes[GLSSAO_PASS_UPSAMPLE].run)
-        return inner(width, height, frame->margin / 2);
-    return inner(effect->width, effect->height, frame->margin);
+        return glssao__plan_inner(width, height, frame->margin / 2);
+    return glssao__plan_inner(effect->width, effect->height, frame->margin);
 }
 
 glssao__region glssao__plan_region(const glssao_effect *effect, const glssao_frame *frame,
@@ -56,14 +57,15 @@ glssao__region glssao__plan_region(const glssao_effect *effect, const glssao_fra
     int width, height, factor = settings->half_resolution ? 2 : 1, by = glssao__plan_reach(settings, plan);
     glssao__plan_ambient_size(effect, settings, &width, &height);
     if (pass == GLSSAO_PASS_INPUTS)
-        return inner(effect->width, effect->height, 0);
+        return glssao__plan_inner(effect->width, effect->height, 0);
     if (pass == GLSSAO_PASS_UPSAMPLE)
-        return inner(effect->width, effect->height, frame->margin);
+        return glssao__plan_inner(effect->width, effect->height, frame->margin);
     if (pass == GLSSAO_PASS_NORMALS)
-        return grown(inner(effect->width, effect->height, frame->margin), factor * by, effect->width, effect->height);
+        return grown(glssao__plan_inner(effect->width, effect->height, frame->margin), factor * by, effect->width,
+                     effect->height);
     if (pass == GLSSAO_PASS_DISTANCE || pass == GLSSAO_PASS_TILES) /* occluders are looked for in the margin */
-        return inner(width, height, 0);
-    return grown(inner(width, height, frame->margin / factor), by, width, height);
+        return glssao__plan_inner(width, height, 0);
+    return grown(glssao__plan_inner(width, height, frame->margin / factor), by, width, height);
 }
 
 /* Why every pixel would come out as 1; NULL where one may not. */
@@ -93,10 +95,22 @@ static glssao_plan plan_of_skips(const char *reason)
     for (int i = 0; i < GLSSAO_PASS_COUNT; ++i)
         plan.passes[i] = planned((glssao_pass)i, false, reason);
     plan.passes[GLSSAO_PASS_APPLY].reason = "runs when glssao_apply is called";
+    plan.path = GLSSAO_PATH_FRAGMENT;
+    plan.path_reason = "nothing runs";
     return plan;
 }
 
-glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
+static int blur_calls(const glssao_settings *settings, const glssao_plan *plan)
+{
+    if (!plan->passes[GLSSAO_PASS_BLUR].compute || settings->blur != GLSSAO_BLUR_PLANAR)
+        return 2 * settings->blur_rounds;
+    const int rounds = settings->blur_rounds - glssao__compute_rounds_within(settings, plan);
+    return (rounds + COMPUTE_ROUNDS - 1) / COMPUTE_ROUNDS;
+}
+
+/* `accumulates`: the estimate is added to a sum, by blending. */
+static glssao_plan plan_of(const glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
+                           bool accumulates)
 {
     static const glssao__log_sink silent = {0};
     glssao__projection projection;
@@ -140,11 +154,20 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
 
     int width, height;
     glssao__plan_ambient_size(effect, settings, &width, &height);
+    const bool compute = glssao__compute_decide(effect, settings, &plan.path_reason);
+    plan.path = compute ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT;
     const char *refusal = glssao__tiles_refusal(effect, settings, width, height);
     struct glssao_planned_pass *tiles = &plan.passes[GLSSAO_PASS_TILES];
     *tiles = refusal ? planned(GLSSAO_PASS_TILES, false, refusal)
                      : planned(GLSSAO_PASS_TILES, true, "what no occluder can reach is left out below");
 
+    for (int i = 0; i < GLSSAO_PASS_COUNT; ++i)
+        plan.passes[i].compute = plan.passes[i].run && compute && glssao__compute_can_run(settings, (glssao_pass)i) &&
+                                 !(accumulates && i == GLSSAO_PASS_ESTIMATE);
+    if (distance->run && glssao__compute_reads_depth(frame, &plan))
+        *distance = planned(GLSSAO_PASS_DISTANCE, false, "the estimate reads depth itself");
+    if (blur->run && blur_calls(settings, &plan) == 0)
+        *blur = planned(GLSSAO_PASS_BLUR, false, "within the dispatch that brings the result to full size");
     for (int i = 0; i < GLSSAO_PASS_COUNT; ++i) {
         struct glssao_planned_pass *pass = &plan.passes[i];
         if (i == GLSSAO_PASS_APPLY || i == GLSSAO_PASS_RESOLVE)
@@ -152,9 +175,10 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
         const glssao__region region = glssao__plan_region(effect, frame, settings, &plan, (glssao_pass)i);
         const bool fills = tiles->run && glssao__plan_is_paired(settings, &plan); /* what neighbours read */
         pass->draw_calls = !pass->run                  ? 0
-                           : pass == blur              ? 2 * settings->blur_rounds
+                           : pass == blur              ? blur_calls(settings, &plan)
                            : pass == tiles             ? TILE_PASSES
                            : i == GLSSAO_PASS_INPUTS   ? copies
+                           : pass == upsample          ? (pass->compute ? 1 : 2)
                            : pass == estimate && fills ? 2
                                                        : 1;
         pass->width = region.width;
@@ -163,10 +187,15 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
     return plan;
 }
 
+glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
+{
+    return plan_of(effect, frame, settings, false);
+}
+
 glssao_plan glssao__plan_accumulate(const glssao_effect *effect, const glssao_frame *frame,
                                     const glssao_settings *settings, int estimates)
 {
-    glssao_plan plan = glssao_plan_frame(effect, frame, settings);
+    glssao_plan plan = plan_of(effect, frame, settings, true);
     struct glssao_planned_pass *resolve = &plan.passes[GLSSAO_PASS_RESOLVE];
     struct glssao_planned_pass *blur = &plan.passes[GLSSAO_PASS_BLUR];
     if (!plan.passes[GLSSAO_PASS_ESTIMATE].run)

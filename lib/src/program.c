@@ -28,20 +28,28 @@ static const char *const macros[VARIANT_FLAGS] = {
     "OPEN",
     "PLANES",
     "FROM_DEPTH",
+    "COMPUTE",
+    "UPSAMPLE",
+    "ROUNDS_1",
+    "ROUNDS_2",
+    "WIDE",
 };
 
 enum {
     NORMAL_FLAGS = VARIANT_UNSIGNED_NORMALS | VARIANT_OCTAHEDRAL_NORMALS,
     DEPTH_FLAGS = VARIANT_DEPTH_IS_DISTANCE | VARIANT_DEPTH_IN_ALPHA,
     TILE_FLAGS = NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_PLANES | VARIANT_FROM_DEPTH,
-    STEP_FLAGS = VARIANT_STEPS_8 | VARIANT_STEPS_12 | VARIANT_STEPS_16
+    STEP_FLAGS = VARIANT_STEPS_8 | VARIANT_STEPS_12 | VARIANT_STEPS_16,
+    ROUND_FLAGS = VARIANT_ROUNDS_1 | VARIANT_ROUNDS_2,
+    FILES = 6
 };
 
 /* What each shader is compiled from, and which flags it tests. All flags are defined in all, as 0 or 1. */
 static const struct shader {
     const char *name;
     unsigned flags;
-    const char *files[4]; /* after the blocks, in order; the last is the pass itself */
+    const char *files[FILES]; /* after the blocks, in order; the last ones are the pass itself, and its entry point
+                                 where that is apart */
 } shaders[SHADER_COUNT] = {
     [SHADER_INPUT] = {"input", VARIANT_MULTISAMPLE | VARIANT_LOGARITHMIC, {shader_view_glsl, shader_input_frag}},
     [SHADER_NORMALS] = {"normals", DEPTH_FLAGS, {shader_view_glsl, shader_normals_frag}},
@@ -51,24 +59,36 @@ static const struct shader {
     [SHADER_HEMISPHERE] = {"hemisphere",
                            NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_PAIRED | VARIANT_OPEN,
                            {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_hemisphere_frag}},
-    [SHADER_DISTANCE] = {"distance", DEPTH_FLAGS | VARIANT_LAYERS, {shader_view_glsl, shader_distance_frag}},
+    [SHADER_DISTANCE] = {"distance",
+                         DEPTH_FLAGS | VARIANT_LAYERS | VARIANT_COMPUTE,
+                         {shader_view_glsl, shader_distance_frag, shader_entry_glsl}},
     [SHADER_HORIZON] = {"horizon",
-                        NORMAL_FLAGS | STEP_FLAGS | VARIANT_SLICES_2 | VARIANT_ACCUMULATE | VARIANT_LAYERS |
-                            VARIANT_PAIRED | VARIANT_OPEN,
-                        {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_horizon_frag}},
+                        NORMAL_FLAGS | DEPTH_FLAGS | STEP_FLAGS | VARIANT_SLICES_2 | VARIANT_ACCUMULATE |
+                            VARIANT_LAYERS | VARIANT_PAIRED | VARIANT_OPEN | VARIANT_COMPUTE | VARIANT_FROM_DEPTH,
+                        {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_horizon_frag,
+                         shader_entry_glsl}},
     [SHADER_RESOLVE] = {"resolve",
                         NORMAL_FLAGS | VARIANT_PAIRED,
                         {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_resolve_frag}},
     [SHADER_PROBE] = {"probe", 0, {shader_view_glsl, shader_probe_frag}},
     [SHADER_PLANAR_BLUR] = {"planar-blur",
-                            VARIANT_PAIRED,
-                            {shader_view_glsl, shader_paired_glsl, shader_planar_blur_frag}},
+                            VARIANT_PAIRED | VARIANT_WIDE,
+                            {shader_view_glsl, shader_paired_glsl, shader_planar_blur_glsl, shader_planar_blur_frag,
+                             shader_entry_glsl}},
     [SHADER_UPSAMPLE] = {"upsample",
                          NORMAL_FLAGS | DEPTH_FLAGS,
-                         {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_upsample_frag}},
+                         {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_upsample_glsl,
+                          shader_upsample_frag}},
+    [SHADER_SPREAD] = {"spread", 0, {shader_view_glsl, shader_spread_frag}},
+    [SHADER_PLANAR_TILE] = {"planar-tile",
+                            NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_PAIRED | VARIANT_COMPUTE | VARIANT_UPSAMPLE |
+                                ROUND_FLAGS | VARIANT_WIDE,
+                            {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_planar_blur_glsl,
+                             shader_upsample_glsl, shader_planar_tile_comp}},
     [SHADER_BLUR] = {"blur",
-                     NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_BOX | VARIANT_EDGE_AWARE | VARIANT_PAIRED,
-                     {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_blur_frag}},
+                     NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_BOX | VARIANT_EDGE_AWARE | VARIANT_PAIRED | VARIANT_COMPUTE,
+                     {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_blur_frag,
+                      shader_entry_glsl}},
     [SHADER_APPLY] = {"apply", 0, {shader_apply_frag}},
     [SHADER_TILE_ROWS] = {"tile-rows",
                           TILE_FLAGS,
@@ -82,6 +102,23 @@ static const struct shader {
     [SHADER_TILE_RINGS] = {"tile-rings", 0, {shader_tile_rings_frag}},
 };
 
+/* Invocations of a work group, and texels of the tile that it makes. */
+#define SIZES(group_x, group_y, tile_x, tile_y)                                                                        \
+    {                                                                                                                  \
+        {tile_x, tile_y}, "#define GROUP_X " #group_x "\n#define GROUP_Y " #group_y "\n#define TILE_X " #tile_x        \
+                          "\n#define TILE_Y " #tile_y "\n"                                                             \
+    }
+static const struct sizes {
+    int tile[2];
+    const char *macros;
+} pixel_sizes = SIZES(8, 8, 8, 8), tile_sizes = SIZES(32, 8, 32, 32);
+#undef SIZES
+
+static const struct sizes *sizes_of(enum glssao__shader shader)
+{
+    return shader == SHADER_PLANAR_TILE ? &tile_sizes : &pixel_sizes;
+}
+
 const char *glssao__program_shader_name(enum glssao__shader shader)
 {
     return shaders[shader].name;
@@ -93,16 +130,30 @@ bool glssao__program_exists(enum glssao__shader shader, unsigned variant)
     unsigned steps = variant & STEP_FLAGS;
     bool alpha_alone = (variant & VARIANT_DEPTH_IN_ALPHA) && !(variant & VARIANT_DEPTH_IS_DISTANCE);
     bool is_sum = (variant & VARIANT_ACCUMULATE) && (variant & VARIANT_PAIRED);
+    /* What is added by blending, or drawn beside tiles. */
+    bool drawn_alone = (variant & (VARIANT_ACCUMULATE | VARIANT_OPEN)) && (variant & VARIANT_COMPUTE);
+    bool depth_read = shader != SHADER_HORIZON ||
+                      ((variant & VARIANT_FROM_DEPTH) ? (variant & VARIANT_COMPUTE) && !(variant & VARIANT_LAYERS)
+                                                      : (variant & DEPTH_FLAGS) == 0);
     bool edges_needed = (variant & (NORMAL_FLAGS | DEPTH_FLAGS)) == 0 || (variant & VARIANT_EDGE_AWARE);
-    return (variant & ~shaders[shader].flags) == 0 && !both_encodings && !is_sum && (steps & (steps - 1)) == 0 &&
-           !alpha_alone && (shader != SHADER_BLUR || edges_needed);
+    /* Of a tile: its last step is the blur's or upsampling, and what upsampling reads counts for that alone. */
+    bool tile_known =
+        shader != SHADER_PLANAR_TILE ||
+        ((variant & VARIANT_COMPUTE) && (variant & ROUND_FLAGS) != ROUND_FLAGS &&
+         ((variant & ROUND_FLAGS) || !(variant & VARIANT_WIDE)) &&
+         (variant & VARIANT_UPSAMPLE ? !(variant & VARIANT_PAIRED)
+                                     : (variant & ROUND_FLAGS) && !(variant & (NORMAL_FLAGS | DEPTH_FLAGS))));
+    return (variant & ~shaders[shader].flags) == 0 && !both_encodings && !is_sum && !drawn_alone &&
+           (steps & (steps - 1)) == 0 && !alpha_alone && tile_known && depth_read &&
+           (shader != SHADER_BLUR || edges_needed);
 }
 
 int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enum stage,
                             const char *out_sources[GLSSAO__PROGRAM_MAX_SOURCES])
 {
     int n = 0;
-    out_sources[n++] = "#version 330\n";
+    /* In contexts that are older the driver is told another first line, see `compile`. */
+    out_sources[n++] = stage == GL_COMPUTE_SHADER ? "#version 430\n" : "#version 330\n";
     if (stage == GL_VERTEX_SHADER) {
         out_sources[n++] = shader_fullscreen_vert;
         return n;
@@ -121,7 +172,9 @@ int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enu
         out_sources[n++] = shader_cb_hemisphere_glsl;
     }
     out_sources[n++] = "};\n";
-    for (int i = 0; i < 4 && shaders[shader].files[i]; ++i)
+    if (stage == GL_COMPUTE_SHADER)
+        out_sources[n++] = sizes_of(shader)->macros;
+    for (int i = 0; i < FILES && shaders[shader].files[i]; ++i)
         out_sources[n++] = shaders[shader].files[i];
     return n;
 }
@@ -150,6 +203,9 @@ static gl_uint compile(const glssao_effect *effect, enum glssao__shader id, unsi
     const glssao__gl *gl = &effect->gl;
     const char *sources[GLSSAO__PROGRAM_MAX_SOURCES];
     int count = glssao__program_sources(id, variant, stage, sources);
+    if (stage == GL_COMPUTE_SHADER && gl->version < 43)
+        sources[0] = "#version 330\n#extension GL_ARB_compute_shader : require\n"
+                     "#extension GL_ARB_shader_image_load_store : require\n";
     gl_uint shader = gl->CreateShader(stage);
     gl->ShaderSource(shader, count, sources, NULL);
     gl->CompileShader(shader);
@@ -160,7 +216,10 @@ static gl_uint compile(const glssao_effect *effect, enum glssao__shader id, unsi
     char text[400] = "";
     gl->GetShaderInfoLog(shader, sizeof text, NULL, text);
     glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "%s shader of %s, variant %u: %s",
-                      stage == GL_VERTEX_SHADER ? "vertex" : "fragment", shaders[id].name, variant, text);
+                      stage == GL_VERTEX_SHADER     ? "vertex"
+                      : stage == GL_FRAGMENT_SHADER ? "fragment"
+                                                    : "compute",
+                      shaders[id].name, variant, text);
     log_source(effect, sources, count);
     gl->DeleteShader(shader);
     return 0;
@@ -255,12 +314,14 @@ static bool bind_blocks(const glssao_effect *effect, gl_uint program)
     return true;
 }
 
-static gl_uint link(const glssao_effect *effect, enum glssao__shader id, gl_uint vertex, gl_uint fragment)
+/* `second` is 0 where the first is a program of its own. */
+static gl_uint link(const glssao_effect *effect, enum glssao__shader id, gl_uint first, gl_uint second)
 {
     const glssao__gl *gl = &effect->gl;
     gl_uint program = gl->CreateProgram();
-    gl->AttachShader(program, vertex);
-    gl->AttachShader(program, fragment);
+    gl->AttachShader(program, first);
+    if (second)
+        gl->AttachShader(program, second);
     if (effect->cache_folder && gl->program_binaries)
         gl->ProgramParameteri(program, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, 1);
     gl->LinkProgram(program);
@@ -304,11 +365,12 @@ static const glssao__program_object *find(const glssao_effect *effect, enum glss
 static void build(glssao_effect *effect, enum glssao__shader shader, unsigned variant, glssao__program_object *out)
 {
     const glssao__gl *gl = &effect->gl;
-    gl_uint vertex = compile(effect, shader, variant, GL_VERTEX_SHADER);
-    gl_uint fragment = vertex ? compile(effect, shader, variant, GL_FRAGMENT_SHADER) : 0;
-    out->name = fragment ? link(effect, shader, vertex, fragment) : 0;
-    gl->DeleteShader(vertex); /* names of 0 are ignored; an attached shader lives as long as its program */
-    gl->DeleteShader(fragment);
+    const bool drawn = !(variant & VARIANT_COMPUTE);
+    gl_uint first = compile(effect, shader, variant, drawn ? GL_VERTEX_SHADER : GL_COMPUTE_SHADER);
+    gl_uint second = first && drawn ? compile(effect, shader, variant, GL_FRAGMENT_SHADER) : 0;
+    out->name = first && (second || !drawn) ? link(effect, shader, first, second) : 0;
+    gl->DeleteShader(first); /* names of 0 are ignored; an attached shader lives as long as its program */
+    gl->DeleteShader(second);
     if (out->name)
         glssao__cache_write(effect, shader, variant, out->name);
 }
@@ -330,6 +392,10 @@ static glssao_result make(glssao_effect *effect, enum glssao__shader shader, uns
     tie_samplers(gl, out->name);
     out->horizontal_location = gl->GetUniformLocation(out->name, "gHorizontalBlur");
     out->tile_range_location = gl->GetUniformLocation(out->name, "gTileRange");
+    out->compute = variant & VARIANT_COMPUTE;
+    for (int i = 0; i < 2; ++i)
+        out->group[i] = sizes_of(shader)->tile[i] * (variant & VARIANT_UPSAMPLE ? 2 : 1);
+    out->region_location = gl->GetUniformLocation(out->name, "gRegion");
     out->origin_location = gl->GetUniformLocation(out->name, "gOrigin");
     return GLSSAO_OK;
 }
@@ -339,7 +405,11 @@ glssao_result glssao__program_get(glssao_effect *effect, enum glssao__shader sha
 {
     variant &= shaders[shader].flags;
     if (shader == SHADER_BLUR && !(variant & VARIANT_EDGE_AWARE))
-        variant &= VARIANT_BOX | VARIANT_PAIRED; /* it reads neither normals nor depth */
+        variant &= VARIANT_BOX | VARIANT_PAIRED | VARIANT_COMPUTE; /* it reads neither normals nor depth */
+    if (shader == SHADER_HORIZON && !(variant & VARIANT_FROM_DEPTH))
+        variant &= ~(unsigned)DEPTH_FLAGS;
+    if (shader == SHADER_PLANAR_TILE && !(variant & VARIANT_UPSAMPLE))
+        variant &= VARIANT_PAIRED | VARIANT_COMPUTE | ROUND_FLAGS;
     const glssao__program_object *found = find(effect, shader, variant);
     if (found) {
         *out = *found;

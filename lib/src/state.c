@@ -187,6 +187,23 @@ static void restore_textures(const glssao__gl *gl, const glssao__host_state *s)
     gl->ActiveTexture((gl_enum)s->active_texture);
 }
 
+static const gl_enum image_names[6] = {GL_IMAGE_BINDING_NAME,  GL_IMAGE_BINDING_LEVEL,  GL_IMAGE_BINDING_LAYERED,
+                                       GL_IMAGE_BINDING_LAYER, GL_IMAGE_BINDING_ACCESS, GL_IMAGE_BINDING_FORMAT};
+
+static void save_image(const glssao__gl *gl, glssao__host_state *s)
+{
+    for (int i = 0; i < 6 && gl->compute; ++i)
+        gl->GetIntegeri_v(image_names[i], 0, &s->image[i]);
+}
+
+static void restore_image(const glssao__gl *gl, const glssao__host_state *s)
+{
+    const gl_int *image = s->image;
+    if (gl->compute)
+        gl->BindImageTexture(0, (gl_uint)image[0], image[1], image[2] != 0, image[3], (gl_enum)image[4],
+                             (gl_enum)image[5]);
+}
+
 static void save_uniform_buffers(const glssao__gl *gl, glssao__host_state *s)
 {
     gl->GetIntegerv(GL_UNIFORM_BUFFER_BINDING, &s->uniform_buffer);
@@ -384,6 +401,7 @@ static const struct state {
     {save_framebuffers, NULL, restore_framebuffers},
     {save_viewport, NULL, restore_viewport},
     {save_textures, NULL, restore_textures},
+    {save_image, NULL, restore_image},
     {save_uniform_buffers, NULL, restore_uniform_buffers},
     {save_transfer, set_transfer, restore_transfer},
     {save_polygon_mode, set_polygon_mode, restore_polygon_mode},

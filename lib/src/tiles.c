@@ -27,6 +27,8 @@ const char *glssao__tiles_refusal(const glssao_effect *effect, const glssao_sett
     glssao__tiles_size(width, height, &columns, &rows);
     if (s->tiles == GLSSAO_TILES_OFF)
         return "the settings say off: every pixel is estimated";
+    if (glssao__compute_decide(effect, s, NULL))
+        return "compute shaders pass over open pixels themselves";
     /* Points as large as a block of 4 x 4 tiles, and a viewport for all of them, at full size. */
     const int most = effect->gl.max_size - 2 * TILE_SIDE;
     if (effect->gl.max_point_size < 8.0f * TILE_SIDE || effect->width > most || effect->height > most)

@@ -58,7 +58,8 @@ glssao_effect *effects_get(effects *e, const gbuffer *g, const glssao_settings *
                                       .log = glssao_log_to_stderr,
                                       .width = e->width + 2 * g->margin,
                                       .height = e->height + 2 * g->margin,
-                                      .seed = e->seed};
+                                      .seed = e->seed,
+                                      .path = e->path};
         const glssao_result result = glssao_create(&config, slot);
         if (result != GLSSAO_OK)
             snprintf(error, error_size, "no effect of %dx%d: %s", e->width, e->height, glssao_result_string(result));

@@ -60,8 +60,11 @@ static bool open_context(run *r)
     r->results.context = context_description(r->context);
     r->results.software = context_is_software(r->context);
     fprintf(stderr, "context: %s\n", r->results.context);
-    r->effects = (effects){
-        .context = r->context, .width = r->options.size[0], .height = r->options.size[1], .seed = r->options.seed};
+    r->effects = (effects){.context = r->context,
+                           .width = r->options.size[0],
+                           .height = r->options.size[1],
+                           .seed = r->options.seed,
+                           .path = (glssao_path)r->options.path};
     return map_reader_create(&r->reader, r->options.size[0], r->options.size[1], r->error, sizeof r->error);
 }
 
@@ -127,7 +130,8 @@ static bool take_times(run *r)
     effects e = {.context = r->context,
                  .width = r->options.time_size[0],
                  .height = r->options.time_size[1],
-                 .seed = r->options.seed};
+                 .seed = r->options.seed,
+                 .path = (glssao_path)r->options.path};
     int chosen = 0; /* the first, where the one asked for is not among them */
     for (int i = 0; i < out->view_count; i++)
         chosen = strcmp(r->scenes[i].name, r->options.time_scene) == 0 ? i : chosen;
@@ -137,6 +141,24 @@ static bool take_times(run *r)
         timed = times_measure(out, &e, &r->scenes[i], i, r->error, sizeof r->error);
     effects_destroy(&e);
     return timed;
+}
+
+/* Of each configuration, where the GPU's time went; nothing on a software rasteriser. */
+static void print_passes(const results *out)
+{
+    for (int i = 0; i < out->config_count && out->time_scene; i++) {
+        const timing *t = &out->configs[i].time;
+        char line[512];
+        int length = 0, known = 0;
+        for (int k = 0; k < GLSSAO_PASS_COUNT && length < (int)sizeof line; k++)
+            if (t->pass_ms[k] > 0) {
+                length += snprintf(line + length, sizeof line - (size_t)length, "  %s %.4f",
+                                   glssao_get_stats(NULL).passes[k].name, t->pass_ms[k]);
+                known++;
+            }
+        if (known > 0)
+            printf("%-32s %.4f ms:%s\n", out->configs[i].config.id, t->median_ms, line);
+    }
 }
 
 static bool write_reports(run *r)
@@ -183,6 +205,7 @@ static bool measure(run *r)
     if (!take_times(r))
         return false;
     end_phase("times", &phase_ms);
+    print_passes(out);
     if (r->options.split_seeds > 0 && !split_measure(out, r->context, &r->reader, r->error, sizeof r->error))
         return false;
     end_phase("split", &phase_ms);

@@ -41,6 +41,7 @@ static const option table[] = {
     {"check", NULL, "also fails where the figures are not finite and ordered as they must be", KIND_FLAG, AT(check), 0,
      0},
     {"context", "auto|egl|osmesa", "how to get OpenGL (auto)", KIND_WORD, AT(context), 0, 0},
+    {"path", "auto|fragment|compute", "how passes run that can run both ways (auto)", KIND_WORD, AT(path), 0, 0},
     {"fold", "N", "glssao-tune: searches on even scenes (0), on odd ones (1), or on all (2)", KIND_INT, AT(fold), 0, 2},
     {"rounds", "N", "glssao-tune: passes over its constants (12)", KIND_INT, AT(rounds), 0, 1000},
     {"seed", "N", "of every random input (0)", KIND_SEED, AT(seed), 0, 0},

@@ -17,7 +17,7 @@ typedef struct options {
     int rays, frames;
     int rounds, fold; /* glssao-tune's */
     int oracle_step, oracle_rays, split_seeds;
-    int context; /* context_kind */
+    int context, path; /* context_kind, glssao_path */
     uint32_t seed;
     bool all_views, time_all, quick, check, help;
     char command[1024]; /* as typed, without the program's folder */

@@ -23,6 +23,7 @@ static void print_row(FILE *f, const char *scene_name, const config_result *c, c
     print_ms(f, t->median_ms);
     print_ms(f, t->p95_ms);
     print_ms(f, t->cpu_ms);
+    print_ms(f, t->pass_ms[GLSSAO_PASS_DISTANCE]);
     print_ms(f, t->pass_ms[GLSSAO_PASS_ESTIMATE]);
     print_ms(f, t->pass_ms[GLSSAO_PASS_BLUR]);
     print_ms(f, t->pass_ms[GLSSAO_PASS_UPSAMPLE]);
@@ -37,7 +38,7 @@ bool report_tsv(const results *r, const char *path, char *error, size_t error_si
         return false;
     }
     fputs("configuration\tscene\trmse\tmean\tp95\tnonfinite_share\texponent\trmse_exponent\town_exponent\t"
-          "rmse_own_exponent\tmedian_ms\tp95_ms\tcpu_ms\testimate_ms\tblur_ms\tupsample_ms\n",
+          "rmse_own_exponent\tmedian_ms\tp95_ms\tcpu_ms\tdistance_ms\testimate_ms\tblur_ms\tupsample_ms\n",
           f);
     for (int i = 0; i < r->config_count; i++) {
         const config_result *c = &r->configs[i];

@@ -189,7 +189,8 @@ static bool run_seeds(splitter *s, context *c, char *error, size_t error_size)
         effects e = {.context = c,
                      .width = s->reader->width,
                      .height = s->reader->height,
-                     .seed = r->options->seed + (uint32_t)seed};
+                     .seed = r->options->seed + (uint32_t)seed,
+                     .path = (glssao_path)r->options->path};
         bool ran = true;
         progress_show("split: seed %d/%d", seed + 1, r->options->split_seeds);
         for (int t = 0; ran && t < r->split_count; t++)

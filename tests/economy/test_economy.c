@@ -17,13 +17,13 @@
 
 enum { W = 64, H = 48 };
 
-static glssao_effect *counted_effect(fixture *f, const char *cache)
+static glssao_effect *counted_effect(fixture *f, glssao_path path)
 {
     fixture_clear_log(f);
     glssao_config config = fixture_config(f, W, H);
     gl_counter_start(context_load, f->context);
     config.load = gl_counter_load;
-    config.program_cache = cache;
+    config.path = path;
     glssao_effect *effect = NULL;
     if (glssao_create(&config, &effect) != GLSSAO_OK)
         fail_msg("glssao_create: %s", f->log);
@@ -94,6 +94,18 @@ static void no_rounds(glssao_frame *f, glssao_settings *s)
     s->blur_rounds = 0;
 }
 
+static void second_layer(glssao_frame *f, glssao_settings *s)
+{
+    (void)s;
+    f->back_texture = f->second_texture = f->depth_texture;
+}
+
+static void three_rounds(glssao_frame *f, glssao_settings *s)
+{
+    (void)f;
+    s->blur_rounds = 3;
+}
+
 static void tiles_on(glssao_frame *f, glssao_settings *s)
 {
     (void)f;
@@ -111,29 +123,44 @@ static const struct row {
     glssao_technique technique;
     glssao_quality quality;
     change_fn change;
-    const char *passes;
-    int draws, programs, textures; /* of the first frame; later ones make nothing */
+    struct calls {
+        const char *passes;
+        int draws, programs, textures; /* of the first frame; later ones make nothing */
+    } fragment, compute;               /* draws and dispatches together; no passes: the same */
 } rows[] = {
-    {"horizon low", GLSSAO_HORIZON, GLSSAO_LOW, NULL, "DEB", 6, 4, 3},
-    {"horizon medium", GLSSAO_HORIZON, GLSSAO_MEDIUM, NULL, "DEBU", 7, 4, 4},
-    {"horizon ultra", GLSSAO_HORIZON, GLSSAO_ULTRA, NULL, "DEB", 4, 4, 5},
-    {"classic", GLSSAO_CLASSIC, GLSSAO_HIGH, NULL, "EB", 7, 2, 0},
-    {"hemisphere", GLSSAO_HEMISPHERE, GLSSAO_HIGH, NULL, "EB", 3, 2, 2},
-    {"normals rebuilt", GLSSAO_HORIZON, GLSSAO_MEDIUM, rebuild_normals, "NDEBU", 8, 5, 4},
-    {"half size, raw", GLSSAO_HORIZON, GLSSAO_MEDIUM, half_size, "DE", 2, 2, 1},
-    {"no blur rounds", GLSSAO_HORIZON, GLSSAO_MEDIUM, no_rounds, "DEU", 3, 3, 4},
-    {"margin", GLSSAO_HORIZON, GLSSAO_LOW, margin, "DEB", 6, 4, 4},
-    {"tiles, paired maps", GLSSAO_HORIZON, GLSSAO_MEDIUM, tiles_on, "DTEBU", 12, 9, 8},
-    {"tiles, plain maps", GLSSAO_CLASSIC, GLSSAO_HIGH, tiles_on, "TEB", 11, 6, 4},
-    {"radius 0", GLSSAO_HORIZON, GLSSAO_MEDIUM, no_radius, "", 0, 0, 0},
-    {"power 0", GLSSAO_CLASSIC, GLSSAO_HIGH, no_power, "", 0, 0, 0},
-    {"no ambient light", GLSSAO_HORIZON, GLSSAO_MEDIUM, no_ambient, "", 0, 0, 0},
-    {"only sky", GLSSAO_HEMISPHERE, GLSSAO_HIGH, only_sky, "", 0, 0, 2},
+    {"horizon low", GLSSAO_HORIZON, GLSSAO_LOW, NULL, {"DEB", 6, 4, 3}, {"EB", 2, 2, 2}},
+    {"horizon medium", GLSSAO_HORIZON, GLSSAO_MEDIUM, NULL, {"DEBU", 7, 4, 4}, {"EU", 2, 2, 3}},
+    {"horizon ultra", GLSSAO_HORIZON, GLSSAO_ULTRA, NULL, {"DEB", 4, 4, 5}, {"EB", 2, 2, 4}},
+    {"classic", GLSSAO_CLASSIC, GLSSAO_HIGH, NULL, {"EB", 7, 2, 0}, {NULL, 0, 0, 0}},
+    {"hemisphere", GLSSAO_HEMISPHERE, GLSSAO_HIGH, NULL, {"EB", 3, 2, 2}, {NULL, 0, 0, 0}},
+    {"normals rebuilt", GLSSAO_HORIZON, GLSSAO_MEDIUM, rebuild_normals, {"NDEBU", 8, 5, 4}, {"NEU", 3, 3, 3}},
+    {"half size, raw", GLSSAO_HORIZON, GLSSAO_MEDIUM, half_size, {"DE", 2, 2, 1}, {"E", 1, 1, 0}},
+    {"no blur rounds", GLSSAO_HORIZON, GLSSAO_MEDIUM, no_rounds, {"DEU", 3, 3, 4}, {"EU", 2, 2, 3}},
+    {"three blur rounds", GLSSAO_HORIZON, GLSSAO_LOW, three_rounds, {"DEB", 8, 4, 3}, {"EB", 3, 3, 2}},
+    {"three rounds, upsampled", GLSSAO_HORIZON, GLSSAO_HIGH, three_rounds, {"DEBU", 9, 4, 4}, {"EBU", 3, 3, 3}},
+    {"margin", GLSSAO_HORIZON, GLSSAO_LOW, margin, {"DEB", 6, 4, 4}, {"EB", 2, 2, 3}},
+    {"a second layer", GLSSAO_HORIZON, GLSSAO_MEDIUM, second_layer, {"DEBU", 7, 4, 4}, {"DEU", 3, 3, 4}},
+    {"tiles, paired maps", GLSSAO_HORIZON, GLSSAO_MEDIUM, tiles_on, {"DTEBU", 12, 9, 8}, {NULL, 0, 0, 0}},
+    {"tiles, plain maps", GLSSAO_CLASSIC, GLSSAO_HIGH, tiles_on, {"TEB", 11, 6, 4}, {NULL, 0, 0, 0}},
+    {"radius 0", GLSSAO_HORIZON, GLSSAO_MEDIUM, no_radius, {"", 0, 0, 0}, {NULL, 0, 0, 0}},
+    {"power 0", GLSSAO_CLASSIC, GLSSAO_HIGH, no_power, {"", 0, 0, 0}, {NULL, 0, 0, 0}},
+    {"no ambient light", GLSSAO_HORIZON, GLSSAO_MEDIUM, no_ambient, {"", 0, 0, 0}, {NULL, 0, 0, 0}},
+    {"only sky", GLSSAO_HEMISPHERE, GLSSAO_HIGH, only_sky, {"", 0, 0, 2}, {NULL, 0, 0, 0}},
 };
 
-static void check_row(fixture *f, const struct row *row)
+/* Passes that compute shaders run: these of whichever run, where tiles are not asked for. */
+static bool is_dispatched(const struct row *row, const glssao_settings *settings, int pass)
 {
-    glssao_effect *effect = counted_effect(f, NULL);
+    if (settings->tiles == GLSSAO_TILES_ON)
+        return false;
+    return pass == GLSSAO_PASS_DISTANCE || pass == GLSSAO_PASS_BLUR || pass == GLSSAO_PASS_UPSAMPLE ||
+           (pass == GLSSAO_PASS_ESTIMATE && row->technique == GLSSAO_HORIZON);
+}
+
+static void check_row(fixture *f, const struct row *row, glssao_path path)
+{
+    const struct calls calls = path == GLSSAO_PATH_COMPUTE && row->compute.passes ? row->compute : row->fragment;
+    glssao_effect *effect = counted_effect(f, path);
     const gl_counts made = gl_counter_take();
     assert_int_equal(made.draws, 0);
     assert_int_equal(made.programs, 1); /* it tells how the driver lays out blocks */
@@ -146,25 +173,30 @@ static void check_row(fixture *f, const struct row *row)
     const glssao_plan plan = glssao_plan_frame(effect, &changed, &settings);
     char passes[GLSSAO_PASS_COUNT + 1];
     letters(&plan, passes);
-    if (strcmp(passes, row->passes) != 0)
-        fail_msg("%s: passes \"%s\", wanted \"%s\"", row->what, passes, row->passes);
+    if (strcmp(passes, calls.passes) != 0)
+        fail_msg("%s: passes \"%s\", wanted \"%s\"", row->what, passes, calls.passes);
     for (int frame_number = 0; frame_number < 2; ++frame_number) {
         assert_int_equal(glssao_compute(effect, &changed, &settings), GLSSAO_OK);
         const gl_counts counts = gl_counter_take();
         const glssao_stats stats = glssao_get_stats(effect);
-        int planned = 0;
+        int planned = 0, dispatched = 0;
         for (int i = 0; i < GLSSAO_PASS_COUNT; ++i) {
+            const bool compute = path == GLSSAO_PATH_COMPUTE && plan.passes[i].run && is_dispatched(row, &settings, i);
+            assert_int_equal(plan.passes[i].compute, compute);
             planned += plan.passes[i].draw_calls;
+            dispatched += compute ? plan.passes[i].draw_calls : 0;
             assert_int_equal(plan.passes[i].draw_calls, stats.passes[i].draw_calls);
             assert_true(plan.passes[i].run == (stats.passes[i].draw_calls > 0));
             assert_true(strlen(plan.passes[i].reason) > 0);
         }
-        const int programs = frame_number == 0 ? row->programs : 0, textures = frame_number == 0 ? row->textures : 0;
-        if (counts.draws != row->draws || planned != row->draws || counts.programs != programs ||
+        const int programs = frame_number == 0 ? calls.programs : 0, textures = frame_number == 0 ? calls.textures : 0;
+        assert_int_equal(counts.unordered, 0);
+        assert_int_equal(counts.dispatches, dispatched);
+        if (counts.draws + counts.dispatches != calls.draws || planned != calls.draws || counts.programs != programs ||
             counts.textures != textures)
             fail_msg("%s, frame %d: %d draws, %d planned, %d programs, %d textures; wanted %d, %d, %d, %d", row->what,
-                     frame_number, counts.draws, planned, counts.programs, counts.textures, row->draws, row->draws,
-                     programs, textures);
+                     frame_number, counts.draws + counts.dispatches, planned, counts.programs, counts.textures,
+                     calls.draws, calls.draws, programs, textures);
     }
     glssao_destroy(effect);
     fixture_delete_frame(&frame);
@@ -173,7 +205,13 @@ static void check_row(fixture *f, const struct row *row)
 static void each_setting_causes_these_calls(void **state)
 {
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)
-        check_row(*state, &rows[i]);
+        check_row(*state, &rows[i], GLSSAO_PATH_FRAGMENT);
+}
+
+static void each_setting_causes_these_dispatches(void **state)
+{
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)
+        check_row(*state, &rows[i], GLSSAO_PATH_COMPUTE);
 }
 
 static const GLubyte *(*real_get_string)(GLenum name);
@@ -194,8 +232,8 @@ static void *gpu_load(const char *name, void *user)
     return found;
 }
 
-/* Sorting tiles pays where the processor rasterises. */
-static void tiles_depend_on_the_driver(void **state)
+/* Sorting tiles pays where the processor rasterises, compute shaders where it does not. */
+static void tiles_and_path_depend_on_the_driver(void **state)
 {
     fixture *f = *state;
     const glssao_frame frame = room_frame();
@@ -212,6 +250,7 @@ static void tiles_depend_on_the_driver(void **state)
             assert_true(plan.passes[GLSSAO_PASS_ESTIMATE].run);
             assert_true(plan.passes[GLSSAO_PASS_TILES].run ==
                         (tiles == GLSSAO_TILES_ON || (tiles == GLSSAO_TILES_AUTO && !gpu)));
+            assert_int_equal(plan.path, gpu && tiles != GLSSAO_TILES_ON ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT);
             glssao_destroy(effect);
         }
     fixture_delete_frame(&frame);
@@ -220,7 +259,7 @@ static void tiles_depend_on_the_driver(void **state)
 /* After glssao_prepare a frame compiles and makes nothing, and preparing draws nothing. */
 static void prepared_frames_make_nothing(void **state)
 {
-    glssao_effect *effect = counted_effect(*state, NULL);
+    glssao_effect *effect = counted_effect(*state, GLSSAO_PATH_AUTO);
     const glssao_frame frame = room_frame();
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
     settings.tiles = GLSSAO_TILES_ON;
@@ -368,8 +407,9 @@ int main(void)
 {
 #define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
-        TEST(each_setting_causes_these_calls), TEST(tiles_depend_on_the_driver),    TEST(prepared_frames_make_nothing),
-        TEST(each_scene_causes_these_calls),   TEST(hidden_sky_is_not_drawn_again),
+        TEST(each_setting_causes_these_calls),     TEST(each_setting_causes_these_dispatches),
+        TEST(tiles_and_path_depend_on_the_driver), TEST(prepared_frames_make_nothing),
+        TEST(each_scene_causes_these_calls),       TEST(hidden_sky_is_not_drawn_again),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
 }

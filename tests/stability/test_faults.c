@@ -13,6 +13,7 @@
 enum { W = 32, H = 24 };
 
 static int stride = 1;
+static glssao_path path;                  /* of effects that are created */
 static glssao_frame plain, bare, cropped; /* with normals, without, and within larger textures */
 static GLuint color, framebuffer;
 
@@ -20,6 +21,7 @@ typedef struct act {
     const char *name;
     glssao_result (*run)(glssao_effect **effect, fixture *f);
     glssao_result (*before)(glssao_effect **effect, fixture *f); /* leaves the last result; NULL: at full size */
+    bool dispatches;
 } act;
 
 static glssao_settings horizon_low(bool half)
@@ -34,6 +36,7 @@ static glssao_result create(glssao_effect **effect, fixture *f)
 {
     glssao_config config = fixture_config(f, W, H);
     config.load = faulty_load;
+    config.path = path;
     return glssao_create(&config, effect);
 }
 
@@ -176,18 +179,22 @@ static bool fail_once(fixture *f, const act *a, int number)
 static void each_call_survives_each_fault(void **state)
 {
     static const act acts[] = {
-        {"create", create, NULL},
-        {"compute at half size", compute_at_half_size, NULL},
-        {"compute with a margin", compute_with_a_margin, compute_at_half_size},
-        {"compute hemisphere in a viewport", compute_hemisphere_in_a_viewport, NULL},
-        {"accumulate", accumulate, NULL},
-        {"apply", apply, NULL},
-        {"resize", resize, NULL},
-        {"begin normals", begin_normals, NULL},
+        {"create", create, NULL, false},
+        {"compute at half size", compute_at_half_size, NULL, false},
+        {"compute at half size, by compute shaders", compute_at_half_size, NULL, true},
+        {"compute with a margin", compute_with_a_margin, compute_at_half_size, false},
+        {"compute with a margin, by compute shaders", compute_with_a_margin, compute_at_half_size, true},
+        {"compute hemisphere in a viewport", compute_hemisphere_in_a_viewport, NULL, false},
+        {"accumulate", accumulate, NULL, false},
+        {"accumulate, by compute shaders, too", accumulate, NULL, true},
+        {"apply", apply, NULL, false},
+        {"resize", resize, NULL, false},
+        {"begin normals", begin_normals, NULL, false},
     };
-    static const int least[] = {12, 20, 6, 15, 15, 1, 6, 1}; /* what applies is compiled with the effect */
+    static const int least[] = {12, 20, 20, 6, 6, 15, 15, 15, 1, 6, 1}; /* what applies is compiled with the effect */
     for (size_t i = 0; i < sizeof acts / sizeof *acts; ++i) {
         int faults = 0;
+        path = acts[i].dispatches ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT;
         while (fail_once(*state, &acts[i], faults))
             faults += stride;
         print_message("%s: %d faults\n", acts[i].name, faults);

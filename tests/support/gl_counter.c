@@ -9,8 +9,11 @@ static struct {
     glssao_load_fn load;
     void *user;
     gl_counts counts;
+    GLbitfield lacking; /* barriers since the last dispatch */
     void(APIENTRY *draw_arrays)(GLenum, GLint, GLsizei);
     void(APIENTRY *draw_elements)(GLenum, GLsizei, GLenum, const void *, GLsizei);
+    void(APIENTRY *dispatch)(GLuint, GLuint, GLuint);
+    void(APIENTRY *memory_barrier)(GLbitfield);
     void(APIENTRY *compile_shader)(GLuint);
     void(APIENTRY *link_program)(GLuint);
     void(APIENTRY *program_binary)(GLuint, GLenum, const void *, GLsizei);
@@ -18,9 +21,31 @@ static struct {
     void(APIENTRY *clear_buffer)(GLenum, GLint, const GLfloat *);
 } counter;
 
+/* What must have passed before textures that compute shaders wrote are read by shaders or written once more; and, at
+ * the end of a frame, before the host does with them what it likes. */
+enum {
+    TO_READ = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT,
+    TO_END = TO_READ | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT
+};
+
+static void APIENTRY dispatch(GLuint x, GLuint y, GLuint z)
+{
+    counter.counts.dispatches++;
+    counter.counts.unordered += (counter.lacking & TO_READ) != 0;
+    counter.lacking = TO_END;
+    counter.dispatch(x, y, z);
+}
+
+static void APIENTRY memory_barrier(GLbitfield barriers)
+{
+    counter.lacking &= ~barriers;
+    counter.memory_barrier(barriers);
+}
+
 static void APIENTRY draw_arrays(GLenum mode, GLint first, GLsizei count)
 {
     counter.counts.draws++;
+    counter.counts.unordered += counter.lacking != 0;
     counter.draw_arrays(mode, first, count);
 }
 
@@ -102,6 +127,8 @@ void *gl_counter_load(const char *wanted, void *user)
     void *address = counter.load(wanted, counter.user);
     COUNTED("glDrawArrays", draw_arrays, draw_arrays)
     COUNTED("glDrawElementsInstanced", draw_elements, draw_elements)
+    COUNTED("glDispatchCompute", dispatch, dispatch)
+    COUNTED("glMemoryBarrier", memory_barrier, memory_barrier)
     COUNTED("glCompileShader", compile_shader, compile_shader)
     COUNTED("glLinkProgram", link_program, link_program)
     COUNTED("glProgramBinary", program_binary, program_binary)
@@ -112,7 +139,8 @@ void *gl_counter_load(const char *wanted, void *user)
 
 gl_counts gl_counter_take(void)
 {
-    const gl_counts taken = counter.counts;
+    gl_counts taken = counter.counts;
+    taken.unordered += counter.lacking != 0;
     counter.counts = (gl_counts){0};
     return taken;
 }

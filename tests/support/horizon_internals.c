@@ -16,21 +16,20 @@ uint32_t horizon_paired_map(const glssao_effect *effect, int number)
     return effect->paired.texture[number];
 }
 
-static bool read_pass_constants(enum glssao__shader shader, pass_constants *out)
+static bool read_pass_constants(enum glssao__shader shader, const char *tolerance, const char *near,
+                                pass_constants *out)
 {
     const char *pieces[GLSSAO__PROGRAM_MAX_SOURCES];
     const int count = glssao__program_sources(shader, 0, GL_FRAGMENT_SHADER, pieces);
-    return shader_constant(pieces, count, "TOLERANCE", &out->tolerance) &&
-           shader_constant(pieces, count, "NEAR", &out->near) && shader_constant(pieces, count, "CHORD", &out->chord) &&
+    return shader_constant(pieces, count, tolerance, &out->tolerance) &&
+           shader_constant(pieces, count, near, &out->near) && shader_constant(pieces, count, "CHORD", &out->chord) &&
            shader_constant(pieces, count, "NORMAL_STEP", &out->normal_step);
 }
 
 bool horizon_read_pass_constants(pass_constants *out_blur, pass_constants *out_upsample)
 {
-    const char *pieces[GLSSAO__PROGRAM_MAX_SOURCES];
-    const int count = glssao__program_sources(SHADER_UPSAMPLE, 0, GL_FRAGMENT_SHADER, pieces);
-    return read_pass_constants(SHADER_PLANAR_BLUR, out_blur) && read_pass_constants(SHADER_UPSAMPLE, out_upsample) &&
-           shader_constant(pieces, count, "AROUND_CREASE", &out_upsample->around_crease);
+    return read_pass_constants(SHADER_PLANAR_BLUR, "BLUR_TOLERANCE", "BLUR_NEAR", out_blur) &&
+           read_pass_constants(SHADER_UPSAMPLE, "UPSAMPLE_TOLERANCE", "UPSAMPLE_NEAR", out_upsample);
 }
 
 bool horizon_variant(const glssao_effect *effect, horizon_input *out)

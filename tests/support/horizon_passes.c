@@ -38,16 +38,12 @@ static texel texel_at(const paired_map *map, int x, int y)
     return (texel){paired_accessibility(t[0]), (double)t[1], {code >> AXIS_BITS, code % (1 << AXIS_BITS)}};
 }
 
-/* Lambert's projection of a unit normal, whose radius is 2 sin(angle / 2), in steps; `out_low` and `out_high` differ
- * where float arithmetic could decide either way. */
-static void project(const double normal[3], double step, int out_low[2], int out_high[2])
+/* Lambert's projection of a unit normal, whose radius is 2 sin(angle / 2), in steps as a texel's. */
+static void project(const double normal[3], double step, double out[2])
 {
     const double angle = acos(fmax(fmin(normal[2], 1.0), -1.0)), across = hypot(normal[0], normal[1]);
-    for (int i = 0; i < 2; ++i) {
-        const double at = (across > 0.0 ? 2.0 * sin(0.5 * angle) * normal[i] / across : 0.0) / step + 15.5;
-        out_low[i] = (int)fmin(fmax(floor(at - 1e-4), 0.0), 31.0);
-        out_high[i] = (int)fmin(fmax(floor(at + 1e-4), 0.0), 31.0);
-    }
+    for (int i = 0; i < 2; ++i)
+        out[i] = (across > 0.0 ? 2.0 * sin(0.5 * angle) * normal[i] / across : 0.0) / step + 15.0;
 }
 
 /* What a length about a surface comes to in the linear quantity: d(1 / t) = dt / t^2. */
@@ -76,13 +72,16 @@ static truth is_near(double a, double b, double limit)
     return is_below(fabs(a - b), 4.0 * 0x1p-24 * (fabs(a) + fabs(b)), limit);
 }
 
-/* Whether the surface does not turn away from the eye on the way (-1, 0 or 1 in x and y) to a tap. */
-static truth joins(const int center[2], const int tap[2], int way_x, int way_y, const pass_constants *constants)
+/* Whether the surface does not turn away from the eye on the way (-1, 0 or 1 in x and y) to a tap; `error`: how far off
+ * the steps of `from` may be. */
+static truth joins(const double from[2], const int tap[2], int way_x, int way_y, double error,
+                   const pass_constants *constants)
 {
-    const int x = tap[0] - center[0], y = tap[1] - center[1];
-    if (x * way_x + y * way_y <= 0)
+    const double x = tap[0] - from[0], y = tap[1] - from[1], along = x * way_x + y * way_y;
+    if (along <= -2.0 * error || (error == 0.0 && along == 0.0))
         return YES; /* alike, or a hollow */
-    return is_below(hypot(x, y) * constants->normal_step, 1e-6, constants->chord);
+    const truth close = is_below(hypot(x, y), error + 1e-6, constants->chord / constants->normal_step);
+    return along < 2.0 * error && close == NO ? MAYBE : close;
 }
 
 /* Calls `result` for each way in which the tests that may come out both ways can. */
@@ -136,28 +135,38 @@ static double blurred(const truth *t, const void *user)
     return sum / total;
 }
 
-void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic, const pass_constants *constants,
-                       int x, int y, double *out_low, double *out_high)
+static double blurred_wide(const truth *t, const void *user)
+{
+    const texel *taps = user;
+    const double before = t[LINE] && t[JOINS_BEFORE] ? 0.5 : 0.0, after = t[LINE] && t[JOINS_AFTER] ? 0.5 : 0.0;
+    return (before * taps[1].value + taps[2].value + after * taps[3].value) / (1.0 + before + after);
+}
+
+void planar_blur_model(const paired_map *map, bool horizontal, bool wide, bool orthographic,
+                       const pass_constants *constants, int x, int y, double *out_low, double *out_high)
 {
     texel taps[5];
-    for (int i = 0; i < 5; ++i)
-        taps[i] = texel_at(map, horizontal ? x + i - 2 : x, horizontal ? y : y + i - 2);
+    const int apart = wide ? 3 : 1;
+    for (int i = 0; i < 5; ++i) {
+        const int at = apart * (i - 2);
+        taps[i] = texel_at(map, horizontal ? x + at : x, horizontal ? y : y + at);
+    }
     const double tolerance = in_linear(constants->tolerance, taps[2].linear, orthographic);
     const double near = in_linear(constants->near, taps[2].linear, orthographic);
+    const double own[2] = {taps[2].normal[0], taps[2].normal[1]};
     truth tests[TESTS];
     for (int i = 0; i < 3; ++i)
         tests[LINE_BEFORE + i] = on_line(taps[i].linear, taps[i + 1].linear, taps[i + 2].linear, tolerance);
     for (int i = 0, test = JOINS_BEFORE_2; i < 5; ++i)
         if (i != 2) {
             const int way = i < 2 ? -1 : 1;
-            tests[test++] =
-                joins(taps[2].normal, taps[i].normal, horizontal ? way : 0, horizontal ? 0 : way, constants);
+            tests[test++] = joins(own, taps[i].normal, horizontal ? way : 0, horizontal ? 0 : way, 0.0, constants);
         }
     tests[NEAR_BEFORE] = is_near(taps[1].linear, taps[2].linear, near);
     tests[NEAR_AFTER] = is_near(taps[3].linear, taps[2].linear, near);
     *out_low = HUGE_VAL;
     *out_high = -HUGE_VAL;
-    each_outcome(tests, TESTS, blurred, taps, out_low, out_high);
+    each_outcome(tests, TESTS, wide ? blurred_wide : blurred, taps, out_low, out_high);
 }
 
 /* Joins 0 to 3, near 4 to 7, on the plane of all four 8; then whether each may be the nearest. */
@@ -165,19 +174,17 @@ enum { JOINS_0, NEAR_0 = 4, ON_PLANE = 8, UPSAMPLE_TESTS };
 
 typedef struct four {
     texel at[4];
-    double apart[4], error, around_crease;
+    double apart[4], error;
     bool is_low; /* which end of the interval is wanted where several may be the nearest */
 } four;
 
 static double nearest(const truth *t, const four *f)
 {
-    double off[4], least = HUGE_VAL, value = f->is_low ? HUGE_VAL : -HUGE_VAL;
-    for (int i = 0; i < 4; ++i) {
-        off[i] = f->apart[i] * (t[JOINS_0 + i] ? 1.0 : f->around_crease);
-        least = fmin(least, off[i]);
-    }
+    double least = HUGE_VAL, value = f->is_low ? HUGE_VAL : -HUGE_VAL;
     for (int i = 0; i < 4; ++i)
-        if (off[i] - least <= f->error * ((t[JOINS_0 + i] ? 1.0 : f->around_crease) + 1.0))
+        least = t[JOINS_0 + i] ? fmin(least, f->apart[i]) : least;
+    for (int i = 0; i < 4; ++i)
+        if (t[JOINS_0 + i] && f->apart[i] - least <= 2.0 * f->error)
             value = f->is_low ? fmin(value, f->at[i].value) : fmax(value, f->at[i].value);
     return value;
 }
@@ -185,44 +192,32 @@ static double nearest(const truth *t, const four *f)
 static double upsampled(const truth *t, const void *user)
 {
     const four *f = user;
-    double sum = 0.0, total = 0.0;
-    bool all = t[ON_PLANE];
-    for (int i = 0; i < 4; ++i)
-        all = all && t[JOINS_0 + i];
-    for (int i = 0; i < 4; ++i)
-        if (all || (t[JOINS_0 + i] && t[NEAR_0 + i])) {
+    double sum = 0.0, all = 0.0, count = 0.0;
+    bool any_joins = false;
+    for (int i = 0; i < 4; ++i) {
+        any_joins = any_joins || t[JOINS_0 + i];
+        all += 0.25 * f->at[i].value;
+        if (t[JOINS_0 + i] && (t[ON_PLANE] || t[NEAR_0 + i])) {
             sum += f->at[i].value;
-            total += 1.0;
+            count += 1.0;
         }
-    return total > 0.0 ? sum / total : nearest(t, f);
-}
-
-/* As joins, from a pixel whose steps are not certain. */
-static truth joins_either(const int low[2], const int high[2], const int tap[2], int way_x, int way_y,
-                          const pass_constants *constants)
-{
-    truth all = joins(low, tap, way_x, way_y, constants);
-    for (int i = 1; i < 4; ++i) {
-        const int corner[2] = {i % 2 ? high[0] : low[0], i / 2 ? high[1] : low[1]};
-        all = joins(corner, tap, way_x, way_y, constants) == all ? all : MAYBE;
     }
-    return all;
+    return count > 0.0 ? sum / count : any_joins ? nearest(t, f) : all;
 }
 
 void upsample_model(const paired_map *half, bool orthographic, const pass_constants *constants, const full_pixel *own,
                     int x, int y, double *out_low, double *out_high)
 {
     /* A half-size texel stands for the full-size one of twice its index. */
-    four f = {.error = 8.0 * 0x1p-24 * fabs(own->linear), .around_crease = constants->around_crease};
+    four f = {.error = 8.0 * 0x1p-24 * fabs(own->linear)};
     truth tests[UPSAMPLE_TESTS];
-    double mean = 0.0;
-    int low[2], high[2];
-    project(own->normal, constants->normal_step, low, high);
+    double mean = 0.0, normal[2];
+    project(own->normal, constants->normal_step, normal);
     for (int i = 0; i < 4; ++i) {
         const int way_x = (i % 2 ? 1 : -1) * (x % 2), way_y = (i / 2 ? 1 : -1) * (y % 2);
         f.at[i] = texel_at(half, x / 2 + (i % 2) * (x % 2), y / 2 + (i / 2) * (y % 2));
         f.apart[i] = fabs(f.at[i].linear - own->linear);
-        tests[JOINS_0 + i] = joins_either(low, high, f.at[i].normal, way_x, way_y, constants);
+        tests[JOINS_0 + i] = way_x || way_y ? joins(normal, f.at[i].normal, way_x, way_y, 1e-2, constants) : YES;
         tests[NEAR_0 + i] = is_below(f.apart[i], f.error, in_linear(constants->near, own->linear, orthographic));
         mean += 0.25 * (f.at[i].linear - own->linear);
     }

@@ -19,11 +19,11 @@ typedef struct pass_constants {
     double tolerance, near; /* scene units */
     double chord;           /* of two unit normals that belong to different sides of a crease */
     double normal_step;
-    double around_crease; /* upsampling alone: how much farther neighbours around a crease count */
 } pass_constants;
 
-void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic, const pass_constants *constants,
-                       int x, int y, double *out_low, double *out_high);
+/* `wide`: of a round after the first. */
+void planar_blur_model(const paired_map *map, bool horizontal, bool wide, bool orthographic,
+                       const pass_constants *constants, int x, int y, double *out_low, double *out_high);
 
 /* The full-size pixel's own linear quantity and unit normal. */
 typedef struct full_pixel {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * Every shader variant of the library, both stages, is written to a file and judged by glslangValidator, because
- * drivers that report 4.5 take what 3.3 does not have. Arguments: the validator, a folder for the files.
+ * Every shader variant of the library, all stages, is written to a file and judged by glslangValidator, because
+ * drivers that report 4.5 take what 3.3, or 4.3 for compute shaders, does not have. Arguments: the validator, a folder
+ * for the files.
  */
 #include "effect.h"
 
@@ -15,9 +16,12 @@ static bool write_stage(const char *folder, enum glssao__shader id, unsigned var
 {
     const char *sources[GLSSAO__PROGRAM_MAX_SOURCES];
     int count = glssao__program_sources(id, variant, stage, sources);
+    const char *const version = stage == GL_COMPUTE_SHADER ? "#version 430\n" : "#version 330\n";
     char path[1024];
     snprintf(path, sizeof path, "%s/%s-%u.%s", folder, glssao__program_shader_name(id), variant,
-             stage == GL_VERTEX_SHADER ? "vert" : "frag");
+             stage == GL_VERTEX_SHADER    ? "vert"
+             : stage == GL_COMPUTE_SHADER ? "comp"
+                                          : "frag");
     FILE *file = fopen(path, "wb");
     if (!file) {
         perror(path);
@@ -26,8 +30,8 @@ static bool write_stage(const char *folder, enum glssao__shader id, unsigned var
     for (int i = 0; i < count; ++i)
         fputs(sources[i], file);
     fclose(file);
-    if (strcmp(sources[0], "#version 330\n") != 0) {
-        fprintf(stderr, "%s does not begin with #version 330\n", path);
+    if (strcmp(sources[0], version) != 0) {
+        fprintf(stderr, "%s does not begin with %s", path, version);
         return false;
     }
     size_t length = strlen(command);
@@ -52,7 +56,9 @@ int main(int argc, char **argv)
             if (pending == 0)
                 snprintf(command, sizeof command, "\"%s\"", argv[1]);
             ++programs;
-            bad += !write_stage(argv[2], (enum glssao__shader)id, variant, GL_FRAGMENT_SHADER, command, sizeof command);
+            bad += !write_stage(argv[2], (enum glssao__shader)id, variant,
+                                variant & VARIANT_COMPUTE ? GL_COMPUTE_SHADER : GL_FRAGMENT_SHADER, command,
+                                sizeof command);
             if (++pending == BATCH) {
                 bad += system(command) != 0;
                 pending = 0;

@@ -111,6 +111,8 @@ static PFNGLCLIPCONTROLPROC clip_control;
 static PFNGLBLENDFUNCIPROC blend_func_i;
 static PFNGLVIEWPORTINDEXEDFPROC viewport_indexed;
 static PFNGLGETFLOATI_VPROC get_float_i;
+static PFNGLBINDIMAGETEXTUREPROC bind_image;
+static PFNGLTEXIMAGE3DPROC tex_image_3d; /* not newer, but no other test has a use for it */
 
 static void take(snapshot *s)
 {
@@ -146,6 +148,14 @@ static void take(snapshot *s)
         values[1] = (double)offset;
         values[2] = (double)size;
     }
+    static const GLenum image[] = {GL_IMAGE_BINDING_NAME,  GL_IMAGE_BINDING_LEVEL,  GL_IMAGE_BINDING_LAYERED,
+                                   GL_IMAGE_BINDING_LAYER, GL_IMAGE_BINDING_ACCESS, GL_IMAGE_BINDING_FORMAT};
+    for (GLuint unit = 0; unit < 2; ++unit)
+        for (size_t i = 0; i < sizeof image / sizeof *image; ++i) {
+            GLint value;
+            gl.GetIntegeri_v(image[i], unit, &value);
+            row(s, "image unit")[0] = value;
+        }
     GLint active;
     gl.GetIntegerv(GL_ACTIVE_TEXTURE, &active);
     for (GLuint unit = 0; unit < UNITS; ++unit) {
@@ -174,7 +184,7 @@ static void compare(const snapshot *before, const snapshot *after, const char *c
 
 typedef struct host {
     GLuint program, vertex_array, framebuffers[3], color[3], renderbuffers[3], textures[UNITS], samplers[UNITS],
-        buffers[4];
+        buffers[4], images[2];
 } host;
 
 /* Fixed-function state that would stop every fragment, where the context has it. */
@@ -195,7 +205,11 @@ static void load_newer(fixture *f)
     memcpy(&viewport_indexed, &address, sizeof address);
     address = context_load("glGetFloati_v", f->context);
     memcpy(&get_float_i, &address, sizeof address);
-    assert_true(clip_control && blend_func_i && viewport_indexed &&
+    address = context_load("glBindImageTexture", f->context);
+    memcpy(&bind_image, &address, sizeof address);
+    address = context_load("glTexImage3D", f->context);
+    memcpy(&tex_image_3d, &address, sizeof address);
+    assert_true(bind_image && tex_image_3d && clip_control && blend_func_i && viewport_indexed &&
                 get_float_i); /* Mesa has them; without them less is tested */
 }
 
@@ -245,6 +259,14 @@ static void make_host(host *h)
                                    GL_RENDERBUFFER, h->renderbuffers[i]);
     }
     gl.BindRenderbuffer(GL_RENDERBUFFER, 0);
+    gl.GenTextures(2, h->images);
+    gl.BindTexture(GL_TEXTURE_2D, h->images[0]);
+    for (int level = 0; level < 3; ++level)
+        gl.TexImage2D(GL_TEXTURE_2D, level, GL_RG32F, 4 >> level, 4 >> level, 0, GL_RG, GL_FLOAT, NULL);
+    gl.BindTexture(GL_TEXTURE_2D_ARRAY, h->images[1]);
+    tex_image_3d(GL_TEXTURE_2D_ARRAY, 0, GL_R32UI, 4, 4, 3, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, 0);
+    gl.BindTexture(GL_TEXTURE_2D_ARRAY, 0);
     for (int i = 0; i < 4; ++i) {
         gl.BindBuffer(GL_UNIFORM_BUFFER, h->buffers[i]);
         gl.BufferData(GL_UNIFORM_BUFFER, 4096, NULL, GL_STATIC_DRAW);
@@ -262,6 +284,8 @@ static void scramble(const host *h)
         gl.BindTexture(GL_TEXTURE_2D, h->textures[unit]);
         gl.BindSampler(unit, h->samplers[unit]);
     }
+    bind_image(0, h->images[0], 2, GL_FALSE, 0, GL_READ_ONLY, GL_RGBA16F);
+    bind_image(1, h->images[1], 0, GL_TRUE, 2, GL_READ_WRITE, GL_R32UI);
     gl.ActiveTexture(GL_TEXTURE0 + 2);
     gl.BindBufferRange(GL_UNIFORM_BUFFER, 0, h->buffers[0], 256, 512);
     gl.BindBufferBase(GL_UNIFORM_BUFFER, 1, h->buffers[1]);
@@ -380,7 +404,7 @@ static void check_refusals(glssao_effect *effect, const host *h, const inputs *i
 }
 
 /* One walk through the API; with a host, its state is scrambled before and compared after every call. */
-static float *walk(fixture *f, const inputs *in, const host *h, double *out_error)
+static float *walk(fixture *f, const inputs *in, const host *h, glssao_path path, double *out_error)
 {
     snapshot before, after;
 #define CALL(expression)                                                                                               \
@@ -397,6 +421,7 @@ static float *walk(fixture *f, const inputs *in, const host *h, double *out_erro
     } while (0)
     glssao_effect *effect = NULL;
     glssao_config config = fixture_config(f, W / 2, H);
+    config.path = path;
     glssao_settings settings = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_HIGH);
     glssao_frame rebuilt = in->frame;
     rebuilt.normal_texture = 0;
@@ -481,6 +506,7 @@ static void delete_host(host *h)
     gl.DeleteTextures(UNITS, h->textures);
     gl.DeleteSamplers(UNITS, h->samplers);
     gl.DeleteBuffers(4, h->buffers);
+    gl.DeleteTextures(2, h->images);
 }
 
 /* Whatever the host had set, glssao_apply reaches every pixel of framebuffers with depth, stencil and samples. */
@@ -514,19 +540,22 @@ static void check_all(fixture *f)
     load_newer(f);
     inputs in = make_inputs();
     double calm_error, error;
-    float *calm_picture = walk(f, &in, NULL, &calm_error);
+    float *calm_picture = walk(f, &in, NULL, GLSSAO_PATH_FRAGMENT, &calm_error);
     host h;
     make_host(&h);
-    float *picture = walk(f, &in, &h, &error);
-    assert_true(error > 0.0 && error == calm_error);
-    assert_memory_equal(calm_picture, picture, W * H * sizeof *picture);
+    for (int path = GLSSAO_PATH_FRAGMENT; path <= GLSSAO_PATH_COMPUTE; ++path) {
+        float *picture = walk(f, &in, &h, (glssao_path)path, &error);
+        assert_true(error > 0.0 && error == calm_error);
+        for (int i = 0; i < W * H; ++i)
+            assert_float_equal(picture[i], calm_picture[i], path == GLSSAO_PATH_FRAGMENT ? 0.0f : 1.6e-5f);
+        free(picture);
+    }
     check_apply(f, &in, &h, calm_picture);
     delete_host(&h);
     gl.DeleteTextures(1, &in.frame.depth_texture);
     gl.DeleteTextures(1, &in.frame.normal_texture);
     gl.DeleteTextures(1, &in.spare_depth);
     free(calm_picture);
-    free(picture);
 }
 
 static void host_state_comes_back_and_does_no_harm(void **state)

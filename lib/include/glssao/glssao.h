@@ -56,7 +56,8 @@ typedef struct glssao_effect glssao_effect; /* one per GL context; opaque */
 typedef enum glssao_result { /* what a call that can fail gives */
     GLSSAO_OK = 0,
     GLSSAO_INVALID_ARGUMENT,    /* the log names the field and its value */
-    GLSSAO_UNSUPPORTED_CONTEXT, /* older than 3.3, or a function of 3.3 is missing */
+    GLSSAO_UNSUPPORTED_CONTEXT, /* older than 3.3, a function of 3.3 is missing, or compute shaders that config.path
+                                   requires */
     GLSSAO_OUT_OF_MEMORY,
     GLSSAO_SHADER_ERROR,        /* the log holds the driver's text and the numbered source */
     GLSSAO_FRAMEBUFFER_ERROR    /* the driver refuses one of the formats or attachments */
@@ -72,6 +73,15 @@ typedef void (*glssao_log_fn)(glssao_log_level level, const char *message, void 
 
 /* ---- config: fixed for the effect's life ---------------------------------------------------------------- */
 
+/* How passes run that can run as compute shaders, too: distance, horizon's estimate, blurs and upsampling. Both ways
+ * agree within a step of R16. */
+typedef enum glssao_path {
+    GLSSAO_PATH_AUTO = 0, /* compute shaders on GPUs that have and take them; fragment shaders on software rasterisers */
+    GLSSAO_PATH_FRAGMENT, /* never compute shaders */
+    GLSSAO_PATH_COMPUTE   /* compute shaders; glssao_create fails with UNSUPPORTED_CONTEXT where there are none: neither
+                             OpenGL 4.3 nor ARB_compute_shader and ARB_shader_image_load_store */
+} glssao_path;
+
 typedef struct glssao_config { /* zero means default */
     glssao_load_fn load; /* required */
     void *load_user;     /* handed to load */
@@ -82,6 +92,7 @@ typedef struct glssao_config { /* zero means default */
     bool no_timers;      /* true: no timer queries; glssao_stats then holds no times */
     const char *program_cache; /* a folder that exists, where linked programs are kept for the next run if the driver
                             can (GL 4.1 or ARB_get_program_binary); NULL: none. What does not fit is compiled anew */
+    glssao_path path;    /* compute shaders or fragment shaders, where both will do */
 } glssao_config;
 
 /* ---- settings: may change every frame ------------------------------------------------------------------- */
@@ -216,21 +227,24 @@ typedef struct glssao_plan { /* indexed by glssao_pass; GLSSAO_PASS_APPLY belong
         const char *name;    /* static text, as is `reason` */
         const char *reason;  /* why it runs or is skipped, in words */
         bool run;            /* false: skipped */
-        int draw_calls;      /* 0 where it is skipped */
+        int draw_calls;      /* or dispatches; 0 where it is skipped */
         int width, height;   /* pixels it covers */
+        bool compute;        /* true: by a compute shader */
     } passes[GLSSAO_PASS_COUNT]; /* by glssao_pass */
+    glssao_path path;        /* which way those go that can go both: never GLSSAO_PATH_AUTO */
+    const char *path_reason; /* static text: why, in words */
 } glssao_plan;
 
 typedef struct glssao_stats { /* of the last glssao_compute or glssao_accumulate, and glssao_apply */
     uint64_t frame;          /* how many glssao_compute and glssao_accumulate calls succeeded so far */
-    int draw_calls;          /* sum over the passes */
+    int draw_calls;          /* and dispatches; sum over the passes */
     double gpu_ms;           /* sum over the passes; negative: not measured, or not known yet */
     int estimates;           /* in the mean of glssao_accumulate; 0 after glssao_compute */
     double sampling_error;   /* accessibility, RMS over the surfaces seen: how far the mean of glssao_accumulate is
                                 estimated to be from that of endless estimates; negative: not known (yet) */
     struct glssao_pass_stats { /* one pass of the last frame */
         const char *name;    /* static text */
-        int draw_calls;      /* 0 where it was skipped */
+        int draw_calls;      /* or dispatches; 0 where it was skipped */
         double gpu_ms;       /* negative: as above */
     } passes[GLSSAO_PASS_COUNT]; /* by glssao_pass */
 } glssao_stats;

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// One direction of the box over one period of a 4x4 tile, 1/2 1 1 1 1/2, along surfaces: a tap counts where it lies on a
+// line with two neighbours in the same direction, or with the two about the pixel, and where the surface does not turn
+// away from the eye in between. A silhouette breaks both lines; a plane seen at any angle breaks neither. A pixel left
+// without a tap takes neighbours that are merely near.
+//
+// After it there is little noise left but that of twice its period, which later rounds take out with two taps: 1/4 1/2 1/4,
+// three pixels apart, where all three lie on a line.
+
+// All found by experiment. How far off a line may be, in units of the radius.
+const float BLUR_TOLERANCE = 0.02;
+// How far off a neighbour of a pixel without others may be, in units of the radius.
+const float BLUR_NEAR = 0.1;
+
+// Accessibility of a pixel of the paired map from its own and the two on each side along `way`.
+float blurred(vec2 before_2, vec2 before, vec2 center, vec2 after, vec2 after_2, vec2 way)
+{
+    float tolerance = linear_error(BLUR_TOLERANCE * gOcclusionRadius, center.y);
+    float near = linear_error(BLUR_NEAR * gOcclusionRadius, center.y);
+    bool on_line = abs(before.y - 2.0 * center.y + after.y) < tolerance;
+    bool on_before = abs(before_2.y - 2.0 * before.y + center.y) < tolerance;
+    bool on_after = abs(after_2.y - 2.0 * after.y + center.y) < tolerance;
+    uint code = normal_code(center);
+    uvec4 codes = uvec4(normal_code(before_2), normal_code(before), normal_code(after), normal_code(after_2));
+    bvec4 joins = bvec4(true);
+    // Most pixels lie amid neighbours that all face one way: there a GPU is spared this.
+    if (any(notEqual(codes, uvec4(code)))) {
+        vec2 own = projected_normal(code);
+        joins = not(bvec4(turns_away(projected_normal(codes.x) - own, -way), turns_away(projected_normal(codes.y) - own, -way),
+                          turns_away(projected_normal(codes.z) - own, way), turns_away(projected_normal(codes.w) - own, way)));
+    }
+    vec4 weights = vec4(on_before && joins.x ? 0.5 : 0.0, (on_before || on_line) && joins.y ? 1.0 : 0.0,
+                        (on_after || on_line) && joins.z ? 1.0 : 0.0, on_after && joins.w ? 0.5 : 0.0);
+    if (weights.y + weights.z == 0.0)
+        weights.yz = vec2(joins.y && abs(before.y - center.y) < near ? 1.0 : 0.0,
+                          joins.z && abs(after.y - center.y) < near ? 1.0 : 0.0);
+    vec4 taps = vec4(accessibility_of(before_2), accessibility_of(before), accessibility_of(after),
+                     accessibility_of(after_2));
+    float sum = accessibility_of(center) + dot(weights, taps);
+    return sum / (1.0 + dot(weights, vec4(1.0)));
+}
+
+// The same of a later round, with the pixels three off.
+float blurred_wide(vec2 before, vec2 center, vec2 after, vec2 way)
+{
+    float tolerance = linear_error(BLUR_TOLERANCE * gOcclusionRadius, center.y);
+    bool on_line = abs(before.y - 2.0 * center.y + after.y) < tolerance;
+    uint code = normal_code(center);
+    uvec2 codes = uvec2(normal_code(before), normal_code(after));
+    bvec2 joins = bvec2(on_line);
+    if (any(notEqual(codes, uvec2(code)))) {
+        vec2 own = projected_normal(code);
+        joins.x = joins.x && !turns_away(projected_normal(codes.x) - own, -way);
+        joins.y = joins.y && !turns_away(projected_normal(codes.y) - own, way);
+    }
+    vec2 weights = mix(vec2(0.0), vec2(0.5), joins);
+    float sum = accessibility_of(center) + dot(weights, vec2(accessibility_of(before), accessibility_of(after)));
+    return sum / (1.0 + weights.x + weights.y);
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Brings a half-size result to full size: linearly where the pixel lies on the plane of its neighbours, else from those
+// of them that lie near it on the same surface, else from the one that is nearest in distance.
+// in  u_depth_map      stored depth, full size; point sampled
+// in  u_normal_map     view space, full size; point sampled
+
+// How far off the plane a pixel may be, and how far off a neighbour on the same surface, in units of the radius; found by
+// experiment.
+const float UPSAMPLE_TOLERANCE = 0.02;
+const float UPSAMPLE_NEAR = 0.1;
+// How far off a neighbour around a crease counts as being: farther than any other.
+const float AROUND_CREASE = 1e16;
+
+// Accessibility at a full-size uv, whose coordinates are `odd` (1) where they lie midway between a and d of the paired
+// map: b differs from a in x alone, c in y; where a coordinate is even, the two are the same.
+float upsampled(vec2 a, vec2 b, vec2 c, vec2 d, vec2 odd, vec2 full_uv)
+{
+    float depth = depth_component(textureLod(u_depth_map, full_uv, 0.0));
+    float own = linear_from_depth(depth);
+    vec4 values = vec4(accessibility_of(a), accessibility_of(b), accessibility_of(c), accessibility_of(d));
+    vec4 apart = vec4(a.y, b.y, c.y, d.y) - own;
+    vec4 off = abs(apart);
+    uvec4 codes = uvec4(normal_code(a), normal_code(b), normal_code(c), normal_code(d));
+    // Most pixels lie amid neighbours that all face one way: there a GPU is spared this.
+    if (any(notEqual(codes.xxx, codes.yzw))) {
+        vec2 projected = projected_normal(decoded_normal(textureLod(u_normal_map, full_uv, 0.0).xyz));
+        bvec4 turned = bvec4(turns_away(projected_normal(codes.x) - projected, -odd),
+                             turns_away(projected_normal(codes.y) - projected, vec2(odd.x, -odd.y)),
+                             turns_away(projected_normal(codes.z) - projected, vec2(-odd.x, odd.y)),
+                             turns_away(projected_normal(codes.w) - projected, odd));
+        off = mix(off, vec4(AROUND_CREASE), turned);
+    }
+    bool on_plane = abs(dot(apart, vec4(0.25))) < linear_error(UPSAMPLE_TOLERANCE * gOcclusionRadius, own);
+    float near = on_plane ? 0.5 * AROUND_CREASE : linear_error(UPSAMPLE_NEAR * gOcclusionRadius, own);
+    // At least the nearest is within it.
+    near = max(near, min(min(off.x, off.y), min(off.z, off.w)));
+    vec4 weights = vec4(lessThanEqual(off, vec4(near)));
+    return is_sky(depth) ? 1.0 : dot(weights, values) / dot(weights, vec4(1.0));
+}

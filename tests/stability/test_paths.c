@@ -1,0 +1,384 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Compute and fragment shaders make the same picture, within a step of R16; which way a frame goes, and that a loader
+ * which knows OpenGL 3.3 alone gets the fragment shaders' bits.
+ */
+#include "functions_of_3_3.h" /* made of GL/glcorearb.h */
+#include "techniques.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- loaders ---- */
+
+typedef struct host {
+    fixture *f;
+    bool knows_3_3_alone; /* finds no newer function */
+    bool claims_3_3;      /* and the context says that it is no newer; its extensions stay */
+    bool claims_gpu;
+    bool refuses_compute; /* no compute shader compiles */
+} host;
+
+static const host *asked; /* of the functions below */
+static PFNGLGETINTEGERVPROC real_get_integerv;
+static PFNGLGETSTRINGPROC real_get_string;
+
+static void APIENTRY get_integerv(GLenum name, GLint *out)
+{
+    real_get_integerv(name, out);
+    if (asked->claims_3_3 && (name == GL_MAJOR_VERSION || name == GL_MINOR_VERSION))
+        *out = 3;
+}
+
+static const GLubyte *APIENTRY get_string(GLenum name)
+{
+    return asked->claims_gpu && name == GL_RENDERER ? (const GLubyte *)"A GPU of some make" : real_get_string(name);
+}
+
+static PFNGLCREATESHADERPROC real_create_shader;
+static PFNGLGETSHADERIVPROC real_get_shader;
+static GLuint last_compute_shader;
+
+static GLuint APIENTRY create_shader(GLenum stage)
+{
+    const GLuint shader = real_create_shader(stage);
+    last_compute_shader = stage == GL_COMPUTE_SHADER ? shader : 0;
+    return shader;
+}
+
+static void APIENTRY get_shader(GLuint shader, GLenum name, GLint *out)
+{
+    real_get_shader(shader, name, out);
+    if (asked->refuses_compute && name == GL_COMPILE_STATUS && shader == last_compute_shader)
+        *out = GL_FALSE;
+}
+
+static bool is_of_3_3(const char *name)
+{
+    for (size_t i = 0; i < sizeof functions_of_3_3 / sizeof *functions_of_3_3; ++i)
+        if (strcmp(name, functions_of_3_3[i]) == 0)
+            return true;
+    return false;
+}
+
+static void *load(const char *name, void *user)
+{
+    asked = user;
+    void *address = context_load(name, asked->f->context);
+    if (strcmp(name, "glGetIntegerv") == 0) {
+        memcpy(&real_get_integerv, &address, sizeof address);
+        memcpy(&address, &(PFNGLGETINTEGERVPROC){get_integerv}, sizeof address);
+    }
+    if (strcmp(name, "glGetString") == 0) {
+        memcpy(&real_get_string, &address, sizeof address);
+        memcpy(&address, &(PFNGLGETSTRINGPROC){get_string}, sizeof address);
+    }
+    if (strcmp(name, "glCreateShader") == 0) {
+        memcpy(&real_create_shader, &address, sizeof address);
+        memcpy(&address, &(PFNGLCREATESHADERPROC){create_shader}, sizeof address);
+    }
+    if (strcmp(name, "glGetShaderiv") == 0) {
+        memcpy(&real_get_shader, &address, sizeof address);
+        memcpy(&address, &(PFNGLGETSHADERIVPROC){get_shader}, sizeof address);
+    }
+    return asked->knows_3_3_alone && !is_of_3_3(name) ? NULL : address;
+}
+
+static glssao_result make(host *h, glssao_path path, int width, int height, glssao_effect **out)
+{
+    glssao_config config = fixture_config(h->f, width, height);
+    config.load = load;
+    config.load_user = h;
+    config.path = path;
+    fixture_clear_log(h->f);
+    return glssao_create(&config, out);
+}
+
+/* ---- pictures ---- */
+
+static picture shade(fixture *f, glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
+{
+    fixture_clear_log(f);
+    if (glssao_compute(effect, frame, settings) != GLSSAO_OK)
+        fail_msg("glssao_compute: %s", f->log);
+    picture p;
+    const uint32_t map = glssao_map(effect, GLSSAO_MAP_AMBIENT, &p.width, &p.height);
+    p.values = fixture_read_texture(map, p.width, p.height, 1);
+    return p;
+}
+
+/* Steps of R16 between the two at most; their values are freed. */
+static double difference(picture *a, picture *b)
+{
+    double worst = 0.0;
+    assert_true(a->width == b->width && a->height == b->height);
+    for (int i = 0; i < a->width * a->height; ++i)
+        worst = fmax(worst, fabs((double)a->values[i] - (double)b->values[i]) * 65535.0);
+    free(a->values);
+    free(b->values);
+    return worst;
+}
+
+static glssao_frame room_frame(analytic_projection kind, int width, int height, depth_store depth, normal_store normal)
+{
+    analytic_shape room[ANALYTIC_ROOM_SHAPES];
+    analytic_room(room, 1.0);
+    const analytic_view view = analytic_make_view(kind, (double)width / height, 0.5, 40.0, 1.0);
+    subject s = subject_of(&view, room, ANALYTIC_ROOM_SHAPES, width, height);
+    const glssao_frame frame = subject_frame(&s, depth, normal);
+    subject_free(&s);
+    return frame;
+}
+
+/* The two ways of one fixture; sizes change by glssao_resize, so that each program is compiled once. */
+static glssao_effect *ways[2];
+
+static void assert_alike(fixture *f, const char *what, int width, int height, const glssao_frame *frame,
+                         const glssao_settings *settings)
+{
+    picture pictures[2];
+    for (int i = 0; i < 2; ++i) {
+        host *const h = &(host){.f = f};
+        if (!ways[i])
+            assert_int_equal(make(h, i ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT, width, height, &ways[i]),
+                             GLSSAO_OK);
+        assert_int_equal(glssao_resize(ways[i], width, height), GLSSAO_OK);
+        const glssao_plan plan = glssao_plan_frame(ways[i], frame, settings);
+        assert_int_equal(plan.path, i ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT);
+        assert_true(strlen(plan.path_reason) > 0);
+        int dispatching = 0;
+        for (int k = 0; k < GLSSAO_PASS_COUNT; ++k)
+            dispatching += plan.passes[k].compute;
+        assert_true((dispatching > 0) == (i == 1));
+        pictures[i] = shade(f, ways[i], frame, settings);
+    }
+    assert_true(picture_least(&pictures[0]) < 0.99 || width * height < 100); /* there is something to be alike in */
+    const double worst = difference(&pictures[0], &pictures[1]);
+    if (!(worst <= 1.01))
+        fail_msg("%s, %d x %d: %.2f steps of R16 between the ways", what, width, height, worst);
+}
+
+static int end_ways(void **state)
+{
+    for (int i = 0; i < 2; ++i) {
+        glssao_destroy(ways[i]);
+        ways[i] = NULL;
+    }
+    return fixture_no_gl_error(state);
+}
+
+static glssao_settings wide_horizon(glssao_quality quality)
+{
+    glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, quality);
+    s.radius = 1.0f;
+    return s;
+}
+
+static int stride = 1;
+
+static void techniques_and_qualities_agree(void **state)
+{
+    glssao_frame frame = room_frame(PERSPECTIVE, 97, 63, DEPTH_24, NORMAL_32F);
+    for (int i = 0; i < CONFIGURATIONS; i += stride) {
+        configuration c = configuration_of(i);
+        if (c.settings.blur == GLSSAO_BLUR_NONE)
+            continue;
+        assert_alike(*state, c.name, 97, 63, &frame, &c.settings);
+    }
+    subject_frame_free(&frame);
+}
+
+static void blurs_and_sizes_of_the_result_agree(void **state)
+{
+    glssao_frame frame = room_frame(ORTHOGRAPHIC_REVERSED, 66, 51, DEPTH_32F, NORMAL_16F);
+    for (int blur = GLSSAO_BLUR_NONE; blur <= GLSSAO_BLUR_PLANAR; ++blur)
+        for (int size = 0; size < 3; ++size) { /* full, half, brought to full */
+            glssao_settings s = wide_horizon(GLSSAO_LOW);
+            s.blur = (glssao_blur)blur;
+            s.blur_rounds = 1 + blur % 2;
+            s.half_resolution = size > 0;
+            s.upsample = size > 1;
+            char what[64];
+            snprintf(what, sizeof what, "blur %d, size %d", blur, size);
+            assert_alike(*state, what, 66, 51, &frame, &s);
+        }
+    subject_frame_free(&frame);
+}
+
+static void odd_and_small_sizes_agree(void **state)
+{
+    static const int sizes[][2] = {{1, 40}, {47, 2}, {8, 8}, {17, 33}, {128, 9}};
+    const glssao_settings s = wide_horizon(GLSSAO_MEDIUM);
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; ++i) {
+        glssao_frame frame = room_frame(PERSPECTIVE, sizes[i][0], sizes[i][1], DEPTH_32F, NORMAL_32F);
+        assert_alike(*state, "size", sizes[i][0], sizes[i][1], &frame, &s);
+        subject_frame_free(&frame);
+    }
+}
+
+static void ways_to_hand_over_agree(void **state)
+{
+    static const struct {
+        analytic_projection projection;
+        depth_store depth;
+        normal_store normal;
+    } stores[] = {{PERSPECTIVE_OFF_CENTRE, DEPTH_16, NORMAL_NONE},
+                  {PERSPECTIVE_INFINITE_REVERSED_ZERO_TO_ONE, DEPTH_32F_STENCIL, NORMAL_UNSIGNED_8},
+                  {PERSPECTIVE, DISTANCE_32F, NORMAL_OCTAHEDRAL},
+                  {ORTHOGRAPHIC, ALPHA_16F, NORMAL_32F}};
+    const glssao_settings s = wide_horizon(GLSSAO_MEDIUM);
+    for (size_t i = 0; i < sizeof stores / sizeof *stores; ++i) {
+        glssao_frame frame = room_frame(stores[i].projection, 64, 48, stores[i].depth, stores[i].normal);
+        assert_alike(*state, subject_depth_name(stores[i].depth), 64, 48, &frame, &s);
+        subject_frame_free(&frame);
+    }
+}
+
+static void margins_layers_and_viewports_agree(void **state)
+{
+    const analytic_shape wall[] = {{ANALYTIC_PLANE, {0.0, 0.0, -9.0}, {0.0, 0.0, 1.0}}};
+    const analytic_view view = analytic_make_view(PERSPECTIVE, 90.0 / 70.0, 0.5, 40.0, 1.0);
+    subject behind = subject_of(&view, wall, 1, 90, 70);
+    glssao_frame second = subject_frame(&behind, DEPTH_32F, NORMAL_NONE);
+    glssao_frame frame = room_frame(PERSPECTIVE, 90, 70, DEPTH_32F, NORMAL_32F);
+    for (int i = 0; i < 8; ++i) {
+        glssao_settings s = wide_horizon(i % 2 ? GLSSAO_MEDIUM : GLSSAO_LOW);
+        glssao_frame changed = frame;
+        changed.margin = i & 2 ? 10 : 0;
+        changed.back_texture = changed.second_texture = i & 4 ? second.depth_texture : 0;
+        if (i == 7)
+            s.blur_rounds = 0;
+        assert_alike(*state, "margin and layers", 90, 70, &changed, &s);
+        memcpy(changed.viewport, (const int[4]){3, 5, 80, 60}, sizeof changed.viewport);
+        assert_alike(*state, "viewport", 80, 60, &changed, &s);
+    }
+    subject_frame_free(&frame);
+    subject_frame_free(&second);
+    subject_free(&behind);
+}
+
+/* Estimates are added by drawing; what comes before and after them may be dispatched. */
+static void accumulated_estimates_agree(void **state)
+{
+    picture pictures[2];
+    glssao_frame frame = room_frame(PERSPECTIVE, 64, 48, DEPTH_32F, NORMAL_32F);
+    const glssao_settings s = wide_horizon(GLSSAO_LOW);
+    for (int i = 0; i < 2; ++i) {
+        host *const h = &(host){.f = *state};
+        glssao_effect *effect;
+        assert_int_equal(make(h, i ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT, 64, 48, &effect), GLSSAO_OK);
+        for (int k = 0; k < 3; ++k)
+            assert_int_equal(glssao_accumulate(effect, &frame, &s), GLSSAO_OK);
+        const uint32_t map = glssao_map(effect, GLSSAO_MAP_AMBIENT, &pictures[i].width, &pictures[i].height);
+        pictures[i].values = fixture_read_texture(map, 64, 48, 1);
+        glssao_destroy(effect);
+    }
+    assert_true(difference(&pictures[0], &pictures[1]) <= 1.01);
+    subject_frame_free(&frame);
+}
+
+/* Which way a host's frames go, and the bits of the picture where they go as fragments. */
+static void the_context_and_the_config_decide(void **state)
+{
+    static const struct {
+        bool knows_3_3_alone, claims_3_3, claims_gpu;
+        glssao_path path, got; /* AUTO: no effect */
+    } cases[] = {
+        {false, false, false, GLSSAO_PATH_FRAGMENT, GLSSAO_PATH_FRAGMENT},
+        {false, false, false, GLSSAO_PATH_AUTO, GLSSAO_PATH_FRAGMENT},
+        {false, false, false, GLSSAO_PATH_COMPUTE, GLSSAO_PATH_COMPUTE},
+        {false, false, true, GLSSAO_PATH_AUTO, GLSSAO_PATH_COMPUTE},
+        {false, false, true, GLSSAO_PATH_FRAGMENT, GLSSAO_PATH_FRAGMENT},
+        {false, true, true, GLSSAO_PATH_AUTO, GLSSAO_PATH_COMPUTE}, /* by extensions, as some drivers of 3.3 offer it */
+        {true, false, true, GLSSAO_PATH_AUTO, GLSSAO_PATH_FRAGMENT},
+        {true, true, false, GLSSAO_PATH_AUTO, GLSSAO_PATH_FRAGMENT},
+        {true, false, false, GLSSAO_PATH_COMPUTE, GLSSAO_PATH_AUTO},
+    };
+    fixture *f = *state;
+    glssao_frame frame = room_frame(PERSPECTIVE, 64, 48, DEPTH_24, NORMAL_32F);
+    const glssao_settings s = wide_horizon(GLSSAO_MEDIUM);
+    picture wanted = {0};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        host h = {f, cases[i].knows_3_3_alone, cases[i].claims_3_3, cases[i].claims_gpu, false};
+        glssao_effect *effect;
+        const glssao_result made = make(&h, cases[i].path, 64, 48, &effect);
+        if (cases[i].got == GLSSAO_PATH_AUTO) {
+            assert_int_equal(made, GLSSAO_UNSUPPORTED_CONTEXT);
+            assert_null(effect);
+            assert_non_null(strstr(f->log, "config.path"));
+            continue;
+        }
+        assert_int_equal(made, GLSSAO_OK);
+        const glssao_plan plan = glssao_plan_frame(effect, &frame, &s);
+        if (plan.path != cases[i].got)
+            fail_msg("case %d goes way %d: %s", (int)i, plan.path, plan.path_reason);
+        picture got = shade(f, effect, &frame, &s);
+        assert_string_equal(f->log, "");
+        if (i == 0)
+            wanted = got;
+        else if (cases[i].got == GLSSAO_PATH_FRAGMENT)
+            assert_memory_equal(got.values, wanted.values, (size_t)(64 * 48) * sizeof *got.values);
+        if (i > 0)
+            free(got.values);
+        glssao_destroy(effect);
+    }
+    free(wanted.values);
+    subject_frame_free(&frame);
+}
+
+static void an_unknown_path_is_refused(void **state)
+{
+    fixture *f = *state;
+    glssao_effect *none;
+    assert_int_equal(make(&(host){.f = f}, (glssao_path)3, 64, 48, &none), GLSSAO_INVALID_ARGUMENT);
+    assert_non_null(strstr(f->log, "config.path = 3"));
+}
+
+/* Where compute shaders are the library's own choice, a driver that refuses them costs the host nothing. */
+static void refused_compute_shaders_are_done_without(void **state)
+{
+    fixture *f = *state;
+    host h = {.f = f, .claims_gpu = true, .refuses_compute = true};
+    glssao_frame frame = room_frame(PERSPECTIVE, 64, 48, DEPTH_24, NORMAL_32F);
+    const glssao_settings s = wide_horizon(GLSSAO_MEDIUM);
+    for (int i = 0; i < 3; ++i) {
+        glssao_effect *effect;
+        assert_int_equal(make(&h, GLSSAO_PATH_AUTO, 64, 48, &effect), GLSSAO_OK);
+        assert_int_equal(glssao_plan_frame(effect, &frame, &s).path, GLSSAO_PATH_COMPUTE);
+        assert_int_equal(i == 0   ? glssao_compute(effect, &frame, &s)
+                         : i == 1 ? glssao_accumulate(effect, &frame, &s)
+                                  : glssao_prepare(effect, &frame, &s),
+                         GLSSAO_OK);
+        assert_true(effect != NULL && glssao_plan_frame(effect, &frame, &s).path == GLSSAO_PATH_FRAGMENT);
+        picture p = shade(f, effect, &frame, &s);
+        assert_true(picture_least(&p) < 0.99);
+        assert_string_equal(f->log, "");
+        free(p.values);
+        glssao_destroy(effect);
+    }
+    glssao_effect *required;
+    assert_int_equal(make(&h, GLSSAO_PATH_COMPUTE, 64, 48, &required), GLSSAO_OK);
+    assert_int_equal(glssao_compute(required, &frame, &s), GLSSAO_SHADER_ERROR);
+    glssao_destroy(required);
+    subject_frame_free(&frame);
+}
+
+int main(int argc, char **argv)
+{
+    stride = configuration_stride(argc, argv);
+#define TEST(name) cmocka_unit_test_setup_teardown(name, NULL, end_ways)
+    const struct CMUnitTest tests[] = {
+        TEST(techniques_and_qualities_agree),
+        TEST(blurs_and_sizes_of_the_result_agree),
+        TEST(odd_and_small_sizes_agree),
+        TEST(ways_to_hand_over_agree),
+        TEST(margins_layers_and_viewports_agree),
+        TEST(accumulated_estimates_agree),
+        TEST(the_context_and_the_config_decide),
+        TEST(an_unknown_path_is_refused),
+        TEST(refused_compute_shaders_are_done_without),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+}
