@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { W = 64, H = 48, PROGRAMS = 5 /* apply, and horizon's four */ };
+enum { W = 64, H = 48, PROGRAMS = 7 /* apply, and horizon's six */ };
 
 typedef struct cached {
     fixture *f;
