@@ -50,12 +50,12 @@ static void draw(economy_player *p, int which)
 static bool open_player(const economy *e, economy_player *p, const economy_stage *s, int which, economy_whole *out,
                         char *error, size_t error_size)
 {
-    const scene_draw_options options = {.shadows = true, .everything = which == EVERYTHING};
+    const scene_draw_options draws = {.shadows = true, .everything = which == EVERYTHING};
     empty_driver_cache(e);
     (void)gl_counter_take();
     const double start = now_ms(e);
     if (!economy_player_open(p, s, gl_counter_load, NULL, error, error_size) ||
-        !scene_renderer_configure(p->renderer, &s->lighting, &options, error, error_size))
+        !scene_renderer_configure(p->renderer, &s->lighting, &draws, error, error_size))
         return false;
     draw(p, which);
     out->first_ms[which] = now_ms(e) - start;
