@@ -11,14 +11,20 @@ uniform vec2 gOrigin;
 uniform ivec4 gRegion; // of the target, pixels: lower left corner and size of what is written
 #endif
 
-// The pixel's centre in the maps that the passes read.
-vec2 pixel_center()
+// The pixel's centre in the target.
+vec2 target_center()
 {
 #if COMPUTE
-    return vec2(ivec2(gl_GlobalInvocationID.xy) + gRegion.xy) + 0.5 + gOrigin;
+    return vec2(ivec2(gl_GlobalInvocationID.xy) + gRegion.xy) + 0.5;
 #else
-    return gl_FragCoord.xy + gOrigin;
+    return gl_FragCoord.xy;
 #endif
+}
+
+// The same in the maps that the passes read.
+vec2 pixel_center()
+{
+    return target_center() + gOrigin;
 }
 
 // The same in uv, as every pass has it, whatever geometry it is drawn with.
