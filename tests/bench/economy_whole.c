@@ -83,7 +83,7 @@ static bool measure_one(const economy *e, const bench_scene *b, economy_whole *o
             if (f >= 0)
                 ms[i * frames + f] = now_ms(e) - start;
             const gl_counts counts = gl_counter_take();
-            out->draws[i] = counts.draws + counts.elements;
+            out->draws[i] = counts.draws + counts.elements + counts.dispatches;
         }
     for (int i = 0; done && i < 2; i++)
         out->ms[i] = measure_percentile(ms + i * frames, frames, 50);
