@@ -6,8 +6,7 @@
 // in  u_normal_map    view space; point sampled
 // in  u_distance_map  view distance at the estimate's size, with LAYERS 1 thickness and second layer too; point sampled,
 //                     clamped
-// in  u_depth_map     bound for its size alone; with FROM_DEPTH 1 (by compute shader) depth as the host stores it, and there
-//                     is no distance map
+// in  u_depth_map     bound for its size alone
 // out result          accessibility, with PAIRED 1 what passes after this one read; with ACCUMULATE 1 the linear
 //                     accessibility, to be added to the sum of its replicate
 // STEPS_8, STEPS_12, STEPS_16 1: that many samples on each side of a slice, else 6. SLICES_2 1: two slices, else one.
@@ -18,28 +17,6 @@
 // not unroll them, and a loop of a single turn still costs it a third of this pass.
 
 uniform sampler2D u_distance_map;
-
-// Of the estimate, whether or not it has a distance map.
-vec2 map_size()
-{
-#if FROM_DEPTH
-    return vec2((textureSize(u_depth_map, 0) + gFactor - 1) / gFactor);
-#else
-    return vec2(textureSize(u_distance_map, 0));
-#endif
-}
-
-// View distance at a texel of the estimate, FAR_AWAY on sky.
-float distance_at(vec2 texel, vec2 size)
-{
-#if FROM_DEPTH
-    float depth = fetched_depth(ivec2(texel) * gFactor);
-    return is_sky(depth) ? FAR_AWAY : distance_from_depth(depth);
-#else
-    return textureLod(u_distance_map, (texel + 0.5) / size, 0.0).r;
-#endif
-}
-
 #if ACCUMULATE
 #define RESULT vec2
 #else
@@ -129,14 +106,22 @@ uint sector(polynomial p, float c)
 
 // What turns a sample's offset in pixels and its view distance into x and y.
 struct slice_frame {
-    vec2 size;             // of the distance map, pixels
-    vec2 center;           // the point, pixels
+    vec2 center_uv;        // the point
+    vec2 texel_uv;         // of the distance map
+    vec2 low, high;        // the map's first and last texel as seen from the point, pixels
     float center_distance; // scene units
     float per_scale;       // of a step, at the point: STEP over what a pixel's size grows with
-    vec2 x_per_px;         // for the plus side
+    vec2 x_per_px;
     vec2 y_per_px;
     float y_per_distance;
     float y_step; // of the depth format
+};
+
+// What one side of a slice has to itself.
+struct slice_side {
+    polynomial sectors; // numbered from the far end of the minus side
+    uint flip;          // all bits on the minus side, where numbers grow towards the eye; 0 on the plus side
+    float lowest;       // cosine of the angle at which the hemisphere ends
 };
 
 // What a sample must exceed to be an occluder.
@@ -149,71 +134,62 @@ struct least {
 // Snapped to a texel's centre, and beyond the border to the border's; the height is corrected for the distance off the
 // slice as if the surface there were parallel to the point's own. z: the width of one step at the sample's distance.
 // `layers`: the thickness of what is seen, negative where it is not known, and how far behind it the second layer lies.
-vec3 sample_at(slice_frame f, vec2 step_px, float along, out vec2 layers)
+vec3 sample_at(slice_frame f, vec2 first_px, vec2 step_px, float number, out vec2 layers)
 {
-    vec2 texel = clamp(floor(f.center + along * step_px), vec2(0.0), f.size - 1.0);
+    // The point is a texel's centre itself, so that whole pixels lead to others.
+    vec2 offset = clamp(floor(first_px + number * step_px + 0.5), f.low, f.high);
+    vec2 uv = f.center_uv + offset * f.texel_uv;
 #if LAYERS
-    vec3 texels = textureLod(u_distance_map, (texel + 0.5) / f.size, 0.0).rgb;
+    vec3 texels = textureLod(u_distance_map, uv, 0.0).rgb;
     float distance = texels.r;
     layers = min(f.y_per_distance * texels.gb, vec2(1e6)); // bounded, so that no square overflows
 #else
     layers = vec2(0.0);
-    float distance = distance_at(texel, f.size);
+    float distance = textureLod(u_distance_map, uv, 0.0).r;
 #endif
-    vec2 offset = texel + 0.5 - f.center;
     float scale = orthographic() ? 1.0 : distance;
     return vec3(scale * dot(offset, f.x_per_px),
                 f.y_per_distance * (f.center_distance - distance) + scale * dot(offset, f.y_per_px),
                 scale * f.per_scale);
 }
 
-// Sectors that are hidden at x between two heights, if they count, where they lie within the sphere, whose half chord is 0
-// beyond it: top and bottom then come out alike.
-uint hidden_between(bool counts, float x2, float chord, float top, float bottom, polynomial sectors, bool minus, float lowest,
-                    out float cos_top)
+// Sectors that are hidden at x between two heights, where they lie within the sphere, by its half chord there.
+uint hidden_between(float x2, float chord, float top, float bottom, slice_side side, out float cos_top)
 {
-    // Sky can lie so deep that its square overflows, and its cosine would come out as 0.
-    top = clamp(top, -1e6, chord);
+    top = min(top, chord);
     bottom = max(bottom, -chord);
-    cos_top = counts ? max(top * inversesqrt(x2 + top * top), lowest) : lowest;
-    float cos_bottom = clamp(bottom * inversesqrt(x2 + bottom * bottom), lowest, cos_top);
-    uint near = 1u << sector(sectors, cos_top);
-    uint far = 1u << sector(sectors, cos_bottom);
-    return minus ? near - far : far - near;
+    cos_top = max(top * inversesqrt(x2 + top * top), side.lowest);
+    float cos_bottom = clamp(bottom * inversesqrt(x2 + bottom * bottom), side.lowest, cos_top);
+    uint near = 1u << sector(side.sectors, cos_top);
+    uint far = 1u << sector(side.sectors, cos_bottom);
+    return (far - near + side.flip) ^ side.flip; // the difference, or with all bits to flip its negative
 }
 
 // Sectors that one sample hides, whose run is `width` steps wide. Raises `highest` to the sample's top where it veils what is
 // behind it.
-uint hidden_by(vec3 at, vec2 layers, float width, polynomial sectors, bool minus, float lowest, least from, inout float highest)
+uint hidden_by(vec3 at, vec2 layers, float width, slice_side side, least from, inout float highest)
 {
     // x is 0 on the point's own texel, and below it where the border holds a sample on the other side; held right across the
     // slice, its angle is all error. And what the depth format can't tell from the tangent plane is no occluder.
     bool counts = at.x > from.x && at.y > from.tangent * at.x + from.above;
     float x2 = at.x * at.x + 1e-12;
-#if COMPUTE
-    // A GPU is spared what follows where all samples of a group of invocations are like that; no sectors and nothing
-    // higher would come of it.
-    if (!(counts && x2 < 1.0))
-        return 0u;
-#endif
-    float chord = sqrt(max(1.0 - x2, 0.0));
+    counts = counts && x2 < 1.0; // within the sphere; of what is not, no more than this is asked below
+    float chord = sqrt(1.0 - x2);
     float thickness = WIDTH * width * at.z;
     float cos_top;
     uint mask = 0u;
 #if LAYERS
     float second = min(at.y - layers.y, chord); // its thickness counts from where it is within the sphere
-    mask = hidden_between(counts, x2, chord, second, second - SECOND * thickness, sectors, minus, lowest, cos_top);
+    mask = hidden_between(x2, chord, second, second - SECOND * thickness, side, cos_top);
     thickness = layers.x >= 0.0 ? layers.x : thickness;
 #endif
-    mask |= hidden_between(counts, x2, chord, at.y, at.y - thickness, sectors, minus, lowest, cos_top);
-    highest = max(highest, thickness > VEIL_WIDTH && x2 < 1.0 ? cos_top : lowest);
-    return mask;
+    mask |= hidden_between(x2, chord, at.y, at.y - thickness, side, cos_top);
+    highest = counts && thickness > VEIL_WIDTH ? max(highest, cos_top) : highest;
+    return counts ? mask : 0u;
 }
 
-// Sectors that one side's samples hide. `lowest` is the cosine of the angle at which the hemisphere ends there, `highest`
-// that of the horizon over occluders that veil what is behind them.
-uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, polynomial sectors, bool minus, float lowest,
-                    least from, out float highest)
+// Sectors that one side's samples hide. `highest` is the cosine of the horizon over occluders that veil what is behind them.
+uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, slice_side side, least from, out float highest)
 {
     float change[STEPS];
     bool bend[STEPS + 1];
@@ -236,8 +212,8 @@ uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, polyn
 #define FIND_END(i) end[i] = boundary; boundary = jump[i] ? float(i) : boundary;
     EACH_STEP_BACK(FIND_END)
     uint mask = 0u;
-    highest = lowest;
-#define HIDE(i) mask |= hidden_by(samples[i], layers[i], end[i] - start[i], sectors, minus, lowest, from, highest);
+    highest = side.lowest;
+#define HIDE(i) mask |= hidden_by(samples[i], layers[i], end[i] - start[i], side, from, highest);
     EACH_STEP(HIDE)
     return mask;
 }
@@ -267,12 +243,36 @@ vec2 tile_noise()
     return noise;
 }
 
+// Adds the sectors that the samples of the plus side (`sign` 1) or the minus side (-1) hide, and takes from `veiled` what
+// their horizon leaves open. `g`: cosine and sine of the normal's lean; the sectors' measure is multiplied by `scale`, and
+// `origin` is that of the eye's direction.
+void add_side(slice_frame f, vec2 first_px, vec2 step_px, vec2 g, float scale, float origin, float least_x, float jitter,
+              float sign, inout uint mask, inout float veiled)
+{
+    f.x_per_px *= sign;
+    first_px *= sign;
+    step_px *= sign;
+    slice_side side;
+    side.sectors = measure(sign * g.x, g.y, scale);
+    side.sectors.low.x += origin;
+    side.flip = sign > 0.0 ? 0u : ~0u;
+    side.lowest = -sign * g.y;
+    vec3 samples[STEPS];
+    vec2 layers[STEPS];
+#define TAKE(i) samples[i] = sample_at(f, first_px, step_px, float(i), layers[i]);
+    EACH_STEP(TAKE)
+    float highest;
+    mask |= hidden_sectors(samples, layers, jitter, side, least(least_x, side.lowest / max(g.x, 1e-3), f.y_step), highest);
+    veiled -= value(measure(g.x, sign * g.y, 1.0), highest);
+}
+
 // What the slice adds to occlusion. `px`: view xy that a pixel gains, per unit of distance in perspective.
 float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float angle, float jitter)
 {
     vec2 direction = vec2(cos(PI * angle), sin(PI * angle));
     // The bound keeps pixel coordinates exact, however near the point is.
-    vec2 step_px = clamp(gOcclusionRadius * float(STEPS) * f.per_scale * direction / px, -1e5, 1e5);
+    vec2 step_px = STEP * clamp(gOcclusionRadius * float(STEPS) * f.per_scale * direction / px, -1e5, 1e5);
+    vec2 first_px = (1.0 - jitter) * step_px;
     vec3 along = vec3(direction, 0.0);
     along = normalize(along - up * dot(along, up));
     vec3 across = cross(up, along);
@@ -287,41 +287,29 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
     float projected = sqrt(max(normal_along * normal_along + normal_up * normal_up, 1e-12));
     float cos_g = normal_up / projected;
     float sin_g = normal_along / projected;
-    polynomial plus = measure(cos_g, sin_g, 1.0);
-    polynomial minus = measure(cos_g, -sin_g, 1.0);
-    float total_minus = value(minus, sin_g);
-    float total = max(value(plus, -sin_g) + total_minus, 1e-6);
     // Sectors are numbered from the far end of the minus side.
+    float total_minus = value(measure(cos_g, -sin_g, 1.0), sin_g);
+    float total = max(value(measure(cos_g, sin_g, 1.0), -sin_g) + total_minus, 1e-6);
     float scale = SECTORS / total;
-    polynomial plus_sectors = measure(cos_g, sin_g, scale);
-    polynomial minus_sectors = measure(-cos_g, sin_g, scale);
-    plus_sectors.low.x += total_minus * scale;
-    minus_sectors.low.x += total_minus * scale;
-
-    vec3 plus_samples[STEPS];
-    vec3 minus_samples[STEPS];
-    vec2 plus_layers[STEPS];
-    vec2 minus_layers[STEPS];
-    vec3 mirror = vec3(-1.0, 1.0, 1.0);
-#define TAKE_PLUS(i) plus_samples[i] = sample_at(f, step_px, (float(i) + 1.0 - jitter) * STEP, plus_layers[i]);
-#define TAKE_MINUS(i) minus_samples[i] = mirror * sample_at(f, step_px, (jitter - 1.0 - float(i)) * STEP, minus_layers[i]);
-    EACH_STEP(TAKE_PLUS)
-    EACH_STEP(TAKE_MINUS)
-    float tangent = sin_g / max(cos_g, 1e-3);
-    least from_plus = least(0.2 * STEP * length(f.x_per_px) / f.per_scale, -tangent, f.y_step); // a fifth of a pixel
-    least from_minus = least(from_plus.x, tangent, f.y_step);
-    float highest_plus, highest_minus;
-    uint mask = hidden_sectors(plus_samples, plus_layers, jitter, plus_sectors, false, -sin_g, from_plus, highest_plus) |
-                hidden_sectors(minus_samples, minus_layers, jitter, minus_sectors, true, sin_g, from_minus, highest_minus);
+    float least_x = 0.2 * STEP * length(f.x_per_px) / f.per_scale; // a fifth of a pixel
+    uint mask = 0u;
+    float veiled = total;
+#if COMPUTE
+    for (int i = 0; i < 2; ++i)
+        add_side(f, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, least_x, jitter,
+                 i == 0 ? 1.0 : -1.0, mask, veiled);
+#else
+    add_side(f, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, least_x, jitter, 1.0, mask, veiled);
+    add_side(f, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, least_x, jitter, -1.0, mask, veiled);
+#endif
     float hidden = total * float(count_bits(mask)) / SECTORS;
-    float veiled = total - value(plus, highest_plus) - value(minus, highest_minus);
     return projected * mix(hidden, veiled, VEIL);
 }
 
 RESULT result()
 {
-    vec2 size = map_size();
-    float distance = distance_at(floor(pixel_center()), size);
+    vec2 map_size = vec2(textureSize(u_distance_map, 0));
+    float distance = textureLod(u_distance_map, pixel_center() / map_size, 0.0).r;
     vec2 full_size = vec2(textureSize(u_depth_map, 0));
     vec2 uv = (floor(pixel_center()) * float(gFactor) + 0.5) / full_size;
     vec3 normal_view = normal_view_at_uv(uv);
@@ -343,16 +331,26 @@ RESULT result()
     vec3 up = -ray / ray_length;
     vec2 px = float(gFactor) / full_size * (orthographic() ? gRayOrigin.xy : gRayDirection.xy);
     slice_frame f;
-    f.size = size;
-    f.center = pixel_center();
+    f.texel_uv = 1.0 / map_size;
+    f.center_uv = pixel_center() * f.texel_uv;
+    f.low = 0.5 - pixel_center();
+    f.high = map_size - 0.5 - pixel_center();
     f.center_distance = distance;
     f.per_scale = STEP / (orthographic() ? 1.0 : distance);
     f.y_per_distance = ray_length / gOcclusionRadius;
     f.y_step = f.y_per_distance * depth_step(distance + gOcclusionRadius);
     vec2 noise = tile_noise();
+    // By loops a GPU's caches hold all of the program, which they don't written out.
+#if COMPUTE
+    float occlusion = 0.0;
+    for (int i = 0; i < SLICES; ++i)
+        occlusion += slice_occlusion(f, normal_view, up, px, (noise.x + float(i)) / float(SLICES), noise.y);
+    occlusion /= float(SLICES);
+#else
     float occlusion = slice_occlusion(f, normal_view, up, px, noise.x / float(SLICES), noise.y);
 #if SLICES_2
     occlusion = 0.5 * (occlusion + slice_occlusion(f, normal_view, up, px, 0.5 * (noise.x + 1.0), noise.y));
+#endif
 #endif
     // pow() is undefined for a base of 0 with power 0, and for the negative that rounding can leave, as it can leave more
     // than 1.

@@ -1,27 +1,33 @@
 // SPDX-License-Identifier: MIT
-// One direction of the planar blur, see planar_blur.glsl.
-// WIDE 1: of a later round.
+// A pass of the planar blur, see planar_blur.glsl: one direction of the first round, or with WIDE 1 a later round.
 // in  u_ambient_map  paired map; point sampled, clamped
 // out result         the same with PAIRED 1, else accessibility alone
 
 uniform sampler2D u_ambient_map;
+#if !WIDE
 uniform bool gHorizontalBlur;
+#endif
 #define RESULT AMBIENT
+
+vec2 paired_at(vec2 uv)
+{
+    return textureLod(u_ambient_map, uv, 0.0).rg;
+}
 
 RESULT result()
 {
-    vec2 way = gHorizontalBlur ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
-    vec2 step_uv = (WIDE == 1 ? 3.0 : 1.0) * way * gInvRenderTargetSize;
-    vec2 uv = pixel_center() * gInvRenderTargetSize;
-    vec2 center = textureLod(u_ambient_map, uv, 0.0).rg;
-    vec2 before = textureLod(u_ambient_map, uv - step_uv, 0.0).rg;
-    vec2 after = textureLod(u_ambient_map, uv + step_uv, 0.0).rg;
+    vec2 uv = pixel_uv();
+    vec2 center = paired_at(uv);
 #if WIDE
-    float accessibility = blurred_wide(before, center, after, way);
+    vec2 x = vec2(3.0 * gInvRenderTargetSize.x, 0.0);
+    vec2 y = vec2(0.0, 3.0 * gInvRenderTargetSize.y);
+    float accessibility =
+        blurred_wide(paired_at(uv - x), paired_at(uv - y), center, paired_at(uv + y), paired_at(uv + x));
 #else
-    vec2 before_2 = textureLod(u_ambient_map, uv - 2.0 * step_uv, 0.0).rg;
-    vec2 after_2 = textureLod(u_ambient_map, uv + 2.0 * step_uv, 0.0).rg;
-    float accessibility = blurred(before_2, before, center, after, after_2, way);
+    vec2 way = gHorizontalBlur ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
+    vec2 by = way * gInvRenderTargetSize;
+    float accessibility = blurred(paired_at(uv - 2.0 * by), paired_at(uv - by), center, paired_at(uv + by),
+                                  paired_at(uv + 2.0 * by), way);
 #endif
     return ambient(accessibility, center.y, normal_code(center));
 }

@@ -4,8 +4,8 @@
 // away from the eye in between. A silhouette breaks both lines; a plane seen at any angle breaks neither. A pixel left
 // without a tap takes neighbours that are merely near.
 //
-// After it there is little noise left but that of twice its period, which later rounds take out with two taps: 1/4 1/2 1/4,
-// three pixels apart, where all three lie on a line.
+// After both directions there is little noise left but that of twice the tile's period. Later rounds take it out in a single
+// pass: a quarter of the pixel and 3/16 of each of the four at three pixels from it, where they lie on a line.
 
 // All found by experiment. How far off a line may be, in units of the radius.
 const float BLUR_TOLERANCE = 0.02;
@@ -40,20 +40,24 @@ float blurred(vec2 before_2, vec2 before, vec2 center, vec2 after, vec2 after_2,
     return sum / (1.0 + dot(weights, vec4(1.0)));
 }
 
-// The same of a later round, with the pixels three off.
-float blurred_wide(vec2 before, vec2 center, vec2 after, vec2 way)
+// The same of a later round, from its own and the four at three pixels from it.
+float blurred_wide(vec2 left, vec2 below, vec2 center, vec2 above, vec2 right)
 {
     float tolerance = linear_error(BLUR_TOLERANCE * gOcclusionRadius, center.y);
-    bool on_line = abs(before.y - 2.0 * center.y + after.y) < tolerance;
+    bool on_row = abs(left.y - 2.0 * center.y + right.y) < tolerance;
+    bool on_column = abs(below.y - 2.0 * center.y + above.y) < tolerance;
+    bvec4 joins = bvec4(on_row, on_column, on_column, on_row);
     uint code = normal_code(center);
-    uvec2 codes = uvec2(normal_code(before), normal_code(after));
-    bvec2 joins = bvec2(on_line);
-    if (any(notEqual(codes, uvec2(code)))) {
+    uvec4 codes = uvec4(normal_code(left), normal_code(below), normal_code(above), normal_code(right));
+    if (any(notEqual(codes, uvec4(code)))) {
         vec2 own = projected_normal(code);
-        joins.x = joins.x && !turns_away(projected_normal(codes.x) - own, -way);
-        joins.y = joins.y && !turns_away(projected_normal(codes.y) - own, way);
+        joins.x = joins.x && !turns_away(projected_normal(codes.x) - own, vec2(-1.0, 0.0));
+        joins.y = joins.y && !turns_away(projected_normal(codes.y) - own, vec2(0.0, -1.0));
+        joins.z = joins.z && !turns_away(projected_normal(codes.z) - own, vec2(0.0, 1.0));
+        joins.w = joins.w && !turns_away(projected_normal(codes.w) - own, vec2(1.0, 0.0));
     }
-    vec2 weights = mix(vec2(0.0), vec2(0.5), joins);
-    float sum = accessibility_of(center) + dot(weights, vec2(accessibility_of(before), accessibility_of(after)));
-    return sum / (1.0 + weights.x + weights.y);
+    vec4 weights = mix(vec4(0.0), vec4(0.1875), joins);
+    vec4 taps = vec4(accessibility_of(left), accessibility_of(below), accessibility_of(above), accessibility_of(right));
+    float sum = 0.25 * accessibility_of(center) + dot(weights, taps);
+    return sum / (0.25 + dot(weights, vec4(1.0)));
 }

@@ -4,6 +4,9 @@
 // in  u_ambient_map  paired map; fetched
 // out u_target       UPSAMPLE 1: accessibility at full size; else with PAIRED 1 the paired map, with 0 accessibility
 // ROUNDS_1, ROUNDS_2 1: that many rounds, else none. WIDE 1: the first of them is not the blur's first.
+//
+// Invocations lie along a row of the tile, one a texel with those that the blur takes around it, so that no address needs a
+// division; those at the ends of a row make what nobody reads.
 
 layout(local_size_x = GROUP_X, local_size_y = GROUP_Y) in;
 uniform sampler2D u_ambient_map;
@@ -21,106 +24,136 @@ const int FACTOR = 2; // pixels of the target per texel
 #else
 const int FACTOR = 1;
 #endif
-const int THREADS = GROUP_X * GROUP_Y;
 #if WIDE
-const int FIRST_REACH = 3; // texels that each direction of the first round reads on either side
+const int FIRST_REACH = 3; // texels that the first round reads on either side
 #else
 const int FIRST_REACH = 2;
 #endif
 const int LATER_REACH = 3;
-const bool LAST_WIDE = WIDE == 1 || ROUNDS == 2;
-const int LAST_REACH = LAST_WIDE ? LATER_REACH : FIRST_REACH;
 const int HALO = ROUNDS == 0 ? 0 : FIRST_REACH + (ROUNDS - 1) * LATER_REACH;
-const int WIDTH = TILE_X + 2 * HALO + FACTOR - 1;  // texels of the tile, with those around it; upsampling reads one more
-const int HEIGHT = TILE_Y + 2 * HALO + FACTOR - 1; // to the right and above
+const int WIDTH = GROUP_X;
+const int MADE_X = WIDTH - 2 * HALO - FACTOR + 1; // upsampling reads one more to the right and above
+const int MADE_Y = HEIGHT - 2 * HALO - FACTOR + 1;
 
-// Two of them, by turns; no array of arrays in GLSL 3.30.
-const int OTHER = WIDTH * HEIGHT;
-shared vec2 tiles[2 * OTHER];
+// Two tiles, by turns, one after the other (GLSL 3.30 has no arrays of arrays), between what the ends of rows read beyond.
+const int FIRST = LATER_REACH;
+const int SECOND = FIRST + WIDTH * HEIGHT;
+shared vec2 tiles[SECOND + WIDTH * HEIGHT + LATER_REACH];
 
-// The tile's lower left texel, with those around it, in the map.
-ivec2 corner()
+// The steps of the blur: a round takes one along x and one along y, a later one a single step.
+const int ALONG_X = 0;
+const int ALONG_Y = 1;
+const int AROUND = 2;
+
+// The last of them, and which tile it reads.
+#if WIDE || ROUNDS_2
+const int LAST_STEP = AROUND;
+#else
+const int LAST_STEP = ALONG_Y;
+#endif
+#if WIDE == ROUNDS_2
+const int LAST_FROM = SECOND;
+const int LAST_TO = FIRST;
+#else
+const int LAST_FROM = FIRST;
+const int LAST_TO = SECOND;
+#endif
+
+// Where the map begins and ends, in texels of the tile.
+ivec2 low, high;
+
+float blurred_at(int at, int kind)
 {
-    return ivec2(gl_WorkGroupID.xy) * ivec2(TILE_X, TILE_Y) + (gRegion.xy + ivec2(gOrigin)) / FACTOR - HALO;
+    if (kind == AROUND)
+        return blurred_wide(tiles[at - 3], tiles[at - 3 * WIDTH], tiles[at], tiles[at + 3 * WIDTH], tiles[at + 3]);
+    int by = kind == ALONG_X ? 1 : WIDTH;
+    return blurred(tiles[at - 2 * by], tiles[at - by], tiles[at], tiles[at + by], tiles[at + 2 * by],
+                   kind == ALONG_X ? vec2(1.0, 0.0) : vec2(0.0, 1.0));
 }
 
-void load_tile()
+// A place in the tile that begins at `tile`. Beyond the map lies its edge.
+int place(int tile, int row)
 {
-    ivec2 first = corner();
-    ivec2 last = textureSize(u_ambient_map, 0) - 1;
-    for (int i = int(gl_LocalInvocationIndex); i < OTHER; i += THREADS)
-        tiles[i] = texelFetch(u_ambient_map, clamp(first + ivec2(i % WIDTH, i / WIDTH), ivec2(0), last), 0).rg;
-    barrier();
+    return tile + clamp(row, low.y, high.y) * WIDTH + clamp(int(gl_LocalInvocationID.x), low.x, high.x);
 }
 
-// Accessibility at a place in the tiles, blurred along x (`by` 1) or y (`by` WIDTH), in the blur's first round or a later.
-float blurred_at(int at, int by, bool wide)
+// Blurs all rows but so many at either end from one tile into the other.
+void blur_tile(int from, int to, int but, int kind)
 {
-    vec2 way = by == 1 ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
-    if (wide)
-        return blurred_wide(tiles[at - 3 * by], tiles[at], tiles[at + 3 * by], way);
-    return blurred(tiles[at - 2 * by], tiles[at - by], tiles[at], tiles[at + by], tiles[at + 2 * by], way);
-}
-
-// The tile that begins at `to` from the other, but for so many texels along its sides. Texels beyond the map repeat its
-// edge.
-void blur_tile(int from, int to, ivec2 but, int by, bool wide)
-{
-    ivec2 first = -corner();
-    ivec2 last = first + textureSize(u_ambient_map, 0) - 1;
-    int width = WIDTH - 2 * but.x;
-    for (int i = int(gl_LocalInvocationIndex); i < width * (HEIGHT - 2 * but.y); i += THREADS) {
-        ivec2 texel = but + ivec2(i % width, i / width);
-        ivec2 inside = clamp(texel, first, last);
-        int at = from + inside.y * WIDTH + inside.x;
+    for (int row = but + int(gl_LocalInvocationID.y); row < HEIGHT - but; row += GROUP_Y) {
+        int at = place(from, row);
         vec2 center = tiles[at];
-        tiles[to + texel.y * WIDTH + texel.x] = paired(blurred_at(at, by, wide), center.y, normal_code(center));
+        tiles[to + row * WIDTH + int(gl_LocalInvocationID.x)] =
+            paired(blurred_at(at, kind), center.y, normal_code(center));
     }
     barrier();
 }
 
 #if UPSAMPLE
-vec4 pixel_of_tile(ivec2 pixel)
+void store(ivec2 pixel, float accessibility)
 {
-    ivec2 odd = pixel & 1; // margins are even, so it is odd in the map, too
-    int a = (pixel.y / 2 + HALO) * WIDTH + pixel.x / 2 + HALO;
-    int c = a + odd.y * WIDTH;
-    ivec2 place = pixel + ivec2(gl_WorkGroupID.xy) * 2 * ivec2(TILE_X, TILE_Y) + gRegion.xy + ivec2(gOrigin);
-    return vec4(upsampled(tiles[a], tiles[a + odd.x], tiles[c], tiles[c + odd.x], vec2(odd),
-                          (vec2(place) + 0.5) / vec2(textureSize(u_depth_map, 0))));
+    if (all(lessThan(pixel, gRegion.zw)))
+        imageStore(u_target, pixel + gRegion.xy, vec4(accessibility));
+}
+
+// The four pixels that the texel is the lower left of.
+void write(int row, ivec2 texel)
+{
+    int at = (ROUNDS == 0 ? FIRST : LAST_TO) + row * WIDTH + int(gl_LocalInvocationID.x);
+    vec2 a = tiles[at];
+    vec2 b = tiles[at + 1];
+    vec2 c = tiles[at + WIDTH];
+    vec2 d = tiles[at + WIDTH + 1];
+    ivec2 pixel = 2 * texel;
+    vec2 full_texel = 1.0 / vec2(textureSize(u_depth_map, 0));
+    vec2 full_uv = (vec2(pixel + gRegion.xy) + 0.5 + gOrigin) * full_texel;
+    vec2 full_next = full_uv + full_texel;
+    bool sky = is_sky(depth_component(textureLod(u_depth_map, full_uv, 0.0)));
+    store(pixel, sky ? 1.0 : accessibility_of(a));
+    store(pixel + ivec2(1, 0), upsampled(a, b, a, b, vec2(1.0, 0.0), vec2(full_next.x, full_uv.y)));
+    store(pixel + ivec2(0, 1), upsampled(a, a, c, c, vec2(0.0, 1.0), vec2(full_uv.x, full_next.y)));
+    store(pixel + ivec2(1, 1), upsampled(a, b, c, d, vec2(1.0), full_next));
 }
 #else
-// The last direction of the last round, whose accessibility the paired map would round.
-vec4 pixel_of_tile(ivec2 pixel)
+// The last step, whose accessibility the paired map would round.
+void write(int row, ivec2 texel)
 {
-    int at = OTHER + (pixel.y + HALO) * WIDTH + pixel.x + HALO;
+    int at = place(LAST_FROM, row);
     vec2 center = tiles[at];
+    float accessibility = blurred_at(at, LAST_STEP);
+    if (any(greaterThanEqual(texel, gRegion.zw)))
+        return;
 #if PAIRED
-    return vec4(paired(blurred_at(at, WIDTH, LAST_WIDE), center.y, normal_code(center)), 0.0, 1.0);
+    imageStore(u_target, texel + gRegion.xy, vec4(paired(accessibility, center.y, normal_code(center)), 0.0, 1.0));
 #else
-    return vec4(blurred_at(at, WIDTH, LAST_WIDE));
+    imageStore(u_target, texel + gRegion.xy, vec4(accessibility));
 #endif
 }
 #endif
 
 void main()
 {
-    load_tile();
+    int column = int(gl_LocalInvocationID.x);
+    ivec2 made = ivec2(gl_WorkGroupID.xy) * ivec2(MADE_X, MADE_Y); // the first texel, within the region
+    ivec2 corner = made + (gRegion.xy + ivec2(gOrigin)) / FACTOR - HALO; // the tile's, in the map; margins are even
+    low = -corner;
+    high = low + textureSize(u_ambient_map, 0) - 1;
+    for (int row = int(gl_LocalInvocationID.y); row < HEIGHT; row += GROUP_Y)
+        tiles[FIRST + row * WIDTH + column] =
+            texelFetch(u_ambient_map, corner + clamp(ivec2(column, row), low, high), 0).rg;
+    barrier();
+#if WIDE && ROUNDS_2
+    blur_tile(FIRST, SECOND, FIRST_REACH, AROUND);
+#elif !WIDE && (ROUNDS_1 || ROUNDS_2)
+    blur_tile(FIRST, SECOND, 0, ALONG_X);
 #if ROUNDS_2
-    blur_tile(0, OTHER, ivec2(FIRST_REACH, 0), 1, WIDE == 1);
-    blur_tile(OTHER, 0, ivec2(FIRST_REACH), WIDTH, WIDE == 1);
-#endif
-#if ROUNDS_1 || ROUNDS_2
-    blur_tile(0, OTHER, ivec2(HALO, HALO - LAST_REACH), 1, LAST_WIDE);
-#if UPSAMPLE
-    blur_tile(OTHER, 0, ivec2(HALO, HALO), WIDTH, LAST_WIDE);
+    blur_tile(SECOND, FIRST, FIRST_REACH, ALONG_Y);
 #endif
 #endif
-    const ivec2 made = FACTOR * ivec2(TILE_X, TILE_Y);
-    for (int i = int(gl_LocalInvocationIndex); i < made.x * made.y; i += THREADS) {
-        ivec2 pixel = ivec2(i % made.x, i / made.x);
-        ivec2 place = pixel + ivec2(gl_WorkGroupID.xy) * made;
-        if (all(lessThan(place, gRegion.zw)))
-            imageStore(u_target, place + gRegion.xy, pixel_of_tile(pixel));
-    }
+#if UPSAMPLE && (ROUNDS_1 || ROUNDS_2)
+    blur_tile(LAST_FROM, LAST_TO, HALO, LAST_STEP);
+#endif
+    if (column >= HALO && column < HALO + MADE_X)
+        for (int row = HALO + int(gl_LocalInvocationID.y); row < HALO + MADE_Y; row += GROUP_Y)
+            write(row, made + ivec2(column, row) - HALO);
 }

@@ -46,11 +46,6 @@ bool glssao__compute_gives_up(glssao_effect *effect, const glssao_plan *plan, gl
     return true;
 }
 
-bool glssao__compute_reads_depth(const glssao_frame *frame, const glssao_plan *plan)
-{
-    return plan->passes[GLSSAO_PASS_ESTIMATE].compute && !frame->back_texture;
-}
-
 int glssao__compute_rounds_within(const glssao_settings *settings, const glssao_plan *plan)
 {
     const struct glssao_planned_pass *upsample = &plan->passes[GLSSAO_PASS_UPSAMPLE];
@@ -69,8 +64,10 @@ void glssao__compute_dispatch(glssao_effect *effect, const glssao__target *targe
     const glssao__gl *gl = &effect->gl;
     gl->Uniform4i(effect->program.region_location, region->x, region->y, region->width, region->height);
     gl->BindImageTexture(0, target->texture, 0, 0, 0, GL_WRITE_ONLY, target->format);
-    /* Whoever read the target before has done so, and what the pass before this one wrote can be read. */
-    gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    /* Whoever read the target before has done so, and what the pass before this one wrote can be read. Nobody else
+     * reads the distance map, and a barrier is a wait. */
+    if (effect->is_dispatched || target->texture != effect->distance_map.texture)
+        gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     gl->DispatchCompute(groups(region->width, effect->program.group[0]),
                         groups(region->height, effect->program.group[1]), 1);
     effect->is_dispatched = true;

@@ -94,7 +94,8 @@ enum glssao__variant {
     VARIANT_ROUNDS_1 = 2097152,
     VARIANT_ROUNDS_2 = 4194304,
     VARIANT_WIDE = 8388608,
-    VARIANT_FLAGS = 24, /* how many there are */
+    VARIANT_PERSPECTIVE = 16777216,
+    VARIANT_FLAGS = 25, /* how many there are */
     VARIANT_COUNT = 1 << VARIANT_FLAGS
 };
 
@@ -401,8 +402,6 @@ bool glssao__compute_is_out(const glssao_effect *effect);
 bool glssao__compute_can_run(const glssao_settings *settings, glssao_pass pass);
 /* Whether the frame is to be tried again without, after its programs could not be made. */
 bool glssao__compute_gives_up(glssao_effect *effect, const glssao_plan *plan, glssao_result result);
-/* Whether horizon's estimate makes view distances of depth itself, without a distance map. */
-bool glssao__compute_reads_depth(const glssao_frame *frame, const glssao_plan *plan);
 /* Of the blur's rounds, those that run within the dispatch that brings the result to full size. */
 /* What is left of a map without so many pixels along each side. */
 glssao__region glssao__plan_inner(int width, int height, int margin);

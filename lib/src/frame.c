@@ -192,7 +192,6 @@ static void blur(const frame_run *r)
                                                 : is_first ? &r->programs.blur
                                                            : &r->programs.wide_blur;
         glssao__draw_use(r->effect, program);
-        /* Horizontal 0 to 1, vertical 1 to 0. */
         r->effect->gl.Uniform1i(program->horizontal_location, i % 2);
         /* The vertical pass reads a tile farther than it draws. */
         select_tiles(r, program, 1, 0, r->rings + i % 2);

@@ -73,7 +73,9 @@ glssao_result glssao__frame_programs_get(glssao_effect *effect, const glssao_fra
         blur | last_rounds | (calls > first_calls ? wide : 0u) | (plan->passes[GLSSAO_PASS_UPSAMPLE].run ? paired : 0u);
     const unsigned first_blur = calls > 1 ? blur | paired | all_rounds : last_blur;
     const unsigned wide_blur = calls > first_calls + 1 ? first_blur | wide : last_blur;
-    const unsigned from_depth = glssao__compute_reads_depth(frame, plan) ? VARIANT_FROM_DEPTH : 0u;
+    /* Where clip w depends on z; the other shaders, and fragment shaders, ask the constants. */
+    const unsigned perspective =
+        plan->passes[GLSSAO_PASS_ESTIMATE].compute && frame->projection[11] != 0.0f ? VARIANT_PERSPECTIVE : 0u;
     const unsigned tiles = inputs | glssao__tiles_variant(settings);
     const struct {
         glssao_pass pass;
@@ -88,7 +90,7 @@ glssao_result glssao__frame_programs_get(glssao_effect *effect, const glssao_fra
         {GLSSAO_PASS_TILES, SHADER_TILE_CLASS, tiles, &out->tiles.needed},
         {GLSSAO_PASS_TILES, SHADER_TILE_RINGS, 0, &out->tiles.rings},
         {GLSSAO_PASS_ESTIMATE, estimate_shader(settings),
-         inputs | estimate_variant(settings) | from_depth |
+         inputs | estimate_variant(settings) | perspective |
              (plan->passes[GLSSAO_PASS_RESOLVE].run ? VARIANT_ACCUMULATE : paired),
          &out->estimate},
         {GLSSAO_PASS_RESOLVE, SHADER_RESOLVE, inputs | paired, &out->resolve},

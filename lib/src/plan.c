@@ -102,15 +102,15 @@ static glssao_plan plan_of_skips(const char *reason)
 
 static int blur_calls(const glssao_settings *settings, const glssao_plan *plan)
 {
-    if (!plan->passes[GLSSAO_PASS_BLUR].compute || settings->blur != GLSSAO_BLUR_PLANAR)
+    if (settings->blur != GLSSAO_BLUR_PLANAR || settings->blur_rounds == 0)
         return 2 * settings->blur_rounds;
+    if (!plan->passes[GLSSAO_PASS_BLUR].compute)
+        return settings->blur_rounds + 1; /* the first round takes two */
     const int rounds = settings->blur_rounds - glssao__compute_rounds_within(settings, plan);
     return (rounds + COMPUTE_ROUNDS - 1) / COMPUTE_ROUNDS;
 }
 
-/* `accumulates`: the estimate is added to a sum, by blending. */
-static glssao_plan plan_of(const glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
-                           bool accumulates)
+glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
 {
     static const glssao__log_sink silent = {0};
     glssao__projection projection;
@@ -162,10 +162,7 @@ static glssao_plan plan_of(const glssao_effect *effect, const glssao_frame *fram
                      : planned(GLSSAO_PASS_TILES, true, "what no occluder can reach is left out below");
 
     for (int i = 0; i < GLSSAO_PASS_COUNT; ++i)
-        plan.passes[i].compute = plan.passes[i].run && compute && glssao__compute_can_run(settings, (glssao_pass)i) &&
-                                 !(accumulates && i == GLSSAO_PASS_ESTIMATE);
-    if (distance->run && glssao__compute_reads_depth(frame, &plan))
-        *distance = planned(GLSSAO_PASS_DISTANCE, false, "the estimate reads depth itself");
+        plan.passes[i].compute = plan.passes[i].run && compute && glssao__compute_can_run(settings, (glssao_pass)i);
     if (blur->run && blur_calls(settings, &plan) == 0)
         *blur = planned(GLSSAO_PASS_BLUR, false, "within the dispatch that brings the result to full size");
     for (int i = 0; i < GLSSAO_PASS_COUNT; ++i) {
@@ -187,21 +184,17 @@ static glssao_plan plan_of(const glssao_effect *effect, const glssao_frame *fram
     return plan;
 }
 
-glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
-{
-    return plan_of(effect, frame, settings, false);
-}
-
 glssao_plan glssao__plan_accumulate(const glssao_effect *effect, const glssao_frame *frame,
                                     const glssao_settings *settings, int estimates)
 {
-    glssao_plan plan = plan_of(effect, frame, settings, true);
+    glssao_plan plan = glssao_plan_frame(effect, frame, settings);
     struct glssao_planned_pass *resolve = &plan.passes[GLSSAO_PASS_RESOLVE];
     struct glssao_planned_pass *blur = &plan.passes[GLSSAO_PASS_BLUR];
     if (!plan.passes[GLSSAO_PASS_ESTIMATE].run)
         return plan;
     *resolve = planned(GLSSAO_PASS_RESOLVE, true, "the mean of the estimates");
-    resolve->draw_calls = estimates > 1 ? 2 : 1; /* a single one has no error to probe */
+    plan.passes[GLSSAO_PASS_ESTIMATE].compute = false; /* it is added by blending */
+    resolve->draw_calls = estimates > 1 ? 2 : 1;       /* a single one has no error to probe */
     const glssao__region region = glssao__plan_region(effect, frame, settings, &plan, GLSSAO_PASS_RESOLVE);
     resolve->width = region.width;
     resolve->height = region.height;

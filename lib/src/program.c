@@ -33,6 +33,7 @@ static const char *const macros[VARIANT_FLAGS] = {
     "ROUNDS_1",
     "ROUNDS_2",
     "WIDE",
+    "PERSPECTIVE",
 };
 
 enum {
@@ -63,8 +64,8 @@ static const struct shader {
                          DEPTH_FLAGS | VARIANT_LAYERS | VARIANT_COMPUTE,
                          {shader_view_glsl, shader_distance_frag, shader_entry_glsl}},
     [SHADER_HORIZON] = {"horizon",
-                        NORMAL_FLAGS | DEPTH_FLAGS | STEP_FLAGS | VARIANT_SLICES_2 | VARIANT_ACCUMULATE |
-                            VARIANT_LAYERS | VARIANT_PAIRED | VARIANT_OPEN | VARIANT_COMPUTE | VARIANT_FROM_DEPTH,
+                        NORMAL_FLAGS | STEP_FLAGS | VARIANT_SLICES_2 | VARIANT_ACCUMULATE | VARIANT_LAYERS |
+                            VARIANT_PAIRED | VARIANT_OPEN | VARIANT_COMPUTE | VARIANT_PERSPECTIVE,
                         {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_horizon_frag,
                          shader_entry_glsl}},
     [SHADER_RESOLVE] = {"resolve",
@@ -102,21 +103,22 @@ static const struct shader {
     [SHADER_TILE_RINGS] = {"tile-rings", 0, {shader_tile_rings_frag}},
 };
 
-/* Invocations of a work group, and texels of the tile that it makes. */
-#define SIZES(group_x, group_y, tile_x, tile_y)                                                                        \
-    {                                                                                                                  \
-        {tile_x, tile_y}, "#define GROUP_X " #group_x "\n#define GROUP_Y " #group_y "\n#define TILE_X " #tile_x        \
-                          "\n#define TILE_Y " #tile_y "\n"                                                             \
-    }
-static const struct sizes {
-    int tile[2];
-    const char *macros;
-} pixel_sizes = SIZES(8, 8, 8, 8), tile_sizes = SIZES(32, 8, 32, 32);
-#undef SIZES
+/* Invocations of a work group, and how many rows of a tile they share; glsl/planar_tile.comp, glsl/entry.glsl. */
+enum { PIXEL_GROUP_X = 8, PIXEL_GROUP_Y = 16, TILE_WIDTH = 32, TILE_HEIGHT = 32 };
+static const char pixel_sizes[] = "#define GROUP_X 8\n#define GROUP_Y 16\n";
+static const char tile_sizes[] = "#define GROUP_X 32\n#define GROUP_Y 16\n#define HEIGHT 32\n";
 
-static const struct sizes *sizes_of(enum glssao__shader shader)
+/* Pixels of the target that a work group makes. */
+static void find_group(enum glssao__shader shader, unsigned variant, int out[2])
 {
-    return shader == SHADER_PLANAR_TILE ? &tile_sizes : &pixel_sizes;
+    const int first_reach = variant & VARIANT_WIDE ? 3 : 2, later_reach = 3;
+    const int halo = variant & VARIANT_ROUNDS_2   ? first_reach + later_reach
+                     : variant & VARIANT_ROUNDS_1 ? first_reach
+                                                  : 0;
+    const int factor = variant & VARIANT_UPSAMPLE ? 2 : 1;
+    const bool tile = shader == SHADER_PLANAR_TILE;
+    out[0] = tile ? factor * (TILE_WIDTH - 2 * halo - factor + 1) : PIXEL_GROUP_X;
+    out[1] = tile ? factor * (TILE_HEIGHT - 2 * halo - factor + 1) : PIXEL_GROUP_Y;
 }
 
 const char *glssao__program_shader_name(enum glssao__shader shader)
@@ -126,15 +128,14 @@ const char *glssao__program_shader_name(enum glssao__shader shader)
 
 bool glssao__program_exists(enum glssao__shader shader, unsigned variant)
 {
+    if (variant & ~shaders[shader].flags)
+        return false;
     bool both_encodings = (variant & NORMAL_FLAGS) == NORMAL_FLAGS;
     unsigned steps = variant & STEP_FLAGS;
     bool alpha_alone = (variant & VARIANT_DEPTH_IN_ALPHA) && !(variant & VARIANT_DEPTH_IS_DISTANCE);
     bool is_sum = (variant & VARIANT_ACCUMULATE) && (variant & VARIANT_PAIRED);
     /* What is added by blending, or drawn beside tiles. */
     bool drawn_alone = (variant & (VARIANT_ACCUMULATE | VARIANT_OPEN)) && (variant & VARIANT_COMPUTE);
-    bool depth_read = shader != SHADER_HORIZON ||
-                      ((variant & VARIANT_FROM_DEPTH) ? (variant & VARIANT_COMPUTE) && !(variant & VARIANT_LAYERS)
-                                                      : (variant & DEPTH_FLAGS) == 0);
     bool edges_needed = (variant & (NORMAL_FLAGS | DEPTH_FLAGS)) == 0 || (variant & VARIANT_EDGE_AWARE);
     /* Of a tile: its last step is the blur's or upsampling, and what upsampling reads counts for that alone. */
     bool tile_known =
@@ -143,9 +144,10 @@ bool glssao__program_exists(enum glssao__shader shader, unsigned variant)
          ((variant & ROUND_FLAGS) || !(variant & VARIANT_WIDE)) &&
          (variant & VARIANT_UPSAMPLE ? !(variant & VARIANT_PAIRED)
                                      : (variant & ROUND_FLAGS) && !(variant & (NORMAL_FLAGS | DEPTH_FLAGS))));
-    return (variant & ~shaders[shader].flags) == 0 && !both_encodings && !is_sum && !drawn_alone &&
-           (steps & (steps - 1)) == 0 && !alpha_alone && tile_known && depth_read &&
-           (shader != SHADER_BLUR || edges_needed);
+    /* The others ask the constants, since a branch that all pixels take alike costs them nothing to speak of. */
+    bool projection_known = (variant & VARIANT_PERSPECTIVE) && !(variant & VARIANT_COMPUTE);
+    return !both_encodings && !projection_known && !is_sum && !drawn_alone && (steps & (steps - 1)) == 0 &&
+           !alpha_alone && tile_known && (shader != SHADER_BLUR || edges_needed);
 }
 
 int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enum stage,
@@ -173,7 +175,7 @@ int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enu
     }
     out_sources[n++] = "};\n";
     if (stage == GL_COMPUTE_SHADER)
-        out_sources[n++] = sizes_of(shader)->macros;
+        out_sources[n++] = shader == SHADER_PLANAR_TILE ? tile_sizes : pixel_sizes;
     for (int i = 0; i < FILES && shaders[shader].files[i]; ++i)
         out_sources[n++] = shaders[shader].files[i];
     return n;
@@ -393,8 +395,7 @@ static glssao_result make(glssao_effect *effect, enum glssao__shader shader, uns
     out->horizontal_location = gl->GetUniformLocation(out->name, "gHorizontalBlur");
     out->tile_range_location = gl->GetUniformLocation(out->name, "gTileRange");
     out->compute = variant & VARIANT_COMPUTE;
-    for (int i = 0; i < 2; ++i)
-        out->group[i] = sizes_of(shader)->tile[i] * (variant & VARIANT_UPSAMPLE ? 2 : 1);
+    find_group(shader, variant, out->group);
     out->region_location = gl->GetUniformLocation(out->name, "gRegion");
     out->origin_location = gl->GetUniformLocation(out->name, "gOrigin");
     return GLSSAO_OK;
@@ -406,10 +407,8 @@ glssao_result glssao__program_get(glssao_effect *effect, enum glssao__shader sha
     variant &= shaders[shader].flags;
     if (shader == SHADER_BLUR && !(variant & VARIANT_EDGE_AWARE))
         variant &= VARIANT_BOX | VARIANT_PAIRED | VARIANT_COMPUTE; /* it reads neither normals nor depth */
-    if (shader == SHADER_HORIZON && !(variant & VARIANT_FROM_DEPTH))
-        variant &= ~(unsigned)DEPTH_FLAGS;
     if (shader == SHADER_PLANAR_TILE && !(variant & VARIANT_UPSAMPLE))
-        variant &= VARIANT_PAIRED | VARIANT_COMPUTE | ROUND_FLAGS;
+        variant &= VARIANT_PAIRED | VARIANT_COMPUTE | ROUND_FLAGS | VARIANT_WIDE;
     const glssao__program_object *found = find(effect, shader, variant);
     if (found) {
         *out = *found;

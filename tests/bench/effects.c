@@ -59,6 +59,7 @@ glssao_effect *effects_get(effects *e, const gbuffer *g, const glssao_settings *
                                       .width = e->width + 2 * g->margin,
                                       .height = e->height + 2 * g->margin,
                                       .seed = e->seed,
+                                      .no_timers = e->no_timers,
                                       .path = e->path};
         const glssao_result result = glssao_create(&config, slot);
         if (result != GLSSAO_OK)

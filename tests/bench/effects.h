@@ -26,6 +26,7 @@ typedef struct effects {
     int width, height;
     uint32_t seed;
     glssao_path path;
+    bool no_timers;
     glssao_load_fn load;                       /* NULL: context_load */
     glssao_effect *of[BENCH_TECHNIQUES][2][2]; /* technique, half size, with a margin; made when first asked for */
 } effects;

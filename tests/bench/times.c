@@ -10,12 +10,36 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { WARM_UP_FRAMES = 2, ROWS = 2 + GLSSAO_PASS_COUNT }; /* frame, CPU, passes */
 
+/* What the GPU takes for a frame whose passes are not timed one by one, which holds it up between them; negative: not
+ * known. */
+static double untimed_frame_ms(effects *plain, const gbuffer *g, const glssao_frame *frame,
+                               const glssao_settings *settings, const glssao_settings *scaled, char *error,
+                               size_t error_size)
+{
+    glssao_effect *effect = effects_get(plain, g, settings, error, error_size);
+    GLuint queries[2];
+    GLuint64 at[2] = {0, 0};
+    if (!effect)
+        return -1;
+    gl.GenQueries(2, queries);
+    gl.Finish();
+    gl.QueryCounter(queries[0], GL_TIMESTAMP);
+    const glssao_result result = glssao_compute(effect, frame, scaled);
+    gl.QueryCounter(queries[1], GL_TIMESTAMP);
+    gl.Finish();
+    for (int i = 0; i < 2; i++)
+        gl.GetQueryObjectui64v(queries[i], GL_QUERY_RESULT, &at[i]);
+    gl.DeleteQueries(2, queries);
+    return result == GLSSAO_OK && at[1] > at[0] ? (double)(at[1] - at[0]) * 1e-6 : -1;
+}
+
 /* values[row]: this frame's. */
-static bool time_frame(bool software, effects *e, const gbuffer *g, float radius, const glssao_settings *settings,
-                       double values[ROWS], char *error, size_t error_size)
+static bool time_frame(bool software, effects *e, effects *plain, const gbuffer *g, float radius,
+                       const glssao_settings *settings, double values[ROWS], char *error, size_t error_size)
 {
     glssao_effect *effect = effects_get(e, g, settings, error, error_size);
     if (!effect)
@@ -37,8 +61,8 @@ static bool time_frame(bool software, effects *e, const gbuffer *g, float radius
         /* A software rasteriser defers drawing past the queries: their differences mean nothing there. */
         values[2 + i] = software ? -1 : stats.passes[i].gpu_ms;
     if (!software && stats.gpu_ms >= 0)
-        values[0] = stats.gpu_ms;
-    return true;
+        values[0] = untimed_frame_ms(plain, g, &frame, settings, &scaled, error, error_size);
+    return values[0] >= 0;
 }
 
 static timing summarise(double *values, int frames)
@@ -53,16 +77,16 @@ static timing summarise(double *values, int frames)
 }
 
 /* g: without and with what lies beyond. values: for each configuration, ROWS rows of `frames`. */
-static bool take_turns(results *r, effects *e, const gbuffer g[2], float radius, double *values, char *error,
-                       size_t error_size)
+static bool take_turns(results *r, effects *e, effects *plain, const gbuffer g[2], float radius, double *values,
+                       char *error, size_t error_size)
 {
     const int frames = r->options->frames;
     for (int f = -WARM_UP_FRAMES; f < frames; f++) {
         progress_show("times: frame %d/%d", f < 0 ? 0 : f + 1, frames);
         for (int i = 0; i < r->config_count; i++) {
             double row[ROWS];
-            if (!time_frame(r->software, e, &g[r->configs[i].config.beyond], radius, &r->configs[i].config.settings,
-                            row, error, error_size))
+            if (!time_frame(r->software, e, plain, &g[r->configs[i].config.beyond], radius,
+                            &r->configs[i].config.settings, row, error, error_size))
                 return false;
             for (int k = 0; f >= 0 && k < ROWS; k++)
                 values[((ptrdiff_t)i * ROWS + k) * frames + f] = row[k];
@@ -79,13 +103,17 @@ bool times_measure(results *r, effects *e, const bench_scene *on, int of_view, c
         snprintf(error, error_size, "out of memory");
         return false;
     }
+    effects plain = *e;
+    memset(plain.of, 0, sizeof plain.of);
+    plain.no_timers = true;
     scene_view view;
     float radius;
     gbuffer g[2] = {{.depth = 0}};
     scene *s = bench_scene_open(on, e->width, e->height, &view, &radius, error, error_size);
     const bool timed = s && gbuffer_draw(&g[0], s, &view, 0, error, error_size) &&
                        gbuffer_draw(&g[1], s, &view, gbuffer_margin(e->width), error, error_size) &&
-                       take_turns(r, e, g, radius, values, error, error_size);
+                       take_turns(r, e, &plain, g, radius, values, error, error_size);
+    effects_destroy(&plain);
     for (int i = 0; timed && i < r->config_count; i++) {
         const timing t = summarise(values + i * per_config, r->options->frames);
         *(of_view < 0 ? &r->configs[i].time : &r->configs[i].views[of_view].time) = t;

@@ -109,16 +109,25 @@ static picture shade(fixture *f, glssao_effect *effect, const glssao_frame *fram
     return p;
 }
 
-/* Steps of R16 between the two at most; their values are freed. */
-static double difference(picture *a, picture *b)
+/* Fails where the two are more than a step of R16 apart: anywhere on a software rasteriser, whose two ways round alike;
+ * on a GPU, whose compiler fuses other products and sums in either way, at more pixels than thresholds may turn at.
+ * Their values are freed. */
+static void assert_within_a_step(const fixture *f, picture *a, picture *b, const char *what)
 {
     double worst = 0.0;
+    int beyond = 0;
+    const int count = a->width * a->height, most = context_is_software(f->context) ? 0 : 2 + count / 500;
     assert_true(a->width == b->width && a->height == b->height);
-    for (int i = 0; i < a->width * a->height; ++i)
-        worst = fmax(worst, fabs((double)a->values[i] - (double)b->values[i]) * 65535.0);
+    for (int i = 0; i < count; ++i) {
+        const double steps = fabs((double)a->values[i] - (double)b->values[i]) * 65535.0;
+        beyond += !(steps <= 1.01);
+        worst = fmax(worst, steps);
+    }
     free(a->values);
     free(b->values);
-    return worst;
+    if (beyond > most)
+        fail_msg("%s, %d x %d: up to %.2f steps of R16 between the ways, at %d pixels", what, a->width, a->height,
+                 worst, beyond);
 }
 
 static glssao_frame room_frame(analytic_projection kind, int width, int height, depth_store depth, normal_store normal)
@@ -155,9 +164,7 @@ static void assert_alike(fixture *f, const char *what, int width, int height, co
         pictures[i] = shade(f, ways[i], frame, settings);
     }
     assert_true(picture_least(&pictures[0]) < 0.99 || width * height < 100); /* there is something to be alike in */
-    const double worst = difference(&pictures[0], &pictures[1]);
-    if (!(worst <= 1.01))
-        fail_msg("%s, %d x %d: %.2f steps of R16 between the ways", what, width, height, worst);
+    assert_within_a_step(f, &pictures[0], &pictures[1], what);
 }
 
 static int end_ways(void **state)
@@ -197,7 +204,7 @@ static void blurs_and_sizes_of_the_result_agree(void **state)
         for (int size = 0; size < 3; ++size) { /* full, half, brought to full */
             glssao_settings s = wide_horizon(GLSSAO_LOW);
             s.blur = (glssao_blur)blur;
-            s.blur_rounds = 1 + blur % 2;
+            s.blur_rounds = blur == GLSSAO_BLUR_PLANAR ? 5 - size : 1 + blur % 2; /* a dispatch runs up to two */
             s.half_resolution = size > 0;
             s.upsample = size > 1;
             char what[64];
@@ -248,8 +255,15 @@ static void margins_layers_and_viewports_agree(void **state)
         glssao_frame changed = frame;
         changed.margin = i & 2 ? 10 : 0;
         changed.back_texture = changed.second_texture = i & 4 ? second.depth_texture : 0;
+        /* Each kind of pass comes to be the one that cuts the margin off. */
         if (i == 7)
             s.blur_rounds = 0;
+        if (i == 2 || i == 3)
+            s.upsample = false;
+        if (i == 2)
+            s.blur = GLSSAO_BLUR_NONE;
+        if (i == 3)
+            s.blur = GLSSAO_BLUR_GAUSSIAN;
         assert_alike(*state, "margin and layers", 90, 70, &changed, &s);
         memcpy(changed.viewport, (const int[4]){3, 5, 80, 60}, sizeof changed.viewport);
         assert_alike(*state, "viewport", 80, 60, &changed, &s);
@@ -275,7 +289,7 @@ static void accumulated_estimates_agree(void **state)
         pictures[i].values = fixture_read_texture(map, 64, 48, 1);
         glssao_destroy(effect);
     }
-    assert_true(difference(&pictures[0], &pictures[1]) <= 1.01);
+    assert_within_a_step(*state, &pictures[0], &pictures[1], "accumulated");
     subject_frame_free(&frame);
 }
 

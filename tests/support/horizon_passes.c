@@ -135,22 +135,12 @@ static double blurred(const truth *t, const void *user)
     return sum / total;
 }
 
-static double blurred_wide(const truth *t, const void *user)
-{
-    const texel *taps = user;
-    const double before = t[LINE] && t[JOINS_BEFORE] ? 0.5 : 0.0, after = t[LINE] && t[JOINS_AFTER] ? 0.5 : 0.0;
-    return (before * taps[1].value + taps[2].value + after * taps[3].value) / (1.0 + before + after);
-}
-
-void planar_blur_model(const paired_map *map, bool horizontal, bool wide, bool orthographic,
-                       const pass_constants *constants, int x, int y, double *out_low, double *out_high)
+void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic, const pass_constants *constants,
+                       int x, int y, double *out_low, double *out_high)
 {
     texel taps[5];
-    const int apart = wide ? 3 : 1;
-    for (int i = 0; i < 5; ++i) {
-        const int at = apart * (i - 2);
-        taps[i] = texel_at(map, horizontal ? x + at : x, horizontal ? y : y + at);
-    }
+    for (int i = 0; i < 5; ++i)
+        taps[i] = texel_at(map, horizontal ? x + i - 2 : x, horizontal ? y : y + i - 2);
     const double tolerance = in_linear(constants->tolerance, taps[2].linear, orthographic);
     const double near = in_linear(constants->near, taps[2].linear, orthographic);
     const double own[2] = {taps[2].normal[0], taps[2].normal[1]};
@@ -166,7 +156,42 @@ void planar_blur_model(const paired_map *map, bool horizontal, bool wide, bool o
     tests[NEAR_AFTER] = is_near(taps[3].linear, taps[2].linear, near);
     *out_low = HUGE_VAL;
     *out_high = -HUGE_VAL;
-    each_outcome(tests, TESTS, wide ? blurred_wide : blurred, taps, out_low, out_high);
+    each_outcome(tests, TESTS, blurred, taps, out_low, out_high);
+}
+
+enum { ON_ROW, ON_COLUMN, JOINS_AROUND, WIDE_TESTS = JOINS_AROUND + 4 };
+
+/* The pixel's own is the fifth; opposite ones are 0 and 1, 2 and 3. */
+static double blurred_wide(const truth *t, const void *user)
+{
+    const texel *taps = user;
+    double sum = taps[4].value / 4.0, total = 1.0 / 4.0;
+    for (int i = 0; i < 4; ++i)
+        if (t[i < 2 ? ON_ROW : ON_COLUMN] && t[JOINS_AROUND + i]) {
+            sum += 3.0 / 16.0 * taps[i].value;
+            total += 3.0 / 16.0;
+        }
+    return sum / total;
+}
+
+void wide_blur_model(const paired_map *map, bool orthographic, const pass_constants *constants, int x, int y,
+                     double *out_low, double *out_high)
+{
+    static const int ways[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    texel taps[5];
+    taps[4] = texel_at(map, x, y);
+    const double tolerance = in_linear(constants->tolerance, taps[4].linear, orthographic);
+    const double own[2] = {taps[4].normal[0], taps[4].normal[1]};
+    truth tests[WIDE_TESTS];
+    for (int i = 0; i < 4; ++i) {
+        taps[i] = texel_at(map, x + 3 * ways[i][0], y + 3 * ways[i][1]);
+        tests[JOINS_AROUND + i] = joins(own, taps[i].normal, ways[i][0], ways[i][1], 0.0, constants);
+    }
+    tests[ON_ROW] = on_line(taps[0].linear, taps[4].linear, taps[1].linear, tolerance);
+    tests[ON_COLUMN] = on_line(taps[2].linear, taps[4].linear, taps[3].linear, tolerance);
+    *out_low = HUGE_VAL;
+    *out_high = -HUGE_VAL;
+    each_outcome(tests, WIDE_TESTS, blurred_wide, taps, out_low, out_high);
 }
 
 /* Joins 0 to 3, near 4 to 7, on the plane of all four 8; then whether each may be the nearest. */

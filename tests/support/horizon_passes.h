@@ -21,9 +21,11 @@ typedef struct pass_constants {
     double normal_step;
 } pass_constants;
 
-/* `wide`: of a round after the first. */
-void planar_blur_model(const paired_map *map, bool horizontal, bool wide, bool orthographic,
-                       const pass_constants *constants, int x, int y, double *out_low, double *out_high);
+/* One direction of the first round; a later round. */
+void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic, const pass_constants *constants,
+                       int x, int y, double *out_low, double *out_high);
+void wide_blur_model(const paired_map *map, bool orthographic, const pass_constants *constants, int x, int y,
+                     double *out_low, double *out_high);
 
 /* The full-size pixel's own linear quantity and unit normal. */
 typedef struct full_pixel {
