@@ -174,6 +174,11 @@ uint hidden_by(vec3 at, vec2 layers, float width, slice_side side, least from, i
     bool counts = at.x > from.x && at.y > from.tangent * at.x + from.above;
     float x2 = at.x * at.x + 1e-12;
     counts = counts && x2 < 1.0; // within the sphere; of what is not, no more than this is asked below
+#if COMPUTE && (STEPS_8 || STEPS_12 || STEPS_16)
+    // Where no pixel of a group's warp counts, a GPU is spared the rest; with fewer steps it gains less than the branch costs.
+    if (!counts)
+        return 0u;
+#endif
     float chord = sqrt(1.0 - x2);
     float thickness = WIDTH * width * at.z;
     float cos_top;

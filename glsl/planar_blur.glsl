@@ -5,12 +5,15 @@
 // without a tap takes neighbours that are merely near.
 //
 // After both directions there is little noise left but that of twice the tile's period. Later rounds take it out in a single
-// pass: a quarter of the pixel and 3/16 of each of the four at three pixels from it, where they lie on a line.
+// pass: a quarter of the pixel and 3/16 of each of the four at three pixels from it, where they lie on a line or in a hollow.
 
 // All found by experiment. How far off a line may be, in units of the radius.
 const float BLUR_TOLERANCE = 0.02;
 // How far off a neighbour of a pixel without others may be, in units of the radius.
 const float BLUR_NEAR = 0.1;
+// How far a later round's line may be bent towards the eye at its ends: in a hollow both sides darken, and what is left of
+// the noise shows along it.
+const float BLUR_HOLLOW = 0.1;
 
 // Accessibility of a pixel of the paired map from its own and the two on each side along `way`.
 float blurred(vec2 before_2, vec2 before, vec2 center, vec2 after, vec2 after_2, vec2 way)
@@ -44,9 +47,11 @@ float blurred(vec2 before_2, vec2 before, vec2 center, vec2 after, vec2 after_2,
 float blurred_wide(vec2 left, vec2 below, vec2 center, vec2 above, vec2 right)
 {
     float tolerance = linear_error(BLUR_TOLERANCE * gOcclusionRadius, center.y);
-    bool on_row = abs(left.y - 2.0 * center.y + right.y) < tolerance;
-    bool on_column = abs(below.y - 2.0 * center.y + above.y) < tolerance;
-    bvec4 joins = bvec4(on_row, on_column, on_column, on_row);
+    float hollow = linear_error(BLUR_HOLLOW * gOcclusionRadius, center.y);
+    vec2 bend = vec2(left.y, below.y) - 2.0 * center.y + vec2(right.y, above.y);
+    bend = orthographic() ? -bend : bend; // above 0 in a hollow
+    bvec2 counts = bvec2(bend.x > -tolerance && bend.x < hollow, bend.y > -tolerance && bend.y < hollow);
+    bvec4 joins = counts.xyyx;
     uint code = normal_code(center);
     uvec4 codes = uvec4(normal_code(left), normal_code(below), normal_code(above), normal_code(right));
     if (any(notEqual(codes, uvec4(code)))) {

@@ -26,7 +26,14 @@ typedef struct draw_instance {
     float normal_world_from_mesh[3][3];
 } draw_instance;
 
-typedef enum draw_kind { DRAW_NORMALS = 0, DRAW_MAIN, DRAW_SHADOW, DRAW_LAYER, DRAW_KIND_COUNT, DRAW_SKY = DRAW_KIND_COUNT } draw_kind;
+typedef enum draw_kind {
+    DRAW_NORMALS = 0,
+    DRAW_MAIN,
+    DRAW_SHADOW,
+    DRAW_LAYER,
+    DRAW_KIND_COUNT,
+    DRAW_SKY = DRAW_KIND_COUNT
+} draw_kind;
 
 /* One draw call: a primitive for the instances of its mesh that are mirrored, or for those that are not. Blended
  * primitives get an item for each instance, since each has its place in the order of depth. */
@@ -35,9 +42,9 @@ typedef struct draw_item {
     uint32_t first_instance, instance_count; /* in the instance buffer */
     int material;
     bool colored, blended;
-    bool mirrored;               /* triangles change their winding */
-    unsigned variant;            /* of the main pass, less what the options decide */
-    int program[DRAW_KIND_COUNT]; /* index into the pool's variants, -1: not drawn so */
+    bool mirrored;                       /* triangles change their winding */
+    unsigned variant;                    /* of the main pass, less what the options decide */
+    int program[DRAW_KIND_COUNT];        /* index into the pool's variants, -1: not drawn so */
     double bounds_min[3], bounds_max[3]; /* world space, of all instances */
 } draw_item;
 
@@ -90,7 +97,7 @@ struct scene_renderer {
     unsigned linear_sampler, nearest_sampler; /* clamped, for screen-sized maps */
     unsigned white_texture;                   /* stands in for the ambient map */
     unsigned neutral[2]; /* where options.everything: white, and a normal along the surface's, for what has no map */
-    draw_item *items; /* opaque ones first, sorted by program and material; then blended ones as in the file */
+    draw_item *items;    /* opaque ones first, sorted by program and material; then blended ones as in the file */
     uint32_t opaque_count, item_count;
     draw_order *blended_order; /* scratch, one for each blended item */
     draw_pool *pool;
@@ -113,7 +120,7 @@ typedef struct draw_pass {
     draw_kind kind;
     float normal_view_from_world[3][3];
     double clip_from_world[16];
-    float depth_offset; /* layers */
+    float depth_offset;                                                              /* layers */
     float ambient[3], ambient_tilt[3], up_view[3], directional[3], to_light_view[3]; /* main pass */
     float lights[MOST_LIGHTS][4][4];
     int light_count;
@@ -152,7 +159,8 @@ void draw_shadow_free(draw_shadow *s);
 /* The polygon offset of its drawing. */
 void draw_shadow_offset(void);
 
-/* draw_pool.c: joins the pool of `like`, or makes one where that is NULL; leaves it, and frees it with its last user. */
+/* draw_pool.c: joins the pool of `like`, or makes one where that is NULL; leaves it, and frees it with its last user.
+ */
 bool draw_pool_join(scene_renderer *r, const scene_renderer *like, char *error, size_t error_size);
 void draw_pool_leave(scene_renderer *r);
 
@@ -165,7 +173,8 @@ void draw_item_now(draw_pass *pass, const draw_item *item);
 unsigned draw_opaque(draw_pass *pass, unsigned *out_culled);
 /* A renderer that nobody configured draws plainly; false where that fails, with a line on stderr. */
 bool draw_is_ready(scene_renderer *r);
-/* The whole of a pass: draws opaque items as `kind`, those that are seen; returns how many, and adds those that are not to *out_culled. */
+/* The whole of a pass: draws opaque items as `kind`, those that are seen; returns how many, and adds those that are not
+ * to *out_culled. */
 unsigned draw_opaque_items(scene_renderer *r, const scene_view *view, draw_kind kind, unsigned *out_culled);
 
 #endif

@@ -17,18 +17,18 @@ enum {
     VARIANT_DOUBLE_SIDED = 16, /* normals turn with gl_FrontFacing */
     VARIANT_BLENDED = 32,
     VARIANT_NORMAL_MAPPED = 64,
-    VARIANT_REFLECTIVE = 128,      /* metallic-roughness reflection; without: matte */
+    VARIANT_REFLECTIVE = 128,       /* metallic-roughness reflection; without: matte */
     VARIANT_ROUGHNESS_MAPPED = 256, /* where REFLECTIVE */
-    VARIANT_BAKED = 512,           /* an occlusion texture */
+    VARIANT_BAKED = 512,            /* an occlusion texture */
     VARIANT_EMISSIVE = 1024,
     VARIANT_EMISSION_MAPPED = 2048, /* where EMISSIVE */
     VARIANT_SHADOWED = 4096,
-    VARIANT_LIGHTS = 8192,         /* more lights than the first directional one */
+    VARIANT_LIGHTS = 8192,              /* more lights than the first directional one */
     VARIANT_SPECULAR_OCCLUSION = 16384, /* where REFLECTIVE and not BLENDED */
-    VARIANT_MULTI_BOUNCE = 32768,  /* where not BLENDED */
-    VARIANT_BASE_MAPPED = 65536,   /* base colour texture */
-    VARIANT_BEHIND = 131072,       /* a layer: depth alone, of what lies behind the pre-pass's */
-    VARIANT_ENVIRONMENT = 262144   /* ambient light, or the sky, from a picture */
+    VARIANT_MULTI_BOUNCE = 32768,       /* where not BLENDED */
+    VARIANT_BASE_MAPPED = 65536,        /* base colour texture */
+    VARIANT_BEHIND = 131072,            /* a layer: depth alone, of what lies behind the pre-pass's */
+    VARIANT_ENVIRONMENT = 262144        /* ambient light, or the sky, from a picture */
 };
 
 /* All that a material and its light can call for; without what is another kind of surface. */

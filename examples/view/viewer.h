@@ -31,15 +31,15 @@ typedef enum viewer_shown {
     SHOWN_COUNT
 } viewer_shown;
 #define VIEWER_SHOWN                                                                                                   \
-    "picture|accessibility|raw estimate|normals|view distance|random vectors|shadow map|tiles left out|ray-traced accessibility|"     \
-    "difference to ray-traced"
+    "picture|accessibility|raw estimate|normals|view distance|random vectors|shadow map|tiles left out|"               \
+    "ray-traced accessibility|difference to ray-traced"
 
 enum { GRAPH_LENGTH = 120, GRAPH_COUNT = GLSSAO_PASS_COUNT + 2, GRAPH_PREPASS = GLSSAO_PASS_COUNT, GRAPH_MAIN };
 
 typedef struct viewer {
     struct GLFWwindow *window;
-    options options;       /* of the command line, with what was changed since, the settings aside */
-    char scene_path[4096]; /* "": the built-in scene options.scene_name */
+    options options;             /* of the command line, with what was changed since, the settings aside */
+    char scene_path[4096];       /* "": the built-in scene options.scene_name */
     char environment_path[4096]; /* "": the built-in light, or the command line's */
     scene *scene;
     pipeline pipeline;

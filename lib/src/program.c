@@ -103,22 +103,35 @@ static const struct shader {
     [SHADER_TILE_RINGS] = {"tile-rings", 0, {shader_tile_rings_frag}},
 };
 
-/* Invocations of a work group, and how many rows of a tile they share; glsl/planar_tile.comp, glsl/entry.glsl. */
-enum { PIXEL_GROUP_X = 8, PIXEL_GROUP_Y = 16, TILE_WIDTH = 32, TILE_HEIGHT = 32 };
-static const char pixel_sizes[] = "#define GROUP_X 8\n#define GROUP_Y 16\n";
-static const char tile_sizes[] = "#define GROUP_X 32\n#define GROUP_Y 16\n#define HEIGHT 32\n";
+/* Invocations of a work group, and the rows of a tile that they share (glsl/planar_tile.comp); found by experiment,
+ * docs/decisions.md. */
+#define SIZES(x, y, rows)                                                                                              \
+    {                                                                                                                  \
+        x, y, rows, "#define GROUP_X " #x "\n#define GROUP_Y " #y "\n#define HEIGHT " #rows "\n"                       \
+    }
+static const struct sizes {
+    int x, y, rows;
+    const char *macros;
+} row_sizes = SIZES(32, 8, 0), horizon_sizes = SIZES(8, 16, 0), tile_sizes = SIZES(32, 16, 32);
+#undef SIZES
+
+static const struct sizes *sizes_of(enum glssao__shader shader)
+{
+    return shader == SHADER_PLANAR_TILE ? &tile_sizes : shader == SHADER_HORIZON ? &horizon_sizes : &row_sizes;
+}
 
 /* Pixels of the target that a work group makes. */
 static void find_group(enum glssao__shader shader, unsigned variant, int out[2])
 {
+    const struct sizes *sizes = sizes_of(shader);
     const int first_reach = variant & VARIANT_WIDE ? 3 : 2, later_reach = 3;
     const int halo = variant & VARIANT_ROUNDS_2   ? first_reach + later_reach
                      : variant & VARIANT_ROUNDS_1 ? first_reach
                                                   : 0;
     const int factor = variant & VARIANT_UPSAMPLE ? 2 : 1;
     const bool tile = shader == SHADER_PLANAR_TILE;
-    out[0] = tile ? factor * (TILE_WIDTH - 2 * halo - factor + 1) : PIXEL_GROUP_X;
-    out[1] = tile ? factor * (TILE_HEIGHT - 2 * halo - factor + 1) : PIXEL_GROUP_Y;
+    out[0] = tile ? factor * (sizes->x - 2 * halo - factor + 1) : sizes->x;
+    out[1] = tile ? factor * (sizes->rows - 2 * halo - factor + 1) : sizes->y;
 }
 
 const char *glssao__program_shader_name(enum glssao__shader shader)
@@ -175,7 +188,7 @@ int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enu
     }
     out_sources[n++] = "};\n";
     if (stage == GL_COMPUTE_SHADER)
-        out_sources[n++] = shader == SHADER_PLANAR_TILE ? tile_sizes : pixel_sizes;
+        out_sources[n++] = sizes_of(shader)->macros;
     for (int i = 0; i < FILES && shaders[shader].files[i]; ++i)
         out_sources[n++] = shaders[shader].files[i];
     return n;

@@ -49,6 +49,7 @@ static void set_up(setup *s, fixture *f, analytic_projection projection, int wid
     for (int i = 0; i < 2; ++i) {
         in_radius[i]->tolerance *= (double)s->settings.radius;
         in_radius[i]->near *= (double)s->settings.radius;
+        in_radius[i]->hollow *= (double)s->settings.radius;
     }
 }
 

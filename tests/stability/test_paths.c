@@ -318,6 +318,10 @@ static void the_context_and_the_config_decide(void **state)
         host h = {f, cases[i].knows_3_3_alone, cases[i].claims_3_3, cases[i].claims_gpu, false};
         glssao_effect *effect;
         const glssao_result made = make(&h, cases[i].path, 64, 48, &effect);
+        /* Of cases that leave it to the library, a GPU of the machine's own is like one that is claimed. */
+        const bool is_gpu = !context_is_software(f->context) && !cases[i].knows_3_3_alone;
+        const glssao_path wanted_path =
+            is_gpu && cases[i].path == GLSSAO_PATH_AUTO ? GLSSAO_PATH_COMPUTE : cases[i].got;
         if (cases[i].got == GLSSAO_PATH_AUTO) {
             assert_int_equal(made, GLSSAO_UNSUPPORTED_CONTEXT);
             assert_null(effect);
@@ -326,13 +330,13 @@ static void the_context_and_the_config_decide(void **state)
         }
         assert_int_equal(made, GLSSAO_OK);
         const glssao_plan plan = glssao_plan_frame(effect, &frame, &s);
-        if (plan.path != cases[i].got)
+        if (plan.path != wanted_path)
             fail_msg("case %d goes way %d: %s", (int)i, plan.path, plan.path_reason);
         picture got = shade(f, effect, &frame, &s);
         assert_string_equal(f->log, "");
         if (i == 0)
             wanted = got;
-        else if (cases[i].got == GLSSAO_PATH_FRAGMENT)
+        else if (wanted_path == GLSSAO_PATH_FRAGMENT)
             assert_memory_equal(got.values, wanted.values, (size_t)(64 * 48) * sizeof *got.values);
         if (i > 0)
             free(got.values);

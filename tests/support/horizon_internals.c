@@ -28,7 +28,10 @@ static bool read_pass_constants(enum glssao__shader shader, const char *toleranc
 
 bool horizon_read_pass_constants(pass_constants *out_blur, pass_constants *out_upsample)
 {
+    const char *pieces[GLSSAO__PROGRAM_MAX_SOURCES];
+    const int count = glssao__program_sources(SHADER_PLANAR_BLUR, 0, GL_FRAGMENT_SHADER, pieces);
     return read_pass_constants(SHADER_PLANAR_BLUR, "BLUR_TOLERANCE", "BLUR_NEAR", out_blur) &&
+           shader_constant(pieces, count, "BLUR_HOLLOW", &out_blur->hollow) &&
            read_pass_constants(SHADER_UPSAMPLE, "UPSAMPLE_TOLERANCE", "UPSAMPLE_NEAR", out_upsample);
 }
 

@@ -187,8 +187,12 @@ void wide_blur_model(const paired_map *map, bool orthographic, const pass_consta
         taps[i] = texel_at(map, x + 3 * ways[i][0], y + 3 * ways[i][1]);
         tests[JOINS_AROUND + i] = joins(own, taps[i].normal, ways[i][0], ways[i][1], 0.0, constants);
     }
-    tests[ON_ROW] = on_line(taps[0].linear, taps[4].linear, taps[1].linear, tolerance);
-    tests[ON_COLUMN] = on_line(taps[2].linear, taps[4].linear, taps[3].linear, tolerance);
+    for (int i = 0; i < 2; ++i) {
+        /* Towards the eye, distance falls and its inverse grows. */
+        const double a = taps[2 * i].linear, b = taps[4].linear, c = taps[2 * i + 1].linear;
+        const bool hollow = orthographic ? a + c < 2.0 * b : a + c > 2.0 * b;
+        tests[ON_ROW + i] = on_line(a, b, c, hollow ? in_linear(constants->hollow, b, orthographic) : tolerance);
+    }
     *out_low = HUGE_VAL;
     *out_high = -HUGE_VAL;
     each_outcome(tests, WIDE_TESTS, blurred_wide, taps, out_low, out_high);

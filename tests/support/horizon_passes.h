@@ -16,7 +16,7 @@ typedef struct paired_map {
 } paired_map;
 
 typedef struct pass_constants {
-    double tolerance, near; /* scene units */
+    double tolerance, near, hollow; /* scene units; the last of later rounds of the blur alone */
     double chord;           /* of two unit normals that belong to different sides of a crease */
     double normal_step;
 } pass_constants;

@@ -134,7 +134,7 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     bool half_resolution;          /* estimate at half the size, (w + 1) / 2 by (h + 1) / 2 */
     bool upsample;                 /* a half-size result is brought to full size along surfaces; else it stays half size */
     glssao_blur blur;              /* of the estimate, before upsampling */
-    int blur_rounds;               /* 0 to 16: each is one horizontal and one vertical pass */
+    int blur_rounds;               /* 0 to 16: each is a horizontal and a vertical pass; planar: after the first, one */
     float blur_sigma;              /* pixels of the ambient map, above 0 to 2.5 */
     float blur_normal_threshold;   /* cosine, -1 to 1: taps whose normals' dot product is below are dropped */
     float blur_depth_threshold;    /* scene units, >= 0: taps farther off in view distance are dropped */
@@ -187,7 +187,8 @@ typedef struct glssao_frame { /* zero a field that you don't use */
 
 typedef enum glssao_map_id { /* textures to look at */
     GLSSAO_MAP_AMBIENT = 0,   /* the result: accessibility in red, R16; half size where it was estimated so and not upsampled */
-    GLSSAO_MAP_AMBIENT_OTHER, /* the second of the two ping-pong maps: the last horizontal blur, in red. R16; after
+    GLSSAO_MAP_AMBIENT_OTHER, /* the second of the two ping-pong maps: the last horizontal blur, in red, where fragment
+                                 shaders blur (compute shaders may do without it). R16; after
                                  upsampling or the planar blur RG32F, in green what is linear in the picture of a plane,
                                  and red's ten lowest bits hold the normal */
     GLSSAO_MAP_NORMAL,        /* the effect's own normal map, RGBA16F, full size */
