@@ -296,8 +296,8 @@ static void each_scene_causes_these_calls(void **state)
         const scene empty = {.name = ""};
         scene *s = scenes[i].scene[0] ? scene_make(scenes[i].scene, error, sizeof error) : NULL;
         options o;
-        char *arguments[] = {"test", "-s", "64x48", "-q", "medium", "-o", "unused.png"};
-        assert_int_equal(options_parse(7, arguments, &o, error, sizeof error), OPTIONS_RUN);
+        char *arguments[] = {"test", "-s", "64x48", "-q", "medium", "--path", "fragment", "-o", "unused.png"};
+        assert_int_equal(options_parse(9, arguments, &o, error, sizeof error), OPTIONS_RUN);
         gl_counter_start(context_load, f->context);
         pipeline p;
         const pipeline_wants wants = {.picture = true, .ao = true, .prepass = true, .normals = true};
