@@ -165,20 +165,20 @@ uint hidden_between(float x2, float chord, float top, float bottom, slice_side s
     return (far - near + side.flip) ^ side.flip; // the difference, or with all bits to flip its negative
 }
 
+// Whether a sample can hide anything: within the sphere, above the tangent plane. x is 0 on the point's own texel, and below
+// it where the border holds a sample on the other side; held right across the slice, its angle is all error. And what the
+// depth format can't tell from the tangent plane is no occluder.
+bool occludes(vec3 at, least from)
+{
+    return at.x > from.x && at.x < 1.0 && at.y > from.tangent * at.x + from.above;
+}
+
 // Sectors that one sample hides, whose run is `width` steps wide. Raises `highest` to the sample's top where it veils what is
 // behind it.
 uint hidden_by(vec3 at, vec2 layers, float width, slice_side side, least from, inout float highest)
 {
-    // x is 0 on the point's own texel, and below it where the border holds a sample on the other side; held right across the
-    // slice, its angle is all error. And what the depth format can't tell from the tangent plane is no occluder.
-    bool counts = at.x > from.x && at.y > from.tangent * at.x + from.above;
     float x2 = at.x * at.x + 1e-12;
-    counts = counts && x2 < 1.0; // within the sphere; of what is not, no more than this is asked below
-#if COMPUTE && (STEPS_8 || STEPS_12 || STEPS_16)
-    // Where no pixel of a group's warp counts, a GPU is spared the rest; with fewer steps it gains less than the branch costs.
-    if (!counts)
-        return 0u;
-#endif
+    bool counts = occludes(at, from); // of what does not, nothing is asked below
     float chord = sqrt(1.0 - x2);
     float thickness = WIDTH * width * at.z;
     float cos_top;
@@ -196,6 +196,15 @@ uint hidden_by(vec3 at, vec2 layers, float width, slice_side side, least from, i
 // Sectors that one side's samples hide. `highest` is the cosine of the horizon over occluders that veil what is behind them.
 uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, slice_side side, least from, out float highest)
 {
+#if COMPUTE
+    // Where no sample of the side does for any pixel of a warp, a GPU is spared the rest.
+    bool any_occludes = false;
+#define LOOK(i) any_occludes = any_occludes || occludes(samples[i], from);
+    EACH_STEP(LOOK)
+    highest = side.lowest;
+    if (!any_occludes)
+        return 0u;
+#endif
     float change[STEPS];
     bool bend[STEPS + 1];
     bool jump[STEPS];

@@ -112,7 +112,7 @@ static const struct shader {
 static const struct sizes {
     int x, y, rows;
     const char *macros;
-} row_sizes = SIZES(32, 8, 0), horizon_sizes = SIZES(8, 16, 0), tile_sizes = SIZES(32, 16, 32);
+} row_sizes = SIZES(32, 8, 0), horizon_sizes = SIZES(8, 16, 0), tile_sizes = SIZES(32, 14, 28);
 #undef SIZES
 
 static const struct sizes *sizes_of(enum glssao__shader shader)

@@ -316,8 +316,8 @@ static gl_counts count_frame(const scene *s, const struct scene_row *row)
 {
     char error[1024] = "";
     options o;
-    char *arguments[] = {"test", "-s", "64x48", "-q", "medium", "-o", "unused.png"};
-    assert_int_equal(options_parse(7, arguments, &o, error, sizeof error), OPTIONS_RUN);
+    char *arguments[] = {"test", "-s", "64x48", "-q", "medium", "--path", "fragment", "-o", "unused.png"};
+    assert_int_equal(options_parse(9, arguments, &o, error, sizeof error), OPTIONS_RUN);
     pipeline p;
     const pipeline_wants wants = {.picture = true, .ao = true, .prepass = true, .normals = true};
     (void)gl_counter_take();
