@@ -22,7 +22,7 @@ static analytic_view view_of(const hard_case *c, int width, int height)
 
 static subject picture_of(const hard_case *c, double distance)
 {
-    const int width = c->width ? c->width : 60, height = c->height ? c->height : 44;
+    const int width = c->width ? c->width : 64, height = c->height ? c->height : 48;
     const analytic_view view = view_of(c, width, height);
     const double angle = c->degrees * 3.14159265358979323846 / 180.0, half = sqrt(0.5);
     analytic_shape room[ANALYTIC_ROOM_SHAPES];

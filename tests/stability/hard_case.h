@@ -18,7 +18,7 @@ typedef struct hard_case { /* zero means default */
     double flip;                  /* y is mirrored where this is not 0 */
     double near_plane, far_plane; /* default 0.1 and 1000 */
     double zoom;                  /* the picture's width and height over what 60 degrees show; default 1 */
-    int width, height; /* default 60 x 44: what depends on powers of two is compiled once with the odd sizes */
+    int width, height;            /* default 64 x 48 */
     depth_store depth;
     normal_store normal;
     double lengths;            /* the settings' lengths, over a third of the distance; default 1 */

@@ -41,6 +41,8 @@ for line in "${lines[@]}"; do
         answer="does not build"
     elif run "$test"; then
         answer="NOT HELD by $test"
+    elif [ $? = 124 ]; then
+        answer="not run to its end: $test takes too long"
     else
         answer="$test: $(grep -am1 'ERROR: \|ERROR   \]\|FAILED' "$copy/log" | sed 's/^ERROR: //' | cut -c1-100)"
         held=$((held + 1))

@@ -210,7 +210,7 @@ static const hard_case cases[] = {
      .least = {0.9, 0.85, 0.97}},
     {"one row", SEE_PLANE, 60.0, .turn = 5, .width = 97, .height = 1, .depth = DEPTH_24, .normal = NORMAL_32F,
      .least = {0.9, 0.85, 0.97}},
-    {"odd sizes", SEE_PLANE, 60.0, .width = 61, .height = 47, .depth = DEPTH_24, .normal = NORMAL_32F, .least = OPEN},
+    {"odd sizes", SEE_PLANE, 60.0, .width = 63, .height = 47, .depth = DEPTH_24, .normal = NORMAL_32F, .least = OPEN},
     {"three pixels high", SEE_ROOM, .turn = 5, .width = 61, .height = 3, .depth = DEPTH_24, .normal = NORMAL_32F},
     {"16384 wide", SEE_PLANE, 60.0, .turn = 3, .width = 16384, .height = 2, .depth = DEPTH_24, .normal = NORMAL_32F,
      .least = OPEN},
