@@ -179,6 +179,12 @@ size="-s 65x37"
     grep -q '^main  *run' out || fail "the plan has no main pass"
     grep -q '^shadow map  *use' out || fail "the plan has no shadow map"
     grep -q '^normal maps  *skip' out || fail "the plan uses normal maps that are not there"
+    want 0 "" $size --plan --stats plan.json
+    for pass in inputs normals distance tiles estimate resolve blur upsample; do
+        planned=$(awk -v pass=$pass '$1 == pass { print $2 == "run" ? $3 : 0 }' out)
+        drawn=$(sed -n "s/.*\"name\": \"$pass\", \"draw_calls\": \([0-9]*\).*/\1/p" plan.json)
+        [ -n "$planned" ] && [ "$planned" = "$drawn" ] || fail "$pass: planned $planned draws, made $drawn"
+    done
     want 0 "" $size --plan --no-ao
     grep -q '^occlusion  *skip' out || fail "the plan of --no-ao runs occlusion"
     want 0 "" $size --bench 3
