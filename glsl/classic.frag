@@ -61,7 +61,7 @@ void main()
 #endif
         occlusion += weight_from_distance(to_occluder.z, least) * facing;
     }
-    float accessibility = 1.0 - occlusion / float(gSampleCount);
+    float accessibility = 1.0 - radius_fade(distance) * occlusion / float(gSampleCount);
     // pow() is undefined for a base of 0 with power 0, and for the negative that rounding can leave.
     o_ambient = ambient(clamp(pow(max(accessibility, 1e-6), gPower), 0.0, 1.0), linear, code);
 #endif

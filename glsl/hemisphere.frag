@@ -58,7 +58,8 @@ void main()
         occlusion += hidden && in_reach ? 1.0 : 0.0;
         counted += 1.0;
     }
-    float accessibility = 1.0 - occlusion / max(counted, 1.0);
+    // Where no sample counts, 0 / 0.
+    float accessibility = 1.0 - radius_fade(center_distance) * occlusion / max(counted, 1.0);
     // pow() is undefined for a base of 0 with power 0.
     o_ambient = ambient(clamp(pow(max(accessibility, 1e-6), gPower), 0.0, 1.0), linear, code);
 #endif

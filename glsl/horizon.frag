@@ -288,7 +288,7 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
     vec2 step_px = STEP * clamp(gOcclusionRadius * float(STEPS) * f.per_scale * direction / px, -1e5, 1e5);
     vec2 first_px = (1.0 - jitter) * step_px;
     vec3 along = vec3(direction, 0.0);
-    along = normalize(along - up * dot(along, up));
+    along = normalize(along - up * dot(along, up)); // never of length 0: up is a ray that leaves the picture's plane
     vec3 across = cross(up, along);
     // Shading normals may look away from the eye; the hemisphere is then seen from its rim.
     float normal_up = max(dot(normal_view, up), 0.0);
@@ -303,6 +303,7 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
     float sin_g = normal_along / projected;
     // Sectors are numbered from the far end of the minus side.
     float total_minus = value(measure(cos_g, -sin_g, 1.0), sin_g);
+    // The floor: a normal straight across the slice leaves no measure to share out among sectors.
     float total = max(value(measure(cos_g, sin_g, 1.0), -sin_g) + total_minus, 1e-6);
     float scale = SECTORS / total;
     float least_x = 0.2 * STEP * length(f.x_per_px) / f.per_scale; // a fifth of a pixel

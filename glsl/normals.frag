@@ -63,6 +63,7 @@ ivec2 stride(float distance, ivec2 size)
 {
     vec2 width = abs(gRayOrigin.xy + distance * gRayDirection.xy) / vec2(size);
     vec2 most = clamp(vec2(size) / 4.0, 1.0, 32.0);
+    // At the eye a pixel has no width.
     return ivec2(clamp(ceil(4.0 * depth_step(distance) / max(width, vec2(1e-30))), vec2(1.0), most));
 }
 

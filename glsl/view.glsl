@@ -137,6 +137,7 @@ float filter_error(vec2 uv, float distance, vec3 normal_view)
 {
     vec2 texel = (gRayOrigin.xy + distance * gRayDirection.xy) / vec2(textureSize(u_depth_map, 0));
     vec3 ray = vec3(uv * gRayDirection.xy + gRayDirection.zw, -1.0);
+    // Edge-on, the surface lies along the ray, and there is no bound.
     return dot(abs(normal_view.xy), abs(texel)) / max(256.0 * abs(dot(normal_view, ray)), 1e-3);
 }
 
@@ -158,6 +159,14 @@ float stored_depth(vec2 uv)
     }
 #endif
     return depth_component(texture(u_depth_map, uv));
+}
+
+// What classic and hemisphere make of a radius below a pixel is what the depth filter shows between two texels, where no surface
+// is: 1 from a pixel of the target on, below it less in proportion.
+float radius_fade(float distance)
+{
+    vec2 pixel = abs(gRayOrigin.xy + distance * gRayDirection.xy) * gInvRenderTargetSize;
+    return clamp(gOcclusionRadius / max(min(pixel.x, pixel.y), 1e-30), 0.0, 1.0); // at the eye a pixel has no width
 }
 
 // The point that is seen at uv at a view distance (scene units).

@@ -39,6 +39,8 @@ typedef struct options {
     int shadow_size; /* texels; 0: not given */
     int debug_map;   /* options_map; OPTIONS_MAP_NONE: not given */
     bool plan, no_ao, help, version;
+    const char *environment;      /* picture of the surroundings; NULL: the built-in light */
+    const char *program_cache;    /* folder of linked programs; NULL: none */
     const char *batch;            /* list file, "-": standard input; NULL: one picture, or turntable */
     int shard_index, shard_count; /* of the batch; count 0: not given */
     int cache_mib;                /* bound on scenes kept for later jobs */

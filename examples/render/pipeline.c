@@ -2,6 +2,7 @@
  *
  * The passes of one frame, and what they need beside targets.
  */
+#define _POSIX_C_SOURCE 200809L
 #include "pipeline.h"
 
 #include "camera.h"
@@ -9,7 +10,9 @@
 #include "setting_table.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* The effect's lengths belong together: a radius other than the default's scales the others along. */
 glssao_settings pipeline_settings(const options *o, const scene *s)
@@ -44,6 +47,12 @@ glssao_settings pipeline_settings(const options *o, const scene *s)
     return settings;
 }
 
+static bool is_folder(const char *path)
+{
+    struct stat found;
+    return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
+}
+
 static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, const options *o, char *error,
                            size_t error_size)
 {
@@ -56,6 +65,10 @@ static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, co
         p->kept = NULL;
     }
     if (!p->kept) {
+        if (o->program_cache && !is_folder(o->program_cache)) {
+            snprintf(error, error_size, "--program-cache %s: there is no folder of that name", o->program_cache);
+            return false;
+        }
         const glssao_config config = {.load = load,
                                       .load_user = load_user,
                                       .log = glssao_log_to_stderr,
@@ -63,7 +76,8 @@ static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, co
                                       .height = p->height,
                                       .seed = o->seed,
                                       .no_timers = !p->wants.timers,
-                                      .path = (glssao_path)o->path};
+                                      .path = (glssao_path)o->path,
+                                      .program_cache = o->program_cache};
         const glssao_result result = glssao_create(&config, &p->kept);
         if (result != GLSSAO_OK) {
             snprintf(error, error_size, "the effect can't be made: %s", glssao_result_string(result));
@@ -76,13 +90,41 @@ static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, co
     return true;
 }
 
+static void drop_environment(pipeline *p)
+{
+    scene_environment_destroy(p->environment);
+    free(p->environment_path);
+    p->environment = NULL;
+    p->environment_path = NULL;
+}
+
+bool pipeline_surround(pipeline *p, const stage *st, const char *path, char *error, size_t error_size)
+{
+    if (!path) {
+        drop_environment(p);
+    } else if (!p->environment_path || strcmp(path, p->environment_path) != 0) {
+        scene_environment *loaded = scene_environment_load(path, error, error_size);
+        if (!loaded) {
+            return false;
+        }
+        drop_environment(p);
+        p->environment = loaded;
+        p->environment_path = strdup(path);
+    }
+    p->lighting = st->lighting;
+    scene_lighting_surround(&p->lighting, st->scene, p->environment);
+    return true;
+}
+
 bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_user, const options *o,
                       pipeline_wants wants, char *error, size_t error_size)
 {
     const int width = o->width + 2 * o->margin, height = o->height + 2 * o->margin;
     p->wants = wants;
     p->renderer = st->renderer;
-    p->lighting = st->lighting;
+    if (!pipeline_surround(p, st, wants.picture ? o->environment : NULL, error, error_size)) {
+        return false;
+    }
     if ((width != p->width || height != p->height) && !pipeline_change_size(p, width, height, error, error_size)) {
         return false;
     }
@@ -125,6 +167,7 @@ void pipeline_destroy(pipeline *p)
     glssao_destroy(p->kept);
     truth_close(&p->truth);
     if (p->renderer) {
+        drop_environment(p);
         pipeline_free_targets(p);
     }
     stage_close(&p->own);
@@ -164,15 +207,6 @@ static bool draw_prepass(pipeline *p, const scene_view *view, char *error, size_
     return true;
 }
 
-static bool has_ambient(const scene_lighting *l)
-{
-    bool any = false;
-    for (int i = 0; i < 3; i++) {
-        any = any || l->ambient[i] != 0 || l->ambient_tilt[i] != 0;
-    }
-    return any;
-}
-
 glssao_frame pipeline_frame(const pipeline *p, const scene_view *view)
 {
     glssao_frame frame = {.depth_texture = p->depth,
@@ -181,9 +215,11 @@ glssao_frame pipeline_frame(const pipeline *p, const scene_view *view)
                           .second_texture = p->draw_options.layers ? p->layers[1] : 0,
                           .normal_texture = glssao_map(p->effect, GLSSAO_MAP_NORMAL, NULL, NULL)};
     memcpy(frame.projection, view->clip_from_view, sizeof frame.projection);
-    frame.only_sky = scene_find_seen(p->renderer, view).opaque == 0;
+    const scene_seen seen = scene_find_seen(p->renderer, view);
+    frame.only_sky = seen.opaque == 0;
     /* Accessibility scales nothing else; but a map that was asked for itself is made. */
-    frame.no_ambient_light = p->wants.picture && !p->wants.ao_map && !has_ambient(&p->lighting);
+    frame.no_ambient_light =
+        p->wants.picture && !p->wants.ao_map && (seen.lit == 0 || !scene_lighting_has_ambient(&p->lighting));
     return frame;
 }
 

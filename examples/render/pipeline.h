@@ -34,6 +34,8 @@ typedef struct pipeline {
     stage own;                /* pipeline_create's */
     scene_renderer *renderer; /* of the stage */
     scene_lighting lighting;
+    scene_environment *environment; /* of the lighting; NULL: the built-in one */
+    char *environment_path;
     glssao_effect *effect; /* NULL where neither occlusion passes nor normals are wanted; else: */
     glssao_effect *kept;   /* of these, and of the targets' size */
     bool kept_timers;
@@ -60,6 +62,10 @@ bool pipeline_create(pipeline *p, const scene *s, glssao_load_fn load, void *loa
  * follow then. */
 bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_user, const options *o,
                       pipeline_wants wants, char *error, size_t error_size);
+
+/* Light from the picture in that file, or the built-in one (NULL); a picture that is there already is not read again.
+ * scene_renderer_configure is due after it. False, with one line in `error`, on failure, where the light stays. */
+bool pipeline_surround(pipeline *p, const stage *st, const char *path, char *error, size_t error_size);
 
 /* The settings that the command line asks for. */
 glssao_settings pipeline_settings(const options *o, const scene *s);

@@ -7,7 +7,7 @@
  * occlusion. Each of these exists only where the scene, the lighting and the options call for it, and what lies
  * outside the view is not drawn.
  *
- * GL state: each draw function sets what it needs (viewport, program, vertex array, texture units 0 to 6, depth,
+ * GL state: each draw function sets what it needs (viewport, program, vertex array, texture units 0 to 7, depth,
  * culling, blending, masks, sRGB, polygon offset) and leaves GL's defaults behind, the viewport aside. Scissor,
  * stencil and polygon mode it leaves alone; they are expected off.
  */
@@ -25,6 +25,8 @@ typedef struct scene_view {
     int margin;                 /* pixels on each side that the ambient map does not cover */
 } scene_view;
 
+typedef struct scene_environment scene_environment;
+
 typedef struct scene_lighting {
     float ambient[3];                /* linear radiance of the environment at the horizon, scaled by accessibility */
     float ambient_tilt[3];           /* how much more comes from straight above, and less from straight below */
@@ -32,6 +34,7 @@ typedef struct scene_lighting {
     float directional[3];            /* linear irradiance; all 0: no such light */
     float sky[3];                    /* linear, at the horizon; drawn where nothing is */
     float sky_tilt[3];               /* how much more straight above, as with ambient; all 0: one colour */
+    const scene_environment *environment; /* in the place of the four gradients; NULL: those */
     const scene_light *lights;       /* further lights; they cast no shadow. Past 16, the rest is left out */
     uint32_t light_count;
 } scene_lighting;
@@ -45,6 +48,18 @@ scene_lighting scene_default_lighting(void);
  * for s->light_count. */
 scene_lighting scene_lighting_of(const scene *s, scene_light *out_rest);
 
+/* A picture of the surroundings, environment.h says of which kinds: ambient light on matte surfaces by irradiance, on
+ * shiny ones by what mirrors of their roughness would show, and the sky. NULL, with one line in `error` that names the
+ * file and the fault, on failure. */
+scene_environment *scene_environment_load(const char *path, char *error, size_t error_size);
+void scene_environment_destroy(scene_environment *e);
+
+/* Puts an environment (NULL: none), which must outlive the lighting, in the place of the built-in one, and of its sun;
+ * the scene's own lights stay. */
+void scene_lighting_surround(scene_lighting *lighting, const scene *s, const scene_environment *e);
+/* False where no ambient light comes from anywhere. */
+bool scene_lighting_has_ambient(const scene_lighting *lighting);
+
 typedef struct scene_draw_options { /* zero is the plainest */
     bool shadows;            /* of the directional light; ambient light is not shadowed */
     int shadow_size;         /* side of the shadow map in texels; 0: 2048 */
@@ -52,6 +67,9 @@ typedef struct scene_draw_options { /* zero is the plainest */
     bool specular_occlusion; /* accessibility darkens ambient reflections by their lobe; else like the rest */
     bool layers;             /* scene_draw_layer will be called */
     bool no_picture;         /* the main pass is not drawn: neither its programs nor a shadow map are made */
+    /* For measuring what leaving out spares: every part of the shaders on every surface, whatever the scene holds, nothing
+     * culled, and shadow map and sky drawn in each frame. Matte and unlit materials then look otherwise. */
+    bool everything;
     bool multi_bounce;       /* occluded ambient light takes on the surface's colour */
 } scene_draw_options;
 
@@ -64,14 +82,14 @@ scene_renderer *scene_renderer_create_like(const scene *s, const scene_renderer 
 void scene_renderer_destroy(scene_renderer *r);
 
 /* Chooses what the passes do from now on, and makes the programs and the shadow map that this calls for. Lighting may
- * change from frame to frame, but whether it has a directional light, and further ones, is decided here. Without this
+ * change from frame to frame, but whether it has a directional light, further ones and an environment is decided here. Without this
  * call the first drawing chooses the plainest, and draws nothing where that fails. False, with one line in `error`, on
  * failure; the renderer then still draws. */
 bool scene_renderer_configure(scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options,
                               char *error, size_t error_size);
 
 /* What the scene, the lighting and the options call for, in words; out[SCENE_EFFECT_COUNT]. */
-enum { SCENE_EFFECT_COUNT = 8 };
+enum { SCENE_EFFECT_COUNT = 9 };
 typedef struct scene_effect {
     const char *name, *reason; /* static */
     bool used;
@@ -88,6 +106,7 @@ scene_draw_counts scene_renderer_counts(const scene_renderer *r);
 /* Draw calls of the scene, and those that lie within the view; the rest is not issued. */
 typedef struct scene_seen {
     unsigned opaque, opaque_total, blended, blended_total;
+    unsigned lit; /* of the opaque ones within the view, those that light falls on */
 } scene_seen;
 scene_seen scene_find_seen(const scene_renderer *r, const scene_view *view);
 
@@ -108,9 +127,8 @@ typedef enum scene_layer { SCENE_LAYER_BACK, SCENE_LAYER_SECOND } scene_layer;
 void scene_draw_layer(scene_renderer *r, const scene_view *view, unsigned depth_texture, scene_layer layer);
 
 /* Draws the picture into the bound framebuffer, whose depth buffer holds the pre-pass's depth: clears colour to
- * the sky at the horizon, opaque with depth EQUAL, the sky where it is no single colour with depth LEQUAL (unless the last drawing of the same
- * view, without scissors, showed none of it), then blended
- * materials back to front with depth LEQUAL and no depth write.
+ * the sky at the horizon, opaque with depth EQUAL, the sky where it is no single colour with depth LEQUAL (unless the
+ * last drawing of the same view, without scissors, showed none of it), then blended materials back to front with depth LEQUAL and no depth write.
  * Output is linear; the caller's framebuffer is GL_SRGB8_ALPHA8 with GL_FRAMEBUFFER_SRGB enabled by this call.
  * `ambient_map` is an accessibility texture (red; any size, sampled linearly by uv), 0: fully accessible. */
 void scene_draw_main(scene_renderer *r, const scene_view *view, const scene_lighting *lighting, unsigned ambient_map);

@@ -26,7 +26,14 @@ typedef struct draw_instance {
     float normal_world_from_mesh[3][3];
 } draw_instance;
 
-typedef enum draw_kind { DRAW_NORMALS = 0, DRAW_MAIN, DRAW_SHADOW, DRAW_LAYER, DRAW_KIND_COUNT } draw_kind;
+typedef enum draw_kind {
+    DRAW_NORMALS = 0,
+    DRAW_MAIN,
+    DRAW_SHADOW,
+    DRAW_LAYER,
+    DRAW_KIND_COUNT,
+    DRAW_SKY = DRAW_KIND_COUNT
+} draw_kind;
 
 /* One draw call: a primitive for the instances of its mesh that are mirrored, or for those that are not. Blended
  * primitives get an item for each instance, since each has its place in the order of depth. */
@@ -35,9 +42,9 @@ typedef struct draw_item {
     uint32_t first_instance, instance_count; /* in the instance buffer */
     int material;
     bool colored, blended;
-    bool mirrored;               /* triangles change their winding */
-    unsigned variant;            /* of the main pass, less what the options decide */
-    int program[DRAW_KIND_COUNT]; /* index into the pool's variants, -1: not drawn so */
+    bool mirrored;                       /* triangles change their winding */
+    unsigned variant;                    /* of the main pass, less what the options decide */
+    int program[DRAW_KIND_COUNT];        /* index into the pool's variants, -1: not drawn so */
     double bounds_min[3], bounds_max[3]; /* world space, of all instances */
 } draw_item;
 
@@ -57,8 +64,13 @@ typedef struct draw_pool {
     int users;
     draw_variant *variants; /* built as items need them */
     int variant_count;
-    draw_program map, view_distance, sky;
+    draw_program map, view_distance; /* the same */
 } draw_pool;
+
+struct scene_environment {
+    unsigned sky, mirrors, sampler; /* the mirrors' mip levels are their roughness */
+    float irradiance[9][3];         /* as in environment.h */
+};
 
 typedef struct draw_shadow {
     bool used;
@@ -84,13 +96,13 @@ struct scene_renderer {
     unsigned *samplers;  /* of each of the scene's textures, 0 likewise */
     unsigned linear_sampler, nearest_sampler; /* clamped, for screen-sized maps */
     unsigned white_texture;                   /* stands in for the ambient map */
-    draw_item *items; /* opaque ones first, sorted by program and material; then blended ones as in the file */
+    unsigned neutral[2]; /* where options.everything: white, and a normal along the surface's, for what has no map */
+    draw_item *items;    /* opaque ones first, sorted by program and material; then blended ones as in the file */
     uint32_t opaque_count, item_count;
     draw_order *blended_order; /* scratch, one for each blended item */
     draw_pool *pool;
     scene_draw_options options;
     bool configured;
-    draw_program map, view_distance, sky; /* the pool's */
     draw_shadow shadow;
     draw_sky_seen sky_seen;
     scene_draw_counts counts;
@@ -101,6 +113,30 @@ struct scene_renderer {
  * matrix that mirrors. */
 bool draw_normal_matrix(const float affine[16], float out[3][3]);
 
+/* What is the same for all draw calls of a pass, and what the last one left bound. */
+typedef struct draw_pass {
+    const scene_renderer *renderer;
+    const scene_view *view;
+    draw_kind kind;
+    float normal_view_from_world[3][3];
+    double clip_from_world[16];
+    float depth_offset;                                                              /* layers */
+    float ambient[3], ambient_tilt[3], up_view[3], directional[3], to_light_view[3]; /* main pass */
+    float lights[MOST_LIGHTS][4][4];
+    int light_count;
+    const scene_environment *environment;
+    float world_from_view[3][3];
+
+    const draw_program *program;
+    unsigned variant;
+    int material;
+    bool mirrored;
+    uint32_t first_instance;
+} draw_pass;
+
+/* draw_upload.c: r->neutral, where it is not there yet. */
+void draw_make_neutral(scene_renderer *r);
+
 /* draw_items.c: decides which draw calls the scene takes; fills instances[s->instance_count]. */
 bool draw_plan_items(scene_renderer *r, draw_instance *instances);
 /* False where the item lies wholly outside what the matrix shows. */
@@ -110,6 +146,12 @@ bool draw_item_is_seen(const draw_item *item, const double clip_from_world[16]);
 bool draw_choose_programs(scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options,
                           bool shadowed, char *error, size_t error_size);
 
+/* False where the sky is one colour. */
+bool draw_has_sky(const scene_lighting *lighting);
+/* Index of its program among the pool's variants, built where it is not there yet; -1, with one line in `error`, on
+ * failure. */
+int draw_find_sky(scene_renderer *r, const scene_lighting *lighting, char *error, size_t error_size);
+
 /* draw_shadow.c */
 bool draw_shadow_wanted(const scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options);
 bool draw_shadow_make(scene_renderer *r, int size, char *error, size_t error_size);
@@ -117,17 +159,22 @@ void draw_shadow_free(draw_shadow *s);
 /* The polygon offset of its drawing. */
 void draw_shadow_offset(void);
 
-/* draw_pool.c: joins the pool of `like`, or makes one where that is NULL; leaves it, and frees it with its last user. */
+/* draw_pool.c: joins the pool of `like`, or makes one where that is NULL; leaves it, and frees it with its last user.
+ */
 bool draw_pool_join(scene_renderer *r, const scene_renderer *like, char *error, size_t error_size);
 void draw_pool_leave(scene_renderer *r);
-
-/* draw_maps.c */
-bool draw_build_map_programs(draw_pool *pool, char *error, size_t error_size);
 
 /* draw.c: GL's defaults; one texture; all items of a kind, with the view's matrices. */
 void draw_set_defaults(void);
 void draw_bind_texture(unsigned unit, unsigned texture, unsigned sampler);
-/* Draws opaque items as `kind`, those that are seen; returns how many, and adds those that are not to *out_culled. */
+draw_pass draw_begin(const scene_renderer *r, const scene_view *view, draw_kind kind);
+void draw_item_now(draw_pass *pass, const draw_item *item);
+/* Opaque items that are seen; returns how many, and adds those that are not to *out_culled. */
+unsigned draw_opaque(draw_pass *pass, unsigned *out_culled);
+/* A renderer that nobody configured draws plainly; false where that fails, with a line on stderr. */
+bool draw_is_ready(scene_renderer *r);
+/* The whole of a pass: draws opaque items as `kind`, those that are seen; returns how many, and adds those that are not
+ * to *out_culled. */
 unsigned draw_opaque_items(scene_renderer *r, const scene_view *view, draw_kind kind, unsigned *out_culled);
 
 #endif

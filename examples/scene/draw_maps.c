@@ -6,6 +6,18 @@
 #include "gl.h"
 #include "scene_shaders.h"
 
+#include <stdio.h>
+
+/* One of the pool's, built when it is first called for. */
+static const draw_program *find(draw_program *p, const char *what, const char *fragment_source)
+{
+    char error[1024];
+    if (p->name || draw_program_build(p, what, shader_fullscreen_vert, "", fragment_source, 0, error, sizeof error))
+        return p;
+    fprintf(stderr, "scene: %s\n", error);
+    return NULL;
+}
+
 static void begin(const scene_renderer *r, const draw_program *p, unsigned map, unsigned sampler, scene_rectangle place)
 {
     draw_set_defaults();
@@ -23,7 +35,9 @@ static void end(void)
 
 void scene_draw_map_in(scene_renderer *r, unsigned map, scene_rectangle place, bool red_only, float scale, float bias)
 {
-    const draw_program *p = &r->map;
+    const draw_program *p = find(&r->pool->map, "map pass", shader_map_frag);
+    if (!p)
+        return;
     begin(r, p, map, r->linear_sampler, place);
     gl.Uniform2f(p->origin, (float)place.x, (float)place.y);
     gl.Uniform2f(p->pixel_uv, 1.0f / (float)place.width, 1.0f / (float)place.height);
@@ -53,19 +67,13 @@ void scene_draw_distance_picture(scene_renderer *r, const scene_view *view, unsi
     /* The sign of the quotient's slope says which end is the far one, also where that is infinitely far. */
     bool reversed = numerator[1] * denominator[0] < numerator[0] * denominator[1];
 
-    const draw_program *p = &r->view_distance;
+    const draw_program *p = find(&r->pool->view_distance, "view distance pass", shader_view_distance_frag);
+    if (!p)
+        return;
     begin(r, p, depth_texture, r->nearest_sampler, (scene_rectangle){0, 0, view->width, view->height});
     gl.Uniform2f(p->numerator, (float)numerator[0], (float)numerator[1]);
     gl.Uniform2f(p->denominator, (float)denominator[0], (float)denominator[1]);
     gl.Uniform1f(p->far_depth, reversed ? 0.0f : 1.0f);
     gl.Uniform1f(p->scale, scale);
     end();
-}
-
-bool draw_build_map_programs(draw_pool *pool, char *error, size_t error_size)
-{
-    return draw_program_build(&pool->map, "map pass", shader_fullscreen_vert, "", shader_map_frag, 0, error, error_size) &&
-           draw_program_build(&pool->view_distance, "view distance pass", shader_fullscreen_vert, "",
-                              shader_view_distance_frag, 0, error, error_size) &&
-           draw_program_build(&pool->sky, "sky pass", shader_sky_vert, "", shader_sky_frag, 0, error, error_size);
 }

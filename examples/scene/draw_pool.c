@@ -17,11 +17,6 @@ bool draw_pool_join(scene_renderer *r, const scene_renderer *like, char *error, 
     }
     pool->users++;
     r->pool = pool;
-    if (!like && !draw_build_map_programs(pool, error, error_size))
-        return false; /* scene_renderer_destroy leaves the pool */
-    r->map = pool->map;
-    r->view_distance = pool->view_distance;
-    r->sky = pool->sky;
     return true;
 }
 
@@ -35,7 +30,6 @@ void draw_pool_leave(scene_renderer *r)
         gl.DeleteProgram(pool->variants[i].program.name);
     gl.DeleteProgram(pool->map.name);
     gl.DeleteProgram(pool->view_distance.name);
-    gl.DeleteProgram(pool->sky.name);
     free(pool->variants);
     free(pool);
 }

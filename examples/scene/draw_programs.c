@@ -13,7 +13,9 @@
 /* Index of the program, built where it is not there yet; -1 on failure. */
 static int find_program(draw_pool *pool, draw_kind kind, unsigned variant, char *error, size_t error_size)
 {
-    static const char *const what[] = {"scene normals pass", "scene main pass", "shadow pass", "layer pass"};
+    static const char *const what[] = {"scene normals pass", "scene main pass", "shadow pass", "layer pass",
+                                       "sky pass"};
+    const bool is_sky = kind == DRAW_SKY;
     for (int i = 0; i < pool->variant_count; i++)
         if (pool->variants[i].kind == kind && pool->variants[i].variant == variant)
             return i;
@@ -24,8 +26,12 @@ static int find_program(draw_pool *pool, draw_kind kind, unsigned variant, char 
     }
     pool->variants = grown;
     draw_variant made = {.kind = kind, .variant = variant};
-    if (!draw_program_build(&made.program, what[kind], shader_scene_vert, shader_surface_glsl, kind == DRAW_MAIN ? shader_main_frag : shader_normals_frag, variant,
-                            error, error_size))
+    if (!draw_program_build(&made.program, what[kind], is_sky ? shader_sky_vert : shader_scene_vert,
+                            is_sky ? "" : shader_surface_glsl,
+                            is_sky              ? shader_sky_frag
+                            : kind == DRAW_MAIN ? shader_main_frag
+                                                : shader_normals_frag,
+                            variant, error, error_size))
         return -1;
     pool->variants[pool->variant_count] = made;
     return pool->variant_count++;
@@ -34,6 +40,9 @@ static int find_program(draw_pool *pool, draw_kind kind, unsigned variant, char 
 static unsigned normals_variant(const draw_item *item, const scene_material *m, const scene_draw_options *options,
                                 bool has_tangents)
 {
+    if (options->everything)
+        return VARIANT_LIT | VARIANT_DOUBLE_SIDED | VARIANT_MASKED | VARIANT_COLORED | VARIANT_BASE_MAPPED |
+               VARIANT_TEXTURED | VARIANT_NORMAL_MAPPED;
     unsigned variant = VARIANT_LIT | (m->double_sided ? VARIANT_DOUBLE_SIDED : 0u);
     if (m->alpha == SCENE_ALPHA_MASK) {
         variant |= VARIANT_MASKED | (item->colored ? VARIANT_COLORED : 0u);
@@ -47,10 +56,13 @@ static unsigned normals_variant(const draw_item *item, const scene_material *m, 
 static unsigned main_variant(const draw_item *item, const scene_lighting *lighting, const scene_draw_options *options,
                              bool shadowed)
 {
+    if (options->everything)
+        return VARIANT_EVERYTHING | (item->blended ? VARIANT_BLENDED : 0u);
     if (!(item->variant & VARIANT_LIT))
         return item->variant;
     const bool occluded = !item->blended;
     return item->variant | (shadowed ? VARIANT_SHADOWED : 0u) | (lighting->light_count ? VARIANT_LIGHTS : 0u) |
+           (lighting->environment ? VARIANT_ENVIRONMENT : 0u) |
            (options->specular_occlusion && occluded && item->variant & VARIANT_REFLECTIVE ? VARIANT_SPECULAR_OCCLUSION
                                                                                           : 0u) |
            (options->multi_bounce && occluded ? VARIANT_MULTI_BOUNCE : 0u);
@@ -63,9 +75,23 @@ static unsigned depth_variant(unsigned normals)
     return normals & VARIANT_MASKED ? normals & test : 0u;
 }
 
+bool draw_has_sky(const scene_lighting *lighting)
+{
+    const float *tilt = lighting->sky_tilt;
+    return lighting->environment || tilt[0] != 0 || tilt[1] != 0 || tilt[2] != 0;
+}
+
+int draw_find_sky(scene_renderer *r, const scene_lighting *lighting, char *error, size_t error_size)
+{
+    return find_program(r->pool, DRAW_SKY, lighting->environment ? VARIANT_ENVIRONMENT : 0u, error, error_size);
+}
+
 bool draw_choose_programs(scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options,
                           bool shadowed, char *error, size_t error_size)
 {
+    if (!options->no_picture && (options->everything || draw_has_sky(lighting)) &&
+        draw_find_sky(r, lighting, error, error_size) < 0)
+        return false;
     for (uint32_t i = 0; i < r->item_count; i++) {
         draw_item *item = &r->items[i];
         const scene_material *m = &r->scene->materials[item->material];
@@ -86,7 +112,8 @@ bool draw_choose_programs(scene_renderer *r, const scene_lighting *lighting, con
             done = chosen[DRAW_SHADOW] >= 0;
         }
         if (done && !item->blended && options->layers) {
-            chosen[DRAW_LAYER] = find_program(r->pool, DRAW_LAYER, depth_variant(normals) | VARIANT_BEHIND, error, error_size);
+            chosen[DRAW_LAYER] =
+                find_program(r->pool, DRAW_LAYER, depth_variant(normals) | VARIANT_BEHIND, error, error_size);
             done = chosen[DRAW_LAYER] >= 0;
         }
         if (!done)
@@ -106,6 +133,8 @@ bool scene_renderer_configure(scene_renderer *r, const scene_lighting *lighting,
         return false;
     if (!draw_choose_programs(r, lighting, options, shadowed, error, error_size))
         return false;
+    if (options->everything)
+        draw_make_neutral(r);
     r->shadow.used = shadowed;
     r->options = *options;
     r->configured = true;
@@ -142,8 +171,7 @@ void scene_renderer_effects(const scene_renderer *r, const scene_lighting *light
     const bool mapped = any_item(r, VARIANT_NORMAL_MAPPED), masked = any_item(r, VARIANT_MASKED);
     const bool instanced = any_instances(r), blended = r->item_count > r->opaque_count;
     const bool reflective = any_item(r, VARIANT_REFLECTIVE);
-    const float *tilt = lighting->sky_tilt;
-    const bool gradient = tilt[0] != 0 || tilt[1] != 0 || tilt[2] != 0;
+    const bool surrounded = lighting->environment, sky = draw_has_sky(lighting);
     const scene_effect effects[SCENE_EFFECT_COUNT] = {
         {"shadow map", shadow_reason(r, lighting), r->shadow.used},
         {"normal maps",
@@ -157,7 +185,12 @@ void scene_renderer_effects(const scene_renderer *r, const scene_lighting *light
         {"blending", blended ? "blended materials, back to front" : "no material is blended", blended},
         {"lights", lighting->light_count ? "the file has more than the shadow's" : "none beside the directional one",
          lighting->light_count > 0},
-        {"sky", gradient ? "a gradient, last, at the far plane, until a view shows none of it" : "one colour: the clear's", gradient},
+        {"environment", surrounded ? "ambient light from a picture" : "no picture given: a gradient", surrounded},
+        {"sky",
+         surrounded ? "the environment's picture, last, until a view shows none of it"
+         : sky      ? "a gradient, last, at the far plane, until a view shows none of it"
+                    : "one colour: the clear's",
+         sky},
     };
     for (int i = 0; i < SCENE_EFFECT_COUNT; i++)
         out[i] = effects[i];

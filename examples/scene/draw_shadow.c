@@ -30,8 +30,8 @@ bool draw_shadow_wanted(const scene_renderer *r, const scene_lighting *lighting,
     bool received = false;
     for (uint32_t i = 0; i < r->item_count; i++)
         received = received || r->items[i].variant & VARIANT_LIT;
-    return options->shadows && !options->no_picture && (sun[0] > 0 || sun[1] > 0 || sun[2] > 0) && r->opaque_count &&
-           received;
+    const bool cast = sun[0] > 0 || sun[1] > 0 || sun[2] > 0;
+    return options->shadows && !options->no_picture && r->opaque_count && (options->everything || (cast && received));
 }
 
 void draw_shadow_free(draw_shadow *s)
@@ -142,7 +142,7 @@ void scene_draw_shadow(scene_renderer *r, const scene_lighting *lighting)
 {
     draw_shadow *s = &r->shadow;
     const bool same = !memcmp(s->direction_world, lighting->direction_world, sizeof s->direction_world);
-    if (!s->used || (s->drawn && same))
+    if (!s->used || (s->drawn && same && !r->options.everything))
         return;
     fit_box(s, r->scene, lighting->direction_world);
     scene_view view = {.width = s->size, .height = s->size};

@@ -173,6 +173,18 @@ static void make_screen_maps(scene_renderer *r)
     r->nearest_sampler = make_sampler(GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
 }
 
+void draw_make_neutral(scene_renderer *r)
+{
+    static const uint8_t texels[2][4] = {{255, 255, 255, 255}, {128, 128, 255, 255}};
+    for (int i = 0; i < 2 && !r->neutral[i]; i++) {
+        gl.GenTextures(1, &r->neutral[i]);
+        gl.BindTexture(GL_TEXTURE_2D, r->neutral[i]);
+        gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels[i]);
+        gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+        gl.BindTexture(GL_TEXTURE_2D, 0);
+    }
+}
+
 scene_renderer *scene_renderer_create(const scene *s, char *error, size_t error_size)
 {
     return scene_renderer_create_like(s, NULL, error, error_size);
@@ -223,6 +235,7 @@ void scene_renderer_destroy(scene_renderer *r)
     gl.DeleteVertexArrays(2, vertex_arrays);
     gl.DeleteSamplers(2, samplers);
     gl.DeleteTextures(1, &r->white_texture);
+    gl.DeleteTextures(2, r->neutral);
     for (int k = 0; k < 2; k++)
         if (r->images[k])
             gl.DeleteTextures((GLsizei)r->scene->image_count, r->images[k]);

@@ -5,6 +5,7 @@
 #include "program.h"
 
 #include "gl.h"
+#include "scene_shaders.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -31,6 +32,7 @@ static const struct {
     {VARIANT_MULTI_BOUNCE, "MULTI_BOUNCE"},
     {VARIANT_BASE_MAPPED, "BASE_MAPPED"},
     {VARIANT_BEHIND, "BEHIND"},
+    {VARIANT_ENVIRONMENT, "ENVIRONMENT"},
 };
 
 static const struct {
@@ -62,6 +64,8 @@ static const struct {
     {"u_world_from_clip", offsetof(draw_program, world_from_clip)},
     {"u_sky", offsetof(draw_program, sky)},
     {"u_sky_tilt", offsetof(draw_program, sky_tilt)},
+    {"u_irradiance", offsetof(draw_program, irradiance)},
+    {"u_world_from_view", offsetof(draw_program, world_from_view)},
     {"u_origin", offsetof(draw_program, origin)},
     {"u_directional", offsetof(draw_program, directional)},
     {"u_to_light_view", offsetof(draw_program, to_light_view)},
@@ -87,6 +91,7 @@ static const struct {
     {"u_metallic_roughness_map", UNIT_METALLIC_ROUGHNESS},
     {"u_occlusion_map", UNIT_OCCLUSION},
     {"u_emission_map", UNIT_EMISSION},
+    {"u_environment_map", UNIT_ENVIRONMENT},
     {"u_map", UNIT_MAP},
     {"u_depth_map", UNIT_MAP},
 };
@@ -106,17 +111,17 @@ static void say_failure(const char *what, const char *step, char *log, char *err
     snprintf(error, error_size, "%s, %s: %s", what, step, *log ? log : "the driver gives no reason");
 }
 
-static unsigned compile(GLenum type, const char *macros, const char *shared, const char *source, const char *what,
-                        char *error, size_t error_size)
+static unsigned compile(GLenum type, const char *macros, const char *const shared[2], const char *source,
+                        const char *what, char *error, size_t error_size)
 {
     /* #version has to come first; it is the first line of each shader file. */
     size_t version_length = strcspn(source, "\n") + 1;
     /* Line numbers in the driver's log are then those of the file. */
-    const char *parts[] = {source, macros, shared, "#line 2\n", source + version_length};
-    const GLint lengths[] = {(GLint)version_length, -1, -1, -1, -1};
+    const char *parts[] = {source, macros, shared[0], shared[1], "#line 2\n", source + version_length};
+    const GLint lengths[] = {(GLint)version_length, -1, -1, -1, -1, -1};
 
     unsigned shader = gl.CreateShader(type);
-    gl.ShaderSource(shader, 5, parts, lengths);
+    gl.ShaderSource(shader, 6, parts, lengths);
     gl.CompileShader(shader);
     GLint compiled = GL_FALSE;
     gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
@@ -158,16 +163,18 @@ static void look_up(draw_program *p)
 bool draw_program_build(draw_program *p, const char *what, const char *vertex_source, const char *shared_source,
                         const char *fragment_source, unsigned variant, char *error, size_t error_size)
 {
-    char macros[640] = "";
+    char macros[768] = "";
     size_t length = 0;
     for (size_t i = 0; i < sizeof variant_macros / sizeof variant_macros[0]; i++)
         length += (size_t)snprintf(macros + length, sizeof macros - length, "#define %s %d\n", variant_macros[i].macro,
                                    (variant & variant_macros[i].bit) != 0);
 
-    unsigned vertex = compile(GL_VERTEX_SHADER, macros, "", vertex_source, what, error, error_size);
+    const char *const none[2] = {"", ""};
+    const char *const shared[2] = {shared_source, variant & VARIANT_ENVIRONMENT ? shader_environment_glsl : ""};
+    unsigned vertex = compile(GL_VERTEX_SHADER, macros, none, vertex_source, what, error, error_size);
     if (!vertex)
         return false;
-    unsigned fragment = compile(GL_FRAGMENT_SHADER, macros, shared_source, fragment_source, what, error, error_size);
+    unsigned fragment = compile(GL_FRAGMENT_SHADER, macros, shared, fragment_source, what, error, error_size);
     if (!fragment) {
         gl.DeleteShader(vertex);
         return false;

@@ -17,17 +17,26 @@ enum {
     VARIANT_DOUBLE_SIDED = 16, /* normals turn with gl_FrontFacing */
     VARIANT_BLENDED = 32,
     VARIANT_NORMAL_MAPPED = 64,
-    VARIANT_REFLECTIVE = 128,      /* metallic-roughness reflection; without: matte */
+    VARIANT_REFLECTIVE = 128,       /* metallic-roughness reflection; without: matte */
     VARIANT_ROUGHNESS_MAPPED = 256, /* where REFLECTIVE */
-    VARIANT_BAKED = 512,           /* an occlusion texture */
+    VARIANT_BAKED = 512,            /* an occlusion texture */
     VARIANT_EMISSIVE = 1024,
     VARIANT_EMISSION_MAPPED = 2048, /* where EMISSIVE */
     VARIANT_SHADOWED = 4096,
-    VARIANT_LIGHTS = 8192,         /* more lights than the first directional one */
+    VARIANT_LIGHTS = 8192,              /* more lights than the first directional one */
     VARIANT_SPECULAR_OCCLUSION = 16384, /* where REFLECTIVE and not BLENDED */
-    VARIANT_MULTI_BOUNCE = 32768,  /* where not BLENDED */
-    VARIANT_BASE_MAPPED = 65536,   /* base colour texture */
-    VARIANT_BEHIND = 131072        /* a layer: depth alone, of what lies behind the pre-pass's */
+    VARIANT_MULTI_BOUNCE = 32768,       /* where not BLENDED */
+    VARIANT_BASE_MAPPED = 65536,        /* base colour texture */
+    VARIANT_BEHIND = 131072,            /* a layer: depth alone, of what lies behind the pre-pass's */
+    VARIANT_ENVIRONMENT = 262144        /* ambient light, or the sky, from a picture */
+};
+
+/* All that a material and its light can call for; without what is another kind of surface. */
+enum {
+    VARIANT_EVERYTHING = VARIANT_TEXTURED | VARIANT_COLORED | VARIANT_MASKED | VARIANT_LIT | VARIANT_DOUBLE_SIDED |
+                         VARIANT_NORMAL_MAPPED | VARIANT_REFLECTIVE | VARIANT_ROUGHNESS_MAPPED | VARIANT_BAKED |
+                         VARIANT_EMISSIVE | VARIANT_EMISSION_MAPPED | VARIANT_SHADOWED | VARIANT_LIGHTS |
+                         VARIANT_SPECULAR_OCCLUSION | VARIANT_MULTI_BOUNCE | VARIANT_BASE_MAPPED
 };
 
 /* Texture units, fixed when a program is made. */
@@ -41,6 +50,7 @@ enum {
     UNIT_METALLIC_ROUGHNESS,
     UNIT_OCCLUSION,
     UNIT_EMISSION,
+    UNIT_ENVIRONMENT,
     UNIT_COUNT
 };
 
@@ -57,11 +67,13 @@ typedef struct draw_program {
     int shadow_from_world, lights, light_count;
     int pixel_uv, origin, depth_offset;
     int world_from_clip, sky, sky_tilt;
+    int irradiance, world_from_view;
     int scale, bias, red_only;
     int numerator, denominator, far_depth;
 } draw_program;
 
-/* Compiles and links; `shared_source` (may be "") comes before the fragment shader's own. False on failure, with `what`
+/* Compiles and links; `shared_source` (may be "") comes before the fragment shader's own, and environment.glsl where
+ * the variant has an environment. False on failure, with `what`
  * and the driver's log in one line of `error`. */
 bool draw_program_build(draw_program *p, const char *what, const char *vertex_source, const char *shared_source,
                         const char *fragment_source, unsigned variant, char *error, size_t error_size);

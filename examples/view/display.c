@@ -12,6 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const double quick_seconds = 0.1; /* with Mesa's cache filled 0.02, else 0.25 and more */
+
 static GLuint make_target(GLenum format, int width, int height, GLuint depth, GLuint *out_framebuffer)
 {
     GLuint texture;
@@ -81,14 +83,28 @@ static void record_times(viewer *v, const stopwatch *times)
     v->graph_next = (v->graph_next + 1) % GRAPH_LENGTH;
 }
 
+/* Programs that no cache of the driver's holds take a second or more until they run; translating their text is what
+ * tells. */
+static bool compiles_quickly(viewer *v)
+{
+    const double start = glfwGetTime();
+    const glssao_frame frame = pipeline_frame(&v->pipeline, &v->view);
+    return glssao_prepare(v->pipeline.effect, &frame, &v->pipeline.settings) == GLSSAO_OK &&
+           glfwGetTime() - start < quick_seconds;
+}
+
 static bool draw_frame(viewer *v)
 {
     stopwatch times = {.finish = true};
     v->pipeline.settings = frame_settings(v);
-    v->pipeline.wants.ao = v->updates > 0; /* its programs may take a second to compile: a picture first */
     stopwatch_start(&times);
-    if (!viewpoint_view(&v->viewpoint, v->scene, 0, v->width, v->height, &v->view, v->error, sizeof v->error) ||
-        !pipeline_draw(&v->pipeline, &v->view, &times, v->error, sizeof v->error)) {
+    if (!viewpoint_view(&v->viewpoint, v->scene, 0, v->width, v->height, &v->view, v->error, sizeof v->error)) {
+        viewer_say(v, true, "%s", v->error);
+        return false;
+    }
+    /* Where it has to be waited for, a picture without occlusion comes first. */
+    v->pipeline.wants.ao = v->updates > 0 || compiles_quickly(v);
+    if (!pipeline_draw(&v->pipeline, &v->view, &times, v->error, sizeof v->error)) {
         viewer_say(v, true, "%s", v->error);
         return false;
     }
@@ -110,7 +126,8 @@ static void draw_map(viewer *v)
     static const options_map maps[SHOWN_COUNT] = {
         [SHOWN_AO] = OPTIONS_MAP_AO,           [SHOWN_RAW] = OPTIONS_MAP_AO,
         [SHOWN_NORMALS] = OPTIONS_MAP_NORMALS, [SHOWN_DISTANCE] = OPTIONS_MAP_DEPTH,
-        [SHOWN_RANDOM] = OPTIONS_MAP_RANDOM,   [SHOWN_SHADOW] = OPTIONS_MAP_SHADOW};
+        [SHOWN_RANDOM] = OPTIONS_MAP_RANDOM,   [SHOWN_SHADOW] = OPTIONS_MAP_SHADOW,
+        [SHOWN_TILES] = OPTIONS_MAP_TILES};
     scene_rectangle place = {0, 0, v->width, v->height};
     const float black[4] = {0, 0, 0, 1};
     if (!v->map)

@@ -89,7 +89,7 @@ static void on_scroll(GLFWwindow *window, double x, double y)
 static void on_drop(GLFWwindow *window, int count, const char **paths)
 {
     if (count > 0)
-        viewer_open(of_window(window), paths[0], NULL);
+        viewer_open_file(of_window(window), paths[0]);
 }
 
 void input_start(viewer *v)

@@ -22,7 +22,8 @@ const char *const keys_help[][2] = {
     {"F", "frame the scene"},
     {"1 2 3 4, Space", "occlusion on, off, split by a line, blink; on or off"},
     {"M, Shift+M", "next map, the one before"},
-    {"P O U N V X H", "picture, accessibility, raw estimate, normals, view distance, random vectors, shadow map"},
+    {"P O U N V X", "picture, accessibility, raw estimate, normals, view distance, random vectors"},
+    {"H Z", "shadow map, tiles left out"},
     {"T, Y", "difference to the ray-traced accessibility, that itself"},
     {"Tab, Shift+Tab", "technique; quality"},
     {"[ ]", "radius smaller, larger"},
@@ -30,7 +31,7 @@ const char *const keys_help[][2] = {
     {"R", "the radius that suits the scene"},
     {"Backspace", "settings as the technique and quality come"},
     {"J K L B I", "shadows, mapped normals, specular occlusion, multi-bounce, the map in the corner"},
-    {"Ctrl+O, drop a file", "open a glTF file"},
+    {"Ctrl+O, drop a file", "open a glTF file, or an equirectangular picture that lights the scene"},
     {"Page Up, Page Down", "built-in scenes"},
     {"Ctrl+S", "save the picture as shown"},
     {"Ctrl+C", "copy and print the glssao-render command line"},
@@ -149,7 +150,8 @@ static bool key_of_show(viewer *v, int key, bool shift)
         viewer_shown shown;
     } maps[] = {{GLFW_KEY_O, SHOWN_AO},         {GLFW_KEY_U, SHOWN_RAW},    {GLFW_KEY_N, SHOWN_NORMALS},
                 {GLFW_KEY_V, SHOWN_DISTANCE},   {GLFW_KEY_X, SHOWN_RANDOM}, {GLFW_KEY_H, SHOWN_SHADOW},
-                {GLFW_KEY_T, SHOWN_DIFFERENCE}, {GLFW_KEY_Y, SHOWN_TRUTH},  {GLFW_KEY_P, SHOWN_PICTURE}};
+                {GLFW_KEY_T, SHOWN_DIFFERENCE}, {GLFW_KEY_Y, SHOWN_TRUTH},  {GLFW_KEY_Z, SHOWN_TILES},
+                {GLFW_KEY_P, SHOWN_PICTURE}};
     for (size_t i = 0; i < sizeof maps / sizeof maps[0]; i++)
         if (maps[i].key == key) {
             show(v, maps[i].shown);

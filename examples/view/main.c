@@ -117,10 +117,12 @@ static void run(viewer *v)
         last = now;
         if (!is_minimised(v) && follow_size(v))
             update(v);
-        if (v->updates >= 1 && v->updates <= 2)
-            shown[v->updates - 1] = glfwGetTime();
-        if (v->updates == 2)
+        if (v->updates == 1)
+            shown[0] = glfwGetTime();
+        if (shown[1] == 0 && v->updates > 0 && !v->frame_due) {
+            shown[1] = glfwGetTime();
             glfwSetWindowTitle(v->window, v->scene->name); /* who waits for it finds the picture whole */
+        }
         if (--due > 0) {
             glfwPollEvents();
             continue;

@@ -76,7 +76,8 @@ static void draw_drawing(viewer *v)
     changed = gui_check("occlusion sees normal maps (K)", &o->mapped_normals) || changed;
     changed = gui_check("specular occlusion (L)", &o->specular_occlusion) || changed;
     changed = gui_check("multi-bounce tint (B)", &o->multi_bounce) || changed;
-    changed = gui_choice("map in the corner (I)", &o->debug_map, "none|ao|normals|depth|random|shadow|tiles") || changed;
+    changed =
+        gui_choice("map in the corner (I)", &o->debug_map, "none|ao|normals|depth|random|shadow|tiles") || changed;
     o->no_shadows = !shadows;
     o->shadow_size = size == 2048 ? 0 : size;
     if (changed)
@@ -88,10 +89,8 @@ static void draw_plan(viewer *v)
     if (!gui_section("Frame plan", false) || !gui_begin_table("plan"))
         return;
     char text[64];
-    glssao_frame frame = {.depth_texture = v->pipeline.depth,
-                          .normal_texture = glssao_map(v->pipeline.effect, GLSSAO_MAP_NORMAL, NULL, NULL)};
-    memcpy(frame.projection, v->view.clip_from_view, sizeof frame.projection);
-    const glssao_plan plan = glssao_plan_frame(v->pipeline.effect, &frame, &v->settings);
+    const glssao_frame frame = pipeline_frame(&v->pipeline, &v->view);
+    const glssao_plan plan = glssao_plan_frame(v->pipeline.effect, &frame, &v->pipeline.settings);
     const scene_draw_counts counts = scene_renderer_counts(v->pipeline.renderer);
     snprintf(text, sizeof text, "%u draws", counts.normals);
     gui_table_row("pre-pass", true, text, "depth and view-space normals");
@@ -160,14 +159,14 @@ static void draw_help(viewer *v)
 
 static void draw_open(viewer *v)
 {
-    if (!gui_begin_dialog("Open a .gltf or .glb file", &v->opening))
+    if (!gui_begin_dialog("Open a .gltf or .glb file, or a picture to light it", &v->opening))
         return;
     bool chosen = gui_input("file, then Enter", v->typed_path, sizeof v->typed_path, v->about_to_open);
     v->about_to_open = false;
     chosen = gui_button("Open") || chosen;
     gui_text("Or drop one on the window.");
     gui_end_dialog();
-    if (chosen && v->typed_path[0] && viewer_open(v, v->typed_path, NULL))
+    if (chosen && v->typed_path[0] && viewer_open_file(v, v->typed_path))
         v->opening = false;
 }
 

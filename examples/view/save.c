@@ -125,6 +125,14 @@ bool viewer_command_line(const viewer *v, char *out, size_t out_size)
         add(&l, " --shadow-size %d", o->shadow_size);
     add(&l, "%s%s%s", o->mapped_normals ? " --mapped-normals" : "",
         o->specular_occlusion ? " --specular-occlusion" : "", o->multi_bounce ? " --multi-bounce" : "");
+    if (o->layers)
+        add(&l, " --layers %d", o->layers);
+    if (o->error.given)
+        add(&l, " --error %.9g", (double)o->error.value);
+    if (o->environment) {
+        add(&l, " --environment");
+        add_quoted(&l, o->environment);
+    }
     if (o->debug_map)
         add(&l, " --debug-map %s", maps[o->debug_map]);
     if (o->seed)

@@ -116,6 +116,34 @@ bool viewer_open(viewer *v, const char *path, const char *name)
     return true;
 }
 
+static bool is_picture(const char *path)
+{
+    static const char *const ends[] = {".hdr", ".pic", ".png", ".jpg", ".jpeg"};
+    const char *end = strrchr(path, '.');
+    bool any = false;
+    for (size_t i = 0; end && i < sizeof ends / sizeof ends[0]; i++)
+        any = any || strcmp(end, ends[i]) == 0;
+    return any;
+}
+
+static bool surround(viewer *v, const char *path)
+{
+    if (!pipeline_surround(&v->pipeline, &v->pipeline.own, path, v->error, sizeof v->error)) {
+        viewer_say(v, true, "%s", v->error);
+        return false;
+    }
+    snprintf(v->environment_path, sizeof v->environment_path, "%s", path);
+    v->options.environment = v->environment_path;
+    viewer_configure(v);
+    viewer_say(v, false, "lit by %s", path);
+    return true;
+}
+
+bool viewer_open_file(viewer *v, const char *path)
+{
+    return is_picture(path) ? surround(v, path) : viewer_open(v, path, NULL);
+}
+
 void viewer_close(viewer *v)
 {
     viewer_drop_truth(v);

@@ -25,20 +25,22 @@ typedef enum viewer_shown {
     SHOWN_DISTANCE,
     SHOWN_RANDOM,
     SHOWN_SHADOW,
+    SHOWN_TILES, /* white where nothing is estimated */
     SHOWN_TRUTH,
     SHOWN_DIFFERENCE, /* to the truth */
     SHOWN_COUNT
 } viewer_shown;
 #define VIEWER_SHOWN                                                                                                   \
-    "picture|accessibility|raw estimate|normals|view distance|random vectors|shadow map|ray-traced accessibility|"     \
-    "difference to ray-traced"
+    "picture|accessibility|raw estimate|normals|view distance|random vectors|shadow map|tiles left out|"               \
+    "ray-traced accessibility|difference to ray-traced"
 
 enum { GRAPH_LENGTH = 120, GRAPH_COUNT = GLSSAO_PASS_COUNT + 2, GRAPH_PREPASS = GLSSAO_PASS_COUNT, GRAPH_MAIN };
 
 typedef struct viewer {
     struct GLFWwindow *window;
-    options options;       /* of the command line, with what was changed since, the settings aside */
-    char scene_path[4096]; /* "": the built-in scene options.scene_name */
+    options options;             /* of the command line, with what was changed since, the settings aside */
+    char scene_path[4096];       /* "": the built-in scene options.scene_name */
+    char environment_path[4096]; /* "": the built-in light, or the command line's */
     scene *scene;
     pipeline pipeline;
     viewpoint viewpoint;
@@ -76,6 +78,8 @@ typedef struct viewer {
 /* Opens a file (NULL: the built-in scene `name`) in place of the scene there is, which stays where that fails; the
  * reason is shown. */
 bool viewer_open(viewer *v, const char *path, const char *name);
+/* A file that was dropped or named: a scene, or a picture that lights it. */
+bool viewer_open_file(viewer *v, const char *path);
 void viewer_close(viewer *v);
 void viewer_say(viewer *v, bool is_error, const char *format, ...);
 /* The camera that frames the scene, or the command line's. */

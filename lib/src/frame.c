@@ -382,22 +382,23 @@ glssao_result glssao_accumulate(glssao_effect *effect, const glssao_frame *frame
     return result;
 }
 
-/* Whether drawing into the bound framebuffer's first buffer would change the texture that is read. */
-static bool is_drawn_into(const glssao__gl *gl, gl_uint framebuffer, gl_uint texture)
+/* Whether the bound framebuffer has the texture for a colour, drawn into or not: OpenGL calls it a feedback loop to
+ * read it then (OpenGL 3.3, section 4.4.3). */
+static bool is_attached(const glssao__gl *gl, gl_uint framebuffer, gl_uint texture)
 {
-    gl_int attachment = 0, type = 0, name = 0;
-    if (framebuffer == 0)
-        return false;
-    gl->GetIntegerv(GL_DRAW_BUFFER0, &attachment);
-    if (attachment == 0) /* GL_NONE */
-        return false;
-    gl->GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, (gl_enum)attachment,
-                                            GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &type);
-    if (type != GL_TEXTURE)
-        return false;
-    gl->GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, (gl_enum)attachment,
-                                            GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME, &name);
-    return (gl_uint)name == texture;
+    for (int i = 0; framebuffer != 0 && i < gl->max_color_attachments; ++i) {
+        const gl_enum attachment = GL_COLOR_ATTACHMENT0 + (gl_enum)i;
+        gl_int type = 0, name = 0;
+        gl->GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE,
+                                                &type);
+        if (type != GL_TEXTURE)
+            continue;
+        gl->GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME,
+                                                &name);
+        if ((gl_uint)name == texture)
+            return true;
+    }
+    return false;
 }
 
 static glssao_result apply(glssao_effect *effect, gl_uint framebuffer)
@@ -416,10 +417,10 @@ static glssao_result apply(glssao_effect *effect, gl_uint framebuffer)
     }
     int width, height;
     const gl_uint map = glssao__maps_result(effect, &width, &height);
-    if (is_drawn_into(gl, framebuffer, map)) {
+    if (is_attached(gl, framebuffer, map)) {
         glssao__log_write(
             &effect->log, GLSSAO_LOG_ERROR,
-            "framebuffer = %u: its colour is the accessibility map itself, which would be read and written",
+            "framebuffer = %u: has the accessibility map itself attached, which would be read and written",
             framebuffer);
         return GLSSAO_INVALID_ARGUMENT;
     }

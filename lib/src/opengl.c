@@ -104,6 +104,7 @@ bool glssao__gl_load(glssao__gl *gl, glssao__gl_load_fn load, void *user, const 
     gl->GetFloatv(GL_POINT_SIZE_RANGE, point_sizes);
     gl->max_point_size = point_sizes[1];
     gl->GetIntegerv(GL_MAX_DRAW_BUFFERS, &gl->max_draw_buffers);
+    gl->GetIntegerv(GL_MAX_COLOR_ATTACHMENTS, &gl->max_color_attachments);
     gl->GetIntegerv(GL_MAX_CLIP_DISTANCES, &gl->max_clip_distances);
     return true;
 }

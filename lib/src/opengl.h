@@ -69,7 +69,6 @@ enum {
     GL_PACK_ALIGNMENT = 0x0D05,
     GL_MAX_TEXTURE_SIZE = 0x0D33,
     GL_MAX_VIEWPORT_DIMS = 0x0D3A,
-    GL_DRAW_BUFFER0 = 0x8825,
     GL_TEXTURE = 0x1702,
     GL_TEXTURE_2D = 0x0DE1,
     GL_TEXTURE_WIDTH = 0x1000,
@@ -162,6 +161,7 @@ enum {
     GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE = 0x8CD0,
     GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME = 0x8CD1,
     GL_FRAMEBUFFER_COMPLETE = 0x8CD5,
+    GL_MAX_COLOR_ATTACHMENTS = 0x8CDF,
     GL_COLOR_ATTACHMENT0 = 0x8CE0,
     GL_DEPTH_ATTACHMENT = 0x8D00,
     GL_MAX_CLIP_DISTANCES = 0x0D32,
@@ -320,6 +320,7 @@ typedef struct glssao__gl {
     int max_size;           /* largest texture and viewport side, pixels */
     int max_draw_buffers;
     float max_point_size; /* pixels */
+    int max_color_attachments;
     int max_clip_distances;
 } glssao__gl;
 

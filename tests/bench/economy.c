@@ -42,8 +42,7 @@ const char *economy_config_name(int config)
     return configs[config].name;
 }
 
-/* Share of the picture whose tiles were left out. */
-static double skipped_share(const glssao_effect *effect)
+double economy_skipped_share(const glssao_effect *effect)
 {
     int width, height;
     const uint32_t map = glssao_map(effect, GLSSAO_MAP_TILES, &width, &height);
@@ -134,7 +133,7 @@ bool economy_compare(const economy *e, const glssao_frame *frame, int width, int
         }
     for (int i = 0; done && i < 2; i++)
         out->ms[i] = measure_percentile(ms + i * frames, frames, 50);
-    out->skipped = done ? skipped_share(effects[1]) : 0;
+    out->skipped = done ? economy_skipped_share(effects[1]) : 0;
     out->worst = done ? worst_difference(effects) : -1;
     glssao_destroy(effects[0]);
     glssao_destroy(effects[1]);
@@ -217,15 +216,16 @@ static bool measure_scene(economy *e, const bench_scene *b, char *error, size_t 
 static bool measure(economy *e, char *error, size_t error_size)
 {
     static bench_scene scenes[BENCH_SCENES_MAX];
-    static char folder[1024];
+    char *folder = e->driver_cache;
     const double start = clock_wall_ms();
     /* Before there is a context: Mesa keeps what it compiles, and a first frame must be one. */
-    snprintf(folder, sizeof folder, "%s/shader-cache-%ld", e->options->out, (long)getpid());
+    snprintf(folder, sizeof e->driver_cache, "%s/shader-cache-%ld", e->options->out, (long)getpid());
     if (!make_folder(folder)) {
         snprintf(error, error_size, "%s: no such folder can be made", folder);
         return false;
     }
     setenv("MESA_SHADER_CACHE_DIR", folder, 1);
+    setenv("__GL_SHADER_DISK_CACHE_PATH", folder, 1);
     const int count = bench_scenes_list(e->options, scenes);
     e->context = context_create(&(context_options){.kind = (context_kind)e->options->context}, error, error_size);
     if (!e->context || !gl_load(context_load, e->context, error, error_size))
@@ -233,12 +233,14 @@ static bool measure(economy *e, char *error, size_t error_size)
     e->software = context_is_software(e->context);
     fprintf(stderr, "context: %s\n", context_description(e->context));
     e->rows = calloc((size_t)(count + 1) * ECONOMY_CONFIGS, sizeof *e->rows);
-    if (!e->rows || !measure_firsts(e, folder, error, error_size))
+    e->wholes = calloc((size_t)count + 1, sizeof *e->wholes);
+    if (!e->rows || !e->wholes || !measure_firsts(e, folder, error, error_size))
         return false;
     for (int i = 0; i < count; i++)
         if (!measure_scene(e, &scenes[i], error, error_size))
             return false;
-    if (!economy_measure_shares(e, error, error_size) || !economy_measure_steps(e, error, error_size))
+    if (!economy_measure_wholes(e, scenes, count, error, error_size) || !economy_measure_shares(e, error, error_size) ||
+        !economy_measure_steps(e, error, error_size))
         return false;
     e->seconds = (clock_wall_ms() - start) / 1e3;
     return !e->options->doc || economy_write(e, e->options->doc, error, error_size);
@@ -261,6 +263,7 @@ int main(int argc, char **argv)
     if (!done)
         fprintf(stderr, "glssao-economy: %s\n", error);
     free(e.rows);
+    free(e.wholes);
     context_destroy(e.context);
     return done ? EXIT_DONE : EXIT_FAILED;
 }

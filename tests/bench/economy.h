@@ -9,6 +9,7 @@
 #include "context.h"
 #include "gbuffer.h"
 #include "options.h"
+#include "scenes.h"
 
 /* One scene with one configuration: without and with tiles left out. */
 typedef struct economy_row {
@@ -30,12 +31,25 @@ typedef struct economy_step {
     int draws; /* of the effect, planned */
 } economy_step;
 
+/* A whole frame of the renderer: with everything on, whatever the scene holds; as planned. */
+typedef struct economy_whole {
+    char name[64];
+    double ms[2];       /* median of a frame: processor time of all threads on a software rasteriser, else wall time */
+    double first_ms[2]; /* renderer, effect and one frame, nothing kept by the driver */
+    double skipped;     /* share of the estimate's pixels, planned */
+    int draws[2], programs[2];
+    int64_t bytes[2]; /* of textures */
+} economy_whole;
+
 typedef struct economy {
     const options *options;
     context *context;
     bool software;
     economy_row *rows;
     int row_count;
+    economy_whole *wholes;
+    int whole_count;
+    char driver_cache[1024]; /* the folder where the driver keeps what it compiles, where it heeds being told */
     const char *step_scene;
     economy_step steps[ECONOMY_STEPS];
     economy_row shares[2][ECONOMY_SHARES]; /* of sky, of a plane; the rest is rough */
@@ -50,6 +64,12 @@ const char *economy_first_name(int first);
 /* Fills all of *out but its name and configuration; `frames` timed ones of each. */
 bool economy_compare(const economy *e, const glssao_frame *frame, int width, int height,
                      const glssao_settings *settings, economy_row *out, char *error, size_t error_size);
+
+/* Share of the picture whose tiles the last frame left out. */
+double economy_skipped_share(const glssao_effect *effect);
+
+/* economy_whole.c: fills e->wholes, which has room for `count`. */
+bool economy_measure_wholes(economy *e, const bench_scene *scenes, int count, char *error, size_t error_size);
 
 /* economy_steps.c */
 bool economy_measure_steps(economy *e, char *error, size_t error_size);

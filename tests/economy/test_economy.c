@@ -278,51 +278,89 @@ static void prepared_frames_make_nothing(void **state)
     fixture_delete_frame(&frame);
 }
 
-/* What glssao-render's frame draws of the effect, for scenes. */
+static void make_unlit(scene *s)
+{
+    for (uint32_t i = 0; i < s->material_count; ++i)
+        s->materials[i].unlit = true;
+}
+
+static void make_blended(scene *s)
+{
+    s->materials[0].alpha = SCENE_ALPHA_BLEND;
+}
+
+static void make_masked(scene *s)
+{
+    s->materials[0].alpha = SCENE_ALPHA_MASK;
+}
+
+/* Scenes, and what glssao-render's first frame of each causes, its targets included. */
+static const struct scene_row {
+    const char *what, *scene; /* "": no meshes at all */
+    void (*change)(scene *s);
+    bool away;                             /* the eye looks up, past all there is */
+    bool dark;                             /* no ambient light */
+    int passes, draws, programs, textures; /* full-screen draws: the effect's and the sky; draw calls of meshes */
+} scene_rows[] = {
+    {"columns", "columns", NULL, false, false, 8, 12, 11, 13},
+    {"plane", "plane", NULL, false, false, 8, 3, 11, 13},
+    {"nothing but sky", "plane", NULL, true, false, 1, 1, 5, 8},
+    {"no ambient light", "columns", NULL, false, true, 1, 12, 5, 8},
+    {"unlit", "plane", make_unlit, false, false, 1, 2, 4, 7},
+    {"all blended", "plane", make_blended, false, false, 1, 1, 3, 7},
+    {"alpha test", "plane", make_masked, false, false, 8, 3, 11, 13},
+    {"empty", "", NULL, false, false, 1, 0, 2, 7},
+};
+
+static gl_counts count_frame(const scene *s, const struct scene_row *row)
+{
+    char error[1024] = "";
+    options o;
+    char *arguments[] = {"test", "-s", "64x48", "-q", "medium", "--path", "fragment", "-o", "unused.png"};
+    assert_int_equal(options_parse(9, arguments, &o, error, sizeof error), OPTIONS_RUN);
+    pipeline p;
+    const pipeline_wants wants = {.picture = true, .ao = true, .prepass = true, .normals = true};
+    (void)gl_counter_take();
+    if (!pipeline_create(&p, s, gl_counter_load, NULL, &o, wants, error, sizeof error))
+        fail_msg("%s", error);
+    if (row->dark)
+        for (int k = 0; k < 3; ++k)
+            p.lighting.ambient[k] = p.lighting.ambient_tilt[k] = 0;
+    camera c = camera_frame_scene(s, (float)W / H);
+    if (row->away) {
+        memcpy(c.eye, (const float[3]){0, 50, 0}, sizeof c.eye);
+        memcpy(c.target, (const float[3]){1, 100, 0}, sizeof c.target);
+    }
+    const scene_view view = camera_view(&c, W, H);
+    stopwatch times = {.finish = false};
+    if (!pipeline_draw(&p, &view, &times, error, sizeof error))
+        fail_msg("%s", error);
+    const gl_counts counts = gl_counter_take();
+    pipeline_destroy(&p);
+    return counts;
+}
+
 static void each_scene_causes_these_calls(void **state)
 {
-    static const struct {
-        const char *scene;
-        bool away; /* the eye looks up, past all there is */
-        bool dark;
-        int draws;
-    } scenes[] = {
-        {"columns", false, false, 7}, {"plane", false, false, 7}, {"plane", true, false, 0},
-        {"columns", false, true, 0},  {"", false, false, 0}, /* no meshes at all */
-    };
-    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; ++i) {
-        fixture *f = *state;
-        char error[1024] = "";
+    fixture *f = *state;
+    char error[1024] = "";
+    gl_counter_start(context_load, f->context);
+    assert_true(gl_load(gl_counter_load, NULL, error, sizeof error)); /* the scene's calls, too */
+    for (size_t i = 0; i < sizeof scene_rows / sizeof *scene_rows; ++i) {
+        const struct scene_row *row = &scene_rows[i];
         const scene empty = {.name = ""};
-        scene *s = scenes[i].scene[0] ? scene_make(scenes[i].scene, error, sizeof error) : NULL;
-        options o;
-        char *arguments[] = {"test", "-s", "64x48", "-q", "medium", "--path", "fragment", "-o", "unused.png"};
-        assert_int_equal(options_parse(9, arguments, &o, error, sizeof error), OPTIONS_RUN);
-        gl_counter_start(context_load, f->context);
-        pipeline p;
-        const pipeline_wants wants = {.picture = true, .ao = true, .prepass = true, .normals = true};
-        if (!pipeline_create(&p, s ? s : &empty, gl_counter_load, NULL, &o, wants, error, sizeof error))
-            fail_msg("%s", error);
-        if (scenes[i].dark)
-            for (int k = 0; k < 3; ++k)
-                p.lighting.ambient[k] = p.lighting.ambient_tilt[k] = 0;
-        camera c = camera_frame_scene(s ? s : &empty, (float)W / H);
-        if (scenes[i].away) {
-            memcpy(c.eye, (const float[3]){0, 50, 0}, sizeof c.eye);
-            memcpy(c.target, (const float[3]){1, 100, 0}, sizeof c.target);
-        }
-        const scene_view view = camera_view(&c, W, H);
-        stopwatch times = {.finish = false};
-        (void)gl_counter_take();
-        if (!pipeline_draw(&p, &view, &times, error, sizeof error))
-            fail_msg("%s", error);
-        const gl_counts counts = gl_counter_take();
-        if (counts.draws != scenes[i].draws || (scenes[i].draws == 0 && counts.programs != 0))
-            fail_msg("scene %d: %d draws, %d programs; wanted %d draws", (int)i, counts.draws, counts.programs,
-                     scenes[i].draws);
-        pipeline_destroy(&p);
+        scene *s = row->scene[0] ? scene_make(row->scene, error, sizeof error) : NULL;
+        if (row->change)
+            row->change(s);
+        const gl_counts counts = count_frame(s ? s : &empty, row);
+        if (counts.draws != row->passes || counts.elements != row->draws || counts.programs != row->programs ||
+            counts.textures != row->textures)
+            fail_msg("%s: %d passes, %d draws, %d programs, %d textures; wanted %d, %d, %d, %d\n", row->what,
+                     counts.draws, counts.elements, counts.programs, counts.textures, row->passes, row->draws,
+                     row->programs, row->textures);
         scene_destroy(s);
     }
+    assert_true(gl_load(context_load, f->context, error, sizeof error));
 }
 
 /* A wall before the whole view: its sky is asked for once. Seen past it, it is drawn again. */

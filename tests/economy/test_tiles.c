@@ -222,7 +222,9 @@ static void a_radius_under_half_a_pixel_is_left_out(void **state)
 {
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     analytic_room(room, 1.0);
-    assert_true(share_of(*state, room, ANALYTIC_ROOM_SHAPES, GLSSAO_HORIZON, 1e-3f) == 1.0);
+    assert_true(share_of(*state, room, ANALYTIC_ROOM_SHAPES, GLSSAO_HORIZON, 0.006f) == 1.0);
+    const double above = share_of(*state, room, ANALYTIC_ROOM_SHAPES, GLSSAO_HORIZON, 0.009f); /* at the nearest */
+    assert_true(above > 0.5 && above < 1.0);
 }
 
 /* Classic: a step towards the eye of less than epsilon does not count, one of more does. */
@@ -243,6 +245,124 @@ static void a_plane_near_an_occluder_is_estimated(void **state)
     const double small = share_of(*state, shapes, 2, GLSSAO_HORIZON, 0.2f);
     const double large = share_of(*state, shapes, 2, GLSSAO_HORIZON, 1.5f);
     assert_true(large > 0.0 && large < small && small < 1.0);
+}
+
+/* Bumps at several places within a tile, and a radius that ends near a tile's border: what blur and upsampling read
+ * beside the tiles that are estimated is what an estimate leaves there. */
+static void tiles_beside_estimated_ones_look_the_same(void **state)
+{
+    enum { BUMPS = 6, WIDE = 2 * W, HIGH = 2 * H };
+    const double tile = 0.755; /* scene units that a tile of the half-size estimate is wide */
+    static const struct {
+        glssao_technique technique;
+        glssao_quality quality;
+        int rounds;
+        float radius;
+    } cases[] = {{GLSSAO_HORIZON, GLSSAO_LOW, 4, 0.72f},
+                 {GLSSAO_HORIZON, GLSSAO_MEDIUM, 4, 0.72f},
+                 {GLSSAO_CLASSIC, GLSSAO_HIGH, 1, 0.13f}, /* whose offsets reach five times as far, past a tile */
+                 {GLSSAO_HEMISPHERE, GLSSAO_HIGH, 1, 0.72f}};
+    analytic_shape shapes[BUMPS + 1] = {{ANALYTIC_PLANE, {0, 0, -8}, {0, 0, 1}}};
+    for (int i = 0; i < BUMPS; ++i)
+        shapes[i + 1] =
+            (analytic_shape){ANALYTIC_BOX,
+                             {tile * (5 * (i % 3) - 5 + i / 24.0), tile * (5 * (i / 3) - 2.5 + i / 24.0), -8},
+                             {0.05, 0.05, 0.6}};
+    const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
+    const glssao_frame frame = fixture_frame(&view, shapes, BUMPS + 1, WIDE, HIGH);
+    glssao_effect *effect = fixture_effect(*state, WIDE, HIGH);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        glssao_settings settings = glssao_default_settings(cases[i].technique, cases[i].quality);
+        set_radius(&settings, cases[i].radius);
+        settings.blur_rounds = cases[i].rounds;
+        settings.half_resolution = cases[i].technique == GLSSAO_HORIZON;
+        const double share = assert_same_picture(effect, &frame, &settings, "bumps");
+        assert_true(share > 0.3 && share < 0.7);
+    }
+    glssao_destroy(effect);
+    fixture_delete_frame(&frame);
+}
+
+enum { IN_DEPTH = 1, IN_NORMALS = 2 };
+
+/* All tiles of 16 pixels but the picture's edge. */
+static const double INNER = (double)(W / 16 - 2) * (H / 16 - 2) / ((W / 16) * (H / 16));
+
+/* The share that horizon leaves out of a picture without perspective. */
+static double share_of_maps(fixture *f, const float *depth, const float *normals, float power)
+{
+    const analytic_view view = analytic_make_view(ORTHOGRAPHIC, (double)W / H, 0.5, 40.0, 1.0);
+    glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, depth),
+                          .normal_texture = fixture_normal_texture(W, H, normals)};
+    memcpy(frame.projection, view.projection, sizeof frame.projection);
+    glssao_effect *effect = fixture_effect(f, W, H);
+    glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
+    settings.half_resolution = settings.upsample = false;
+    settings.power = power;
+    set_radius(&settings, 0.05f);
+    const double share = assert_same_picture(effect, &frame, &settings, "maps");
+    glssao_destroy(effect);
+    fixture_delete_frame(&frame);
+    return share;
+}
+
+/* Of two planes that meet in a valley along x or y, of that angle to the plane between them; in depth, in normals or in
+ * both. */
+static double share_of_valley(fixture *f, double angle_rad, int axis, int where, float power)
+{
+    analytic_shape planes[2] = {{ANALYTIC_PLANE, {0.1, 0.1, -8}, {0, 0, cos(angle_rad)}},
+                                {ANALYTIC_PLANE, {0.1, 0.1, -8}, {0, 0, cos(angle_rad)}}};
+    const analytic_shape flat = {ANALYTIC_PLANE, {0, 0, -8}, {0, 0, 1}};
+    planes[0].size[axis] = sin(angle_rad);
+    planes[1].size[axis] = -sin(angle_rad);
+    const analytic_view view = analytic_make_view(ORTHOGRAPHIC, (double)W / H, 0.5, 40.0, 1.0);
+    float *depth, *normals, *flat_depth, *flat_normals;
+    analytic_render(&view, planes, 2, W, H, &depth, &normals);
+    analytic_render(&view, &flat, 1, W, H, &flat_depth, &flat_normals);
+    const double share =
+        share_of_maps(f, where & IN_DEPTH ? depth : flat_depth, where & IN_NORMALS ? normals : flat_normals, power);
+    free(depth);
+    free(normals);
+    free(flat_depth);
+    free(flat_normals);
+    return share;
+}
+
+/* What is flat but for two lines of pixels, off every tile's middle, is estimated there: along x or y. */
+static void a_line_off_a_plane_is_estimated(void **state)
+{
+    const analytic_shape flat = {ANALYTIC_PLANE, {0, 0, -8}, {0, 0, 1}};
+    const analytic_view view = analytic_make_view(ORTHOGRAPHIC, (double)W / H, 0.5, 40.0, 1.0);
+    for (int axis = 0; axis < 2; ++axis)
+        for (int where = IN_DEPTH; where <= IN_NORMALS; ++where) {
+            float *depth, *normals;
+            analytic_render(&view, &flat, 1, W, H, &depth, &normals);
+            for (int i = 0; i < W * H; ++i) {
+                const int at = axis == 0 ? i % W : i / W;
+                if (at != 98 && at != 99)
+                    continue;
+                depth[i] -= where == IN_DEPTH ? 1e-4f : 0;
+                normals[3 * i] = where == IN_NORMALS ? 0.01f : 0;
+            }
+            const double share = share_of_maps(*state, depth, normals, 1);
+            assert_true(share > 0.5 && share < INNER);
+            free(depth);
+            free(normals);
+        }
+}
+
+/* Up to the sine of docs/economy.md, over the power; beyond it the tiles along the bottom are estimated. */
+static void a_plane_is_flat_to_0_0015(void **state)
+{
+    for (int axis = 0; axis < 2; ++axis)
+        for (int where = IN_DEPTH; where <= (IN_DEPTH | IN_NORMALS); ++where) {
+            /* Where normals bend, a tile's plane is one side's, which the other is twice as far off. */
+            const double half = where & IN_NORMALS ? 0.5 : 1;
+            for (int power = 1; power <= 2; ++power) {
+                assert_true(share_of_valley(*state, 0.0013 * half / power, axis, where, (float)power) == INNER);
+                assert_true(share_of_valley(*state, 0.0018 * half / power, axis, where, (float)power) < INNER);
+            }
+        }
 }
 
 static void few_tiles_are_not_sorted(void **state)
@@ -272,6 +392,9 @@ int main(void)
         TEST(a_radius_under_half_a_pixel_is_left_out),
         TEST(range_within_epsilon_is_left_out),
         TEST(a_plane_near_an_occluder_is_estimated),
+        TEST(tiles_beside_estimated_ones_look_the_same),
+        TEST(a_plane_is_flat_to_0_0015),
+        TEST(a_line_off_a_plane_is_estimated),
         TEST(few_tiles_are_not_sorted),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);

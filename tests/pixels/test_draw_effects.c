@@ -240,6 +240,41 @@ static void effects_are_there_only_where_called_for(void **state)
     free(s);
 }
 
+/* What the scene does not call for changes nothing where it is there: the picture that an unconditional renderer takes
+ * longer for is the same. */
+static void everything_on_shows_the_same(void **state)
+{
+    (void)state;
+    static const uint8_t texel[4] = {255, 128, 255, 255};
+    small_scene *s = small_scene_create();
+    for (int k = 0; k < 3; k++) { /* plain, textured, and out of sight */
+        scene_material material = small_scene_material();
+        material.metallic_roughness = true;
+        material.roughness = 0.5f;
+        material.base_color_texture = k == 1 ? small_scene_add_texture(s, 1, 1, texel) : -1;
+        material.base_color[3] = 0.2f; /* below the cut-off that an alpha test would have */
+        const float m[16] = {0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, k == 2 ? 9 : 0.6f * (float)k, 0, 0, 1};
+        frame_add_quad(s, material, m);
+    }
+    scene_lighting lighting = scene_default_lighting();
+    memset(lighting.sky_tilt, 0, sizeof lighting.sky_tilt);
+    scene_draw_options options = {.shadows = true, .shadow_size = 64, .specular_occlusion = true, .multi_bounce = true};
+    frame planned = frame_draw_with(s, &frame_front, &lighting, &options, 0);
+    options.everything = true;
+    frame f = frame_draw_with(s, &frame_front, &lighting, &options, 0);
+    for (int i = 0; i < FRAME_SIZE * FRAME_SIZE; i++)
+        for (int k = 0; k < 3; k++)
+            assert_in_range(f.color[i][k] - planned.color[i][k] + 1, 0, 2);
+    assert_int_equal(planned.counts.main, 2);
+    assert_int_equal(planned.counts.sky, 0);
+    assert_int_equal(f.counts.main, 3);
+    assert_int_equal(f.counts.normals, 3);
+    assert_int_equal(f.counts.sky, 1);
+    frame_free(&planned);
+    frame_free(&f);
+    free(s);
+}
+
 int main(void)
 {
 #define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
@@ -252,6 +287,7 @@ int main(void)
         TEST(sky_is_a_gradient_by_height_and_behind_everything),
         TEST(outside_the_view_nothing_is_drawn),
         TEST(effects_are_there_only_where_called_for),
+        TEST(everything_on_shows_the_same),
     };
 #undef TEST
     return cmocka_run_group_tests_name("draw effects", tests, fixture_setup, fixture_teardown);

@@ -2,12 +2,14 @@
  *
  * Light on a surface: the environment, reflections against a plain C model, punctual lights.
  */
+#include "camera.h"
 #include "draw.h"
 #include "draw_frame.h"
 #include "fixture.h"
 #include "small_scene.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -219,13 +221,104 @@ static void lights_of_the_scene_take_the_suns_place(void **state)
     free(s);
 }
 
+/* A picture whose channels are gradients along the world's axes: 0.5 + 0.4 x, and so on; or black. */
+static scene_environment *load_gradients(bool black)
+{
+    enum { WIDTH = 256, HEIGHT = WIDTH / 2 };
+    static const char path[] = "test_draw_light.hdr";
+    char error[256];
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fprintf(file, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n", HEIGHT, WIDTH);
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) {
+            const double turn = 2 * pi * ((x + 0.5) / WIDTH - 0.5), down = pi * (y + 0.5) / HEIGHT;
+            const double direction[3] = {sin(down) * sin(turn), cos(down), -sin(down) * cos(turn)};
+            for (int k = 0; k < 3; k++) /* the exponent makes 256 of 1 */
+                fputc((int)(256 * (0.5 + 0.4 * direction[k]) + 0.5), file);
+            fputc(black ? 0 : 128, file);
+        }
+    assert_int_equal(fclose(file), 0);
+    scene_environment *e = scene_environment_load(path, error, sizeof error);
+    remove(path);
+    if (!e)
+        fail_msg("%s", error);
+    return e;
+}
+
+static void assert_gradients(const uint8_t color[4], const double direction[3], double share, double scale,
+                             const char *what)
+{
+    for (int k = 0; k < 3; k++) {
+        const double c = color[k] / 255.0, linear = c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
+        assert_near(linear, scale * (0.5 + 0.4 * share * direction[k]), 0.015, what);
+    }
+}
+
+/* Seen from several sides: sky, matte surface and mirror show the world's directions, not the view's. */
+static void a_picture_surrounds_the_scene(void **state)
+{
+    (void)state;
+    /* What is left of a gradient; and Karis's fit for metal, which at roughness 0 is 1 head-on and at 1 the same all
+     * over: see main.frag. A lobe of roughness 1 leaves what test_environment.c works out. */
+    static const struct {
+        const char *what;
+        bool metal;
+        float roughness;
+        double share, scale;
+    } surfaces[] = {{"matte", false, 1, 2.0 / 3, 1}, {"mirror", true, 0, 1, 1}, {"rough", true, 1, 2.0 / 3, 0.45}};
+    scene_environment *e = load_gradients(false);
+    scene_lighting lighting = scene_default_lighting();
+    const double n[3] = {0.36, 0.48, 0.8};
+    for (size_t i = 0; i < sizeof surfaces / sizeof surfaces[0]; i++) {
+        scene_material material = small_scene_material();
+        material.metallic_roughness = surfaces[i].metal;
+        material.metallic = 1;
+        material.roughness = surfaces[i].roughness;
+        small_scene *s = frame_one_quad(material, NULL);
+        scene_lighting_surround(&lighting, &s->scene, e);
+        assert_true(lighting.directional[0] == 0 && scene_lighting_has_ambient(&lighting));
+        set_normals(s, n[0], n[1], n[2]);
+        for (double angle = -1; angle <= 1; angle += 0.5) {
+            const double eye[3] = {2 * sin(angle), 1, 2 * cos(angle)}, away = sqrt(5);
+            const camera c = {.eye = {(float)eye[0], (float)eye[1], (float)eye[2]},
+                              .up = {0, 1, 0},
+                              .fov_y_rad = 1.5707963f,
+                              .near_plane = 0.1f,
+                              .far_plane = 9};
+            const scene_view view = camera_view(&c, FRAME_SIZE, FRAME_SIZE);
+            frame f = frame_draw_with(s, &view, &lighting, &(scene_draw_options){0}, 0);
+            double seen[3], mirrored[3];
+            const double facing = (n[0] * eye[0] + n[1] * eye[1] + n[2] * eye[2]) / away;
+            for (int k = 0; k < 3; k++)
+                mirrored[k] = 2 * facing * n[k] - eye[k] / away;
+            assert_gradients(f.color[FRAME_MIDDLE], surfaces[i].metal ? mirrored : n, surfaces[i].share,
+                             surfaces[i].scale, surfaces[i].what);
+            /* The lower left corner's direction in the view, (-side, -side, -1), brought to the world. */
+            const float *m = view.view_from_world;
+            const double side = 1 - 1.0 / FRAME_SIZE, length = sqrt(2 * side * side + 1);
+            for (int k = 0; k < 3; k++)
+                seen[k] = (-side * (double)m[4 * k] - side * (double)m[4 * k + 1] - (double)m[4 * k + 2]) / length;
+            assert_gradients(f.color[0], seen, 1, 1, "sky");
+            assert_int_equal(f.counts.sky, 1);
+            frame_free(&f);
+        }
+        free(s);
+    }
+    scene_environment_destroy(e);
+    e = load_gradients(true);
+    lighting.environment = e;
+    assert_false(scene_lighting_has_ambient(&lighting));
+    scene_environment_destroy(e);
+}
+
 int main(void)
 {
 #define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         TEST(gradient_lights_as_its_integral_says),      TEST(reflection_is_that_of_the_model),
         TEST(nothing_is_brighter_than_its_surroundings), TEST(punctual_lights_fall_off_as_the_extension_says),
-        TEST(lights_of_the_scene_take_the_suns_place),
+        TEST(lights_of_the_scene_take_the_suns_place),   TEST(a_picture_surrounds_the_scene),
     };
 #undef TEST
     return cmocka_run_group_tests_name("draw light", tests, fixture_setup, fixture_teardown);

@@ -37,6 +37,12 @@ GLTF
 triangle "a b.gltf" 0.3
 triangle c.gltf 0.5
 
+# Surroundings of one colour.
+{
+    printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n'
+    for _ in $(seq 32); do printf '\100\200\100\200'; done
+} >green.hdr
+
 # Jobs that differ from the one before in all that a pipeline keeps, some with targets of the same size; the first comes
 # back at the end. Written as a shell
 # reads them, which is how the processes get them below.
@@ -47,7 +53,7 @@ cat >list <<'LIST'
 -o $to/02.png -s 40x30 --margin 8 --layers 2   # larger, with more targets
 -s 56x46 -o '$to/04 #.png' --normals $to/03.png --scene cornell --seed 9 --shadow-size 64 --debug-map normals
 -o "$to/05.png" --error 0.02 --time 0.5 a\ b.gltf
--t classic -o $to/06.png --frames 2 "a "'b.gltf'
+-t classic -o $to/06.png --environment green.hdr --frames 2 "a "'b.gltf'
 -t hemisphere -q low -o $to/07.png --mapped-normals c.gltf
 -o $to/08.png --ao $to/08.pfm --depth $to/08-d.pfm
 LIST

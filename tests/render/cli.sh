@@ -152,6 +152,23 @@ size="-s 65x37"
     want 2 "--debug-map" --debug-map ao --ao b.png
     want 2 '"stencil"' --debug-map stencil -o b.png
 
+    # A picture of the surroundings, of one colour: it lights the scene, without the built-in sun.
+    {
+        printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n'
+        for _ in $(seq 32); do printf '\100\200\100\200'; done
+    } >green.hdr
+    want 0 "" $size --seed=7 -o p4.png --ao p4.pfm --environment green.hdr --plan
+    ! cmp -s a1.png p4.png || fail "--environment changes nothing"
+    cmp a1.pfm p4.pfm || fail "--environment changes accessibility"
+    grep -q '^environment  *use' out || fail "the plan uses no environment"
+    grep -q '^shadow map  *skip .*no directional light' out || fail "the built-in sun shines into an environment"
+    head -c 60 green.hdr >cut.hdr
+    want 1 "cut.hdr: the Radiance picture is cut off" $size -o b.png --environment cut.hdr
+    want 1 "none.hdr: No such file" $size -o b.png --environment none.hdr
+    want 1 "a1.png: 65 x 37 pixels; an environment is twice as wide" $size -o b.png --environment a1.png
+    want 2 "--environment" --environment sky.exr -o b.png
+    want 0 "" $size --ao p5.pfm --environment none.hdr # which nothing reads
+
     # Turntable, plan, benchmark.
     want 0 "" $size --frames 3 -o turn.png
     grep -q "frame 3 of 3" err || fail "no progress"
@@ -180,6 +197,18 @@ size="-s 65x37"
     want 2 "--error 0.01: only the horizon technique" -t classic --error 0.01 --ao e4.pfm
     want 2 "--budget and --bench exclude each other" --budget 10 --bench 3
     want 2 "--error and --no-ao exclude each other" --error 0.01 --no-ao -o e4.png
+
+    # Programs kept for the next run, which draws the same; a folder that is not there is told.
+    mkdir programs
+    for run in 1 2; do
+        want 0 "" $size --context egl --ao "c$run.pfm" --program-cache programs
+        for file in programs/*.bin; do
+            [ -s "$file" ] || fail "--program-cache keeps nothing"
+            [ $run = 1 ] || [ ! "$file" -nt c1.pfm ] || fail "--program-cache compiles $file again"
+        done
+    done
+    cmp c1.pfm c2.pfm || fail "--program-cache changes the picture"
+    want 1 "--program-cache no-folder: there is no folder" $size --ao c3.pfm --program-cache no-folder
 
     # Built-in scenes and both kinds of context.
     for scene in columns cornell steps plane; do

@@ -8,11 +8,11 @@ cd "$2" || exit 1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 macros=(TEXTURED BASE_MAPPED COLORED MASKED DOUBLE_SIDED BLENDED NORMAL_MAPPED REFLECTIVE ROUGHNESS_MAPPED BAKED EMISSIVE
-    EMISSION_MAPPED SHADOWED LIGHTS SPECULAR_OCCLUSION MULTI_BOUNCE BEHIND)
+    EMISSION_MAPPED SHADOWED LIGHTS SPECULAR_OCCLUSION MULTI_BOUNCE BEHIND ENVIRONMENT)
 programs=0 failures=0
 # As program.c puts them together: shared functions behind #version.
 for pass in main normals; do
-    { head -n 1 $pass.frag; cat surface.glsl; tail -n +2 $pass.frag; } >"$work/$pass.frag"
+    { head -n 1 $pass.frag; cat surface.glsl environment.glsl; tail -n +2 $pass.frag; } >"$work/$pass.frag"
 done
 check() {
     programs=$((programs + 1))
@@ -47,7 +47,9 @@ for i in "${!macros[@]}"; do
     check_variant 1 "${macros[@]:0:i}" "${macros[@]:i+1}"
 done
 check_variant 1 BASE_MAPPED COLORED MASKED DOUBLE_SIDED NORMAL_MAPPED
-check sky.vert sky.frag
+{ head -n 1 sky.frag; cat environment.glsl; tail -n +2 sky.frag; } >"$work/sky.frag"
+check -DENVIRONMENT=0 sky.vert "$work/sky.frag"
+check -DENVIRONMENT=1 sky.vert "$work/sky.frag"
 check fullscreen.vert map.frag
 check fullscreen.vert view_distance.frag
 for shader in *.vert *.frag; do

@@ -12,10 +12,19 @@ build=$copy/build
 cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
     >/dev/null || exit 1
 make() { ninja -C "$build" "$@" >"$copy/log" 2>&1; }
+run_once() { # test, arguments
+    local test=$1
+    shift
+    local program=$build/tests/stability/$test
+    [ -x "$program" ] || program=$build/tests/$test
+    GALLIVM_PERF=nopt GLSSAO_TEST_CONTEXT=egl timeout 300 "$program" "$@" >"$copy/log" 2>&1
+}
 run() { # test
-    local arguments=()
-    [ "$1" != test_random ] || arguments=(--cases 900)
-    GLSSAO_TEST_CONTEXT=egl timeout 300 "$build/tests/stability/$1" "${arguments[@]}" >"$copy/log" 2>&1
+    case $1 in
+    test_random) run_once "$1" --cases 900 ;;
+    test_hard_cases) run_once "$1" 3 && run_once "$1" ;; # what CI runs, and where that passes, everything
+    *) run_once "$1" ;;
+    esac
 }
 make test_hard_cases test_relations test_random test_inputs test_faults || { cat "$copy/log"; exit 1; }
 
@@ -33,7 +42,7 @@ for line in "${lines[@]}"; do
     elif run "$test"; then
         answer="NOT HELD by $test"
     else
-        answer="$test: $(grep -am1 'ERROR: \|ERROR   \]' "$copy/log" | sed 's/^ERROR: //' | cut -c1-100)"
+        answer="$test: $(grep -am1 'ERROR: \|ERROR   \]\|FAILED' "$copy/log" | sed 's/^ERROR: //' | cut -c1-100)"
         held=$((held + 1))
     fi
     [[ $answer == $test:* ]] || loose=$((loose + 1))

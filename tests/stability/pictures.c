@@ -66,7 +66,6 @@ static void draw(void **state)
     subject_free(&far);
     subject_free(&mirrored);
     subject_free(&seen);
-    subject_end();
 }
 
 int main(int argc, char **argv)

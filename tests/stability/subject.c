@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static glssao_effect *shared;
-
 static const struct depth_format {
     const char *name;
     GLenum internal;
@@ -160,23 +158,9 @@ void subject_frame_free(glssao_frame *frame)
     gl.DeleteTextures(1, &frame->second_texture);
 }
 
-glssao_effect *subject_effect(fixture *f, int width, int height)
-{
-    if (!shared)
-        shared = fixture_effect(f, width, height);
-    assert_int_equal(glssao_resize(shared, width, height), GLSSAO_OK);
-    return shared;
-}
-
-void subject_end(void)
-{
-    glssao_destroy(shared);
-    shared = NULL;
-}
-
 picture subject_shade(fixture *f, int width, int height, const glssao_frame *frame, const glssao_settings *settings)
 {
-    glssao_effect *effect = subject_effect(f, width, height);
+    glssao_effect *effect = fixture_shared_effect(f, width, height);
     fixture_clear_log(f);
     const glssao_result result = glssao_compute(effect, frame, settings);
     if (result != GLSSAO_OK)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * What the stability tests hand over: a picture of shapes, stored in any way that a host may store it, and the
- * accessibility that comes back. One effect serves a whole test program, so that each shader is compiled once.
+ * accessibility that comes back.
  */
 #ifndef GLSSAO_TESTS_SUBJECT_H
 #define GLSSAO_TESTS_SUBJECT_H
@@ -56,11 +56,8 @@ void subject_free(subject *s);
 glssao_frame subject_frame(const subject *s, depth_store depth, normal_store normal);
 void subject_frame_free(glssao_frame *frame);
 
-/* The program's effect at this size. subject_end destroys it; a group's last act. */
-glssao_effect *subject_effect(fixture *f, int width, int height);
-void subject_end(void);
-
-/* What glssao_compute makes of the frame; fails the test on any but GLSSAO_OK. The caller frees the values. */
+/* What glssao_compute makes of the frame, with the fixture's effect; fails the test on any but GLSSAO_OK. The caller
+ * frees the values. */
 picture subject_shade(fixture *f, int width, int height, const glssao_frame *frame, const glssao_settings *settings);
 
 /* Names for messages. */

@@ -161,7 +161,9 @@ static const hard_case cases[] = {
      .normal = NORMAL_32F, .lengths = 0.5, .least = {0.95, 0.97, 0.95}},
     {"half float distances", SEE_PLANE, 60.0, 30.0, .zoom = 10.0, .depth = DISTANCE_16F, .normal = NORMAL_32F,
      .lengths = 0.3, .least = {0.95, 0.97, 0.95}},
-    {"half floats past 65504", SEE_PLANE, .spoil = distance_1e6, .depth = ALPHA_16F, .least = EXACT},
+    {"half floats past 65504", SEE_PLANE, .spoil = distance_1e6, .depth = ALPHA_16F, .least = EXACT, .turn = 1},
+    {"a radius below a tenth of a pixel", SEE_ROOM, .lengths = 0.006, .depth = DEPTH_32F, .normal = NORMAL_32F,
+     .least = {0.9, 0.9, 0.9}},
     {"a scene of 10^-10", SEE_PLANE, 60.0, 3e-10, .near_plane = 1e-11, .far_plane = 1e-7, .depth = DEPTH_32F,
      .normal = NORMAL_32F, .least = OPEN},
     {"a scene of 10^11", SEE_PLANE, 60.0, 3e11, .near_plane = 1e10, .far_plane = 1e14, .depth = DEPTH_32F,
@@ -183,7 +185,7 @@ static const hard_case cases[] = {
      .normal = NORMAL_32F},
     {"distances that are none", SEE_ROOM, .spoil = distances_that_are_none, .depth = DISTANCE_32F,
      .normal = NORMAL_32F},
-    {"distances that are none, in alpha", SEE_ROOM, .spoil = distances_that_are_none, .depth = ALPHA_32F},
+    {"distances that are none, in alpha", SEE_ROOM, .spoil = distances_that_are_none, .depth = ALPHA_32F, .turn = 2},
     {"holes in a plane", SEE_PLANE, 40.0, .spoil = holes, .depth = DISTANCE_32F, .normal = NORMAL_32F,
      .least = {0.85, 0.85, 0.85}},
     /* settings */
@@ -202,15 +204,15 @@ static const hard_case cases[] = {
      .least = OPEN},
     {"thresholds that no tap meets", SEE_ROOM, .change = many_rounds, .depth = DEPTH_24, .normal = NORMAL_32F},
     /* sizes; a map one pixel wide tells nothing of its slope that way, and hemisphere samples there */
-    {"one pixel", SEE_PLANE, 60.0, .width = 1, .height = 1, .depth = DEPTH_24, .normal = NORMAL_32F,
+    {"one pixel", SEE_PLANE, 60.0, .turn = 3, .width = 1, .height = 1, .depth = DEPTH_24, .normal = NORMAL_32F,
      .least = {0.9, 0.85, 0.97}},
-    {"one column", SEE_PLANE, 60.0, .width = 1, .height = 97, .depth = DEPTH_24, .normal = NORMAL_32F,
+    {"one column", SEE_PLANE, 60.0, .turn = 4, .width = 1, .height = 97, .depth = DEPTH_24, .normal = NORMAL_32F,
      .least = {0.9, 0.85, 0.97}},
-    {"one row", SEE_PLANE, 60.0, .width = 97, .height = 1, .depth = DEPTH_24, .normal = NORMAL_32F,
+    {"one row", SEE_PLANE, 60.0, .turn = 5, .width = 97, .height = 1, .depth = DEPTH_24, .normal = NORMAL_32F,
      .least = {0.9, 0.85, 0.97}},
-    {"odd sizes", SEE_PLANE, 60.0, .width = 63, .height = 47, .depth = DEPTH_24, .normal = NORMAL_32F, .least = OPEN},
-    {"three pixels high", SEE_ROOM, .width = 61, .height = 3, .depth = DEPTH_24, .normal = NORMAL_32F},
-    {"16384 wide", SEE_PLANE, 60.0, .width = 16384, .height = 2, .depth = DEPTH_24, .normal = NORMAL_32F,
+    {"odd sizes", SEE_PLANE, 60.0, .width = 61, .height = 47, .depth = DEPTH_24, .normal = NORMAL_32F, .least = OPEN},
+    {"three pixels high", SEE_ROOM, .turn = 5, .width = 61, .height = 3, .depth = DEPTH_24, .normal = NORMAL_32F},
+    {"16384 wide", SEE_PLANE, 60.0, .turn = 3, .width = 16384, .height = 2, .depth = DEPTH_24, .normal = NORMAL_32F,
      .least = OPEN},
 };
 
@@ -252,17 +254,17 @@ static void stores(void **state)
                                  .normal = (normal_store)(1 + depth % (NORMAL_STORES - 1)),
                                  .projection = far ? ORTHOGRAPHIC : PERSPECTIVE,
                                  .zoom = far ? 0.1 : 1.0,
-                                 .least = OPEN};
+                                 .least = OPEN,
+                                 .turn = 1 + depth};
             pictures += hard_case_run(*state, &c, stride);
         }
 }
 
-static void end(void **state)
+static void picture_count(void **state)
 {
     (void)state;
     print_message("%d pictures\n", pictures);
-    assert_true(pictures > 2000 / stride);
-    subject_end();
+    assert_true(pictures > 1800 / stride);
 }
 
 int main(int argc, char **argv)
@@ -273,7 +275,7 @@ int main(int argc, char **argv)
         GL_TEST(hard_cases),
         GL_TEST(projections),
         GL_TEST(stores),
-        GL_TEST(end),
+        GL_TEST(picture_count),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
 }

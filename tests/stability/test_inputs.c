@@ -203,7 +203,7 @@ static void logarithms_are_undone(void **state)
 static void assert_refused(fixture *f, const glssao_frame *frame, const char *named)
 {
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
-    glssao_effect *effect = subject_effect(f, W, H);
+    glssao_effect *effect = fixture_shared_effect(f, W, H);
     fixture_clear_log(f);
     assert_int_equal(glssao_compute(effect, frame, &settings), GLSSAO_INVALID_ARGUMENT);
     if (!strstr(f->log, named))
@@ -249,7 +249,7 @@ static void a_map_that_a_pass_draws_into_is_refused(void **state)
     subject s = room();
     glssao_frame frame = subject_frame(&s, DEPTH_24, NORMAL_NONE), bad = frame;
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
-    glssao_effect *effect = subject_effect(f, W, H);
+    glssao_effect *effect = fixture_shared_effect(f, W, H);
     int w, h;
     bad.depth_texture = glssao_map(effect, GLSSAO_MAP_NORMAL, &w, &h); /* where normals would be rebuilt */
     assert_refused(f, &bad, "the effect's own map");
@@ -257,16 +257,47 @@ static void a_map_that_a_pass_draws_into_is_refused(void **state)
     bad.depth_texture = glssao_map(effect, GLSSAO_MAP_AMBIENT, &w, &h);
     assert_refused(f, &bad, "the effect's own map");
 
-    GLuint framebuffer;
+    subject_frame_free(&frame);
+    subject_free(&s);
+}
+
+/* Drawn into, or attached beside what is drawn into, or with nothing drawn into at all: feedback each time. */
+static void applying_into_what_is_read_is_refused(void **state)
+{
+    fixture *f = *state;
+    subject s = room();
+    glssao_frame frame = subject_frame(&s, DEPTH_24, NORMAL_32F);
+    const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
+    glssao_effect *effect = fixture_shared_effect(f, W, H);
+    assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_OK);
+    int w, h;
+    const GLuint map = glssao_map(effect, GLSSAO_MAP_AMBIENT, &w, &h);
+    GLuint framebuffer, color;
+    gl.GenTextures(1, &color);
+    gl.BindTexture(GL_TEXTURE_2D, color);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R16, w, h, 0, GL_RED, GL_FLOAT, NULL);
     gl.GenFramebuffers(1, &framebuffer);
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
-                            glssao_map(effect, GLSSAO_MAP_AMBIENT, &w, &h), 0);
-    fixture_clear_log(f);
-    assert_int_equal(glssao_apply(effect, framebuffer), GLSSAO_INVALID_ARGUMENT);
-    assert_non_null(strstr(f->log, "the accessibility map itself"));
+    static const struct {
+        int map_at;
+        GLenum draws;
+        glssao_result result;
+    } cases[] = {{0, GL_COLOR_ATTACHMENT0, GLSSAO_INVALID_ARGUMENT},
+                 {1, GL_COLOR_ATTACHMENT0, GLSSAO_INVALID_ARGUMENT},
+                 {0, GL_NONE, GLSSAO_INVALID_ARGUMENT},
+                 {-1, GL_COLOR_ATTACHMENT0, GLSSAO_OK}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        for (int k = 0; k < 2; ++k)
+            gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + (GLenum)k, GL_TEXTURE_2D,
+                                    k == cases[i].map_at ? map : color, 0);
+        gl.DrawBuffers(1, &cases[i].draws);
+        fixture_clear_log(f);
+        assert_int_equal(glssao_apply(effect, framebuffer), cases[i].result);
+        assert_true((strstr(f->log, "the accessibility map itself") != NULL) == (cases[i].map_at >= 0));
+    }
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     gl.DeleteFramebuffers(1, &framebuffer);
+    gl.DeleteTextures(1, &color);
     subject_frame_free(&frame);
     subject_free(&s);
 }
@@ -292,12 +323,6 @@ static void depth_may_stay_attached_to_the_bound_framebuffer(void **state)
     subject_free(&s);
 }
 
-static void end(void **state)
-{
-    (void)state;
-    subject_end();
-}
-
 int main(void)
 {
 #define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
@@ -307,8 +332,8 @@ int main(void)
         GL_TEST(logarithms_are_undone),
         GL_TEST(unreadable_inputs_are_named),
         GL_TEST(a_map_that_a_pass_draws_into_is_refused),
+        GL_TEST(applying_into_what_is_read_is_refused),
         GL_TEST(depth_may_stay_attached_to_the_bound_framebuffer),
-        GL_TEST(end),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
 }

@@ -140,7 +140,6 @@ static void random_cases(void **state)
     print_message("%d cases from seed %llu\n", cases, (unsigned long long)first_seed);
     for (int i = 0; i < cases; ++i)
         random_case(*state, first_seed + (uint64_t)i);
-    subject_end();
 }
 
 int main(int argc, char **argv)

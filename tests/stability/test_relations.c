@@ -224,12 +224,6 @@ static void greater_power_never_brightens(void **state)
     for_each_configuration(state, check_power);
 }
 
-static void end(void **state)
-{
-    (void)state;
-    subject_end();
-}
-
 int main(int argc, char **argv)
 {
     stride = configuration_stride(argc, argv);
@@ -242,7 +236,6 @@ int main(int argc, char **argv)
         GL_TEST(quarter_turns_turn_the_picture),
         GL_TEST(greater_radius_never_brightens_the_mean),
         GL_TEST(greater_power_never_brightens),
-        GL_TEST(end),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
 }

@@ -26,6 +26,7 @@ int fixture_setup(void **state)
 int fixture_teardown(void **state)
 {
     fixture *f = *state;
+    glssao_destroy(f->effect);
     context_destroy(f->context);
     free(f);
     return 0;
@@ -86,6 +87,14 @@ glssao_effect *fixture_effect(fixture *f, int width, int height)
     if (result != GLSSAO_OK)
         fail_msg("glssao_create: %s: %s", glssao_result_string(result), f->log);
     return effect;
+}
+
+glssao_effect *fixture_shared_effect(fixture *f, int width, int height)
+{
+    if (!f->effect)
+        f->effect = fixture_effect(f, width, height);
+    assert_int_equal(glssao_resize(f->effect, width, height), GLSSAO_OK);
+    return f->effect;
 }
 
 static GLuint make_texture(GLenum internal_format, GLenum format, GLenum type, int width, int height, const void *data)

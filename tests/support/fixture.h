@@ -21,6 +21,7 @@
 typedef struct fixture {
     struct context *context; /* the tag, so that C++ compilers take it too */
     char log[4096];          /* lines since fixture_clear_log */
+    glssao_effect *effect;   /* fixture_shared_effect's */
 } fixture;
 
 /* cmocka group functions: no context is a failure, not a skip. The fixture is the test's *state. */
@@ -35,6 +36,8 @@ void fixture_log(glssao_log_level level, const char *message, void *user);
 /* A config for the fixture's context, log kept. */
 glssao_config fixture_config(fixture *f, int width, int height);
 glssao_effect *fixture_effect(fixture *f, int width, int height);
+/* The group's own effect at this size, whose shaders are compiled once; the teardown destroys it. */
+glssao_effect *fixture_shared_effect(fixture *f, int width, int height);
 
 GLuint fixture_depth_texture(GLenum internal_format, int width, int height, const float *depth);
 /* xyz a pixel; RGBA32F, so that the model is fed the same numbers. */

@@ -11,6 +11,7 @@ static struct {
     gl_counts counts;
     GLbitfield lacking; /* barriers since the last dispatch */
     void(APIENTRY *draw_arrays)(GLenum, GLint, GLsizei);
+    void(APIENTRY *draw_elements)(GLenum, GLsizei, GLenum, const void *, GLsizei);
     void(APIENTRY *dispatch)(GLuint, GLuint, GLuint);
     void(APIENTRY *memory_barrier)(GLbitfield);
     void(APIENTRY *compile_shader)(GLuint);
@@ -48,6 +49,12 @@ static void APIENTRY draw_arrays(GLenum mode, GLint first, GLsizei count)
     counter.draw_arrays(mode, first, count);
 }
 
+static void APIENTRY draw_elements(GLenum mode, GLsizei count, GLenum type, const void *indices, GLsizei instances)
+{
+    counter.counts.elements++;
+    counter.draw_elements(mode, count, type, indices, instances);
+}
+
 static void APIENTRY compile_shader(GLuint shader)
 {
     counter.counts.shaders++;
@@ -74,8 +81,12 @@ static int bytes_of(GLint internal_format)
     case GL_RGBA16F:
     case GL_RG32F:
         return 8;
+    case GL_RGB16F:
+        return 6;
     case GL_R16:
         return 2;
+    case GL_R8:
+        return 1;
     default:
         return 4; /* R32F, RGBA8 */
     }
@@ -115,6 +126,7 @@ void *gl_counter_load(const char *wanted, void *user)
     (void)user;
     void *address = counter.load(wanted, counter.user);
     COUNTED("glDrawArrays", draw_arrays, draw_arrays)
+    COUNTED("glDrawElementsInstanced", draw_elements, draw_elements)
     COUNTED("glDispatchCompute", dispatch, dispatch)
     COUNTED("glMemoryBarrier", memory_barrier, memory_barrier)
     COUNTED("glCompileShader", compile_shader, compile_shader)

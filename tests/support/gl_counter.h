@@ -10,6 +10,7 @@
 
 typedef struct gl_counts {
     int draws;      /* glDrawArrays */
+    int elements;   /* glDrawElementsInstanced */
     int dispatches; /* glDispatchCompute */
     int unordered;  /* draws, dispatches and ends that followed a dispatch without the barrier that they need */
     int shaders;    /* glCompileShader */

@@ -144,6 +144,15 @@ static double least_nearer(const model_input *in, int x, int y, double t, vec3 n
            at * at * (double)in->depth_step[2] + slope / fmax(256.0 * fabs(facing), 1e-3);
 }
 
+/* The radius over the smaller side of an ambient pixel at distance t; 1 at most. */
+static double radius_fade(const model_input *in, double t)
+{
+    const vec3 p = position_view(in, 0.5, 0.5, t);
+    const double across = fabs(position_view(in, 0.5 + 1.0 / in->ambient_width, 0.5, t).x - p.x);
+    const double up = fabs(position_view(in, 0.5, 0.5 + 1.0 / in->ambient_height, t).y - p.y);
+    return fmin((double)in->settings->radius / fmin(across, up), 1.0);
+}
+
 static double distance_weight(const glssao_settings *s, double least, double nearer)
 {
     if (nearer <= least)
@@ -206,8 +215,9 @@ void model_classic(const model_input *in, int x, int y, double *out_low, double 
         low += weight_low * fmax(facing - facing_error, 0.0);
         high += weight_high * fmin(facing + facing_error, 1.0);
     }
-    *out_high = pow(fmax(1.0 - low / s->sample_count, 1e-6), (double)s->power);
-    *out_low = pow(fmax(1.0 - high / s->sample_count, 1e-6), (double)s->power);
+    const double share = radius_fade(in, -p.z) / s->sample_count;
+    *out_high = pow(fmax(1.0 - low * share, 1e-6), (double)s->power);
+    *out_low = pow(fmax(1.0 - high * share, 1e-6), (double)s->power);
 }
 
 static void unit_length(vec3 *v)
@@ -264,8 +274,9 @@ void model_hemisphere(const model_input *in, int x, int y, double *out_low, doub
         high += behind > -error && reach > -error ? 1.0 : 0.0;
         counted += 1.0;
     }
-    double occlusion_low = low / fmax(counted + perhaps_counted, 1.0);
-    double occlusion_high = fmin((high + perhaps_counted) / fmax(counted, 1.0), 1.0);
+    const double fade = radius_fade(in, center);
+    double occlusion_low = fade * low / fmax(counted + perhaps_counted, 1.0);
+    double occlusion_high = fade * fmin((high + perhaps_counted) / fmax(counted, 1.0), 1.0);
     *out_high = pow(fmax(1.0 - occlusion_low, 1e-6), (double)s->power);
     *out_low = pow(fmax(1.0 - occlusion_high, 1e-6), (double)s->power);
 }

@@ -148,10 +148,10 @@ draw -s 320x200 --scene plane -o render-restored.png
 same "restored" restored.png render-restored.png
 stop
 
-start -s 640x400 -o saved.png
+start -s 640x400 --set tiles=on -o saved.png
 press g # the panel away
 shot on
-draw -s 640x400 -o render-on.png
+draw -s 640x400 --set tiles=on -o render-on.png
 draw -s 640x400 --no-ao -o render-off.png
 same "on the screen is what glssao-render draws" on.png render-on.png
 different "the panel is seen" 20000 started.png on.png
@@ -185,19 +185,20 @@ sleep 0.3
 last=still.png
 
 # Maps.
-draw -s 640x400 --ao render-ao.png --normals render-normals.png
+draw -s 640x400 --set tiles=on --ao render-ao.png --normals render-normals.png
 press o
 shot ao
 same "accessibility" ao.png render-ao.png
 press n
 shot normals
 same "normals" normals.png render-normals.png
-for map in u v x h; do
+for map in u v x h z; do
     before=$last
     press $map
     shot map-$map
     different "map $map" 20000 map-$map.png "$before"
 done
+[ "$("$eyes" colors map-z.png)" -gt 1 ] || fail "no tile is left out, or the map does not show it"
 press t
 shot truth # black until the first rays are there
 [ "$("$eyes" colors truth.png)" -gt 50 ] || shot truth
@@ -258,6 +259,21 @@ cp broken.gltf 'broken too.gltf'
 "$hands" drop "$window" "$PWD/broken too.gltf" || fail "the dropped file is refused"
 await grep -q 'glssao-view: .*broken too.gltf' view.err
 has_title 'dropped one.gltf' || fail "a broken file that was dropped took the scene away"
+
+# A picture that lights the scene, and one that is none.
+{
+    printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n'
+    for _ in $(seq 32); do printf '\100\200\100\200'; done
+} >'light it.hdr'
+"$hands" drop "$window" "$PWD/light it.hdr" || fail "the dropped picture is refused"
+shot lit
+different "the dropped picture" 100000 dropped.png lit.png
+save
+[[ $command = *"--environment"*"light it.hdr"* ]] || fail "the command line has no environment: $command"
+echo no picture >none.hdr
+"$hands" drop "$window" "$PWD/none.hdr" || fail "the dropped picture is refused"
+await grep -q 'glssao-view: .*none.hdr: neither a sound' view.err
+save
 
 # Resized: the camera that frames the scene follows.
 xdotool windowsize "$window" 300 400

@@ -1,13 +1,13 @@
 #version 330
 // SPDX-License-Identifier: MIT
 //
-// Main pass: the shaded picture. Accessibility scales ambient light alone, of which the environment is a gradient from
-// below to above; direct light it leaves alone. Unlit materials (LIT 0) show their base colour as it is: no light
+// Main pass: the shaded picture. Accessibility scales ambient light alone, which comes from a gradient from below to above,
+// or from a picture of the surroundings; direct light it leaves alone. Unlit materials (LIT 0) show their base colour as it is: no light
 // reaches them, so no occlusion does either. Blended ones are lit but not occluded: the accessibility map belongs to
 // the opaque surface behind them.
 // Macros, 0 or 1: TEXTURED (any map), BASE_MAPPED, COLORED, MASKED, BLENDED, LIT, and where LIT: DOUBLE_SIDED,
 // NORMAL_MAPPED, REFLECTIVE, ROUGHNESS_MAPPED, BAKED, EMISSIVE, EMISSION_MAPPED, SHADOWED, LIGHTS,
-// SPECULAR_OCCLUSION, MULTI_BOUNCE.
+// SPECULAR_OCCLUSION, MULTI_BOUNCE, ENVIRONMENT.
 // In:  what scene.vert writes.
 // Out: linear colour, alpha (1 unless BLENDED); the framebuffer encodes sRGB.
 
@@ -26,9 +26,17 @@ uniform float u_alpha_cutoff;
 
 #if LIT
 const float pi = 3.14159265;
+#if ENVIRONMENT
+uniform vec3 u_irradiance[9]; // irradiance / pi times: 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2 of the normal in the world
+uniform mat3 u_world_from_view;
+#if REFLECTIVE
+uniform sampler2D u_environment_map; // what mirrors show, a level for each fifth of roughness
+#endif
+#else
 uniform vec3 u_ambient;      // radiance from the side; irradiance / pi on a surface that faces sideways
 uniform vec3 u_ambient_tilt; // how much more comes from straight above, and less from straight below
 uniform vec3 u_up_view;      // the world's up, unit
+#endif
 uniform vec3 u_directional;  // irradiance / pi
 uniform vec3 u_to_light_view;
 #if !BLENDED
@@ -143,11 +151,40 @@ vec3 lit_by_lights(surface s)
 }
 #endif
 
-// Ambient radiance / pi on the surface, and in the mirror's direction. The gradient is linear in the height of the
-// direction, whose mean over a cosine lobe is 2/3 of the lobe's; a rough mirror's lobe is taken to be in between.
+// Irradiance / pi of a surface that faces that way, and what a mirror shows there.
+#if ENVIRONMENT
+vec3 matte_light(vec3 normal_view)
+{
+    vec3 n = u_world_from_view * normal_view;
+    vec3 flat_part = u_irradiance[0] + u_irradiance[1] * n.y + u_irradiance[2] * n.z + u_irradiance[3] * n.x;
+    return max(flat_part + u_irradiance[4] * (n.x * n.y) + u_irradiance[5] * (n.y * n.z) +
+                   u_irradiance[6] * (3.0 * n.z * n.z - 1.0) + u_irradiance[7] * (n.x * n.z) +
+                   u_irradiance[8] * (n.x * n.x - n.y * n.y), 0.0);
+}
+#if REFLECTIVE
+vec3 glossy_light(vec3 mirror_view, float roughness)
+{
+    return textureLod(u_environment_map, environment_uv(normalize(u_world_from_view * mirror_view)), roughness * 5.0).rgb;
+}
+#endif
+#else
+// The gradient is linear in the height of the direction, whose mean over a cosine lobe is 2/3 of the lobe's; a rough
+// mirror's lobe is taken to be in between.
+vec3 matte_light(vec3 normal_view)
+{
+    return u_ambient + u_ambient_tilt * (dot(normal_view, u_up_view) * (2.0 / 3.0));
+}
+#if REFLECTIVE
+vec3 glossy_light(vec3 mirror_view, float roughness)
+{
+    return u_ambient + u_ambient_tilt * (dot(mirror_view, u_up_view) * mix(1.0, 2.0 / 3.0, roughness));
+}
+#endif
+#endif
+
 vec3 ambient_light(surface s, float accessibility)
 {
-    vec3 matte = u_ambient + u_ambient_tilt * (dot(s.normal_view, u_up_view) * (2.0 / 3.0));
+    vec3 matte = matte_light(s.normal_view);
 #if MULTI_BOUNCE && !BLENDED
     // Jimenez et al. 2016, "Practical Realtime Strategies for Accurate Indirect Occlusion", equation 10: light that
     // bounces between near surfaces takes on their colour.
@@ -160,7 +197,7 @@ vec3 ambient_light(surface s, float accessibility)
 #if REFLECTIVE
     float cos_eye = clamp(dot(s.normal_view, s.to_eye_view), 0.0, 1.0);
     vec3 mirror_view = reflect(-s.to_eye_view, s.normal_view);
-    vec3 glossy = u_ambient + u_ambient_tilt * (dot(mirror_view, u_up_view) * mix(1.0, 2.0 / 3.0, s.roughness));
+    vec3 glossy = glossy_light(mirror_view, s.roughness);
     // Karis 2014, "Physically Based Shading on Mobile": a fit to the integral of Fresnel and masking.
     vec4 r = s.roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
     float a004 = min(r.x * r.x, exp2(-9.28 * cos_eye)) * r.x + r.y;

@@ -269,7 +269,8 @@ GLSSAO_API glssao_settings glssao_default_settings(glssao_technique technique, g
 /* For hosts without view-space normals of their own: binds the effect's normal map and your depth texture
  * (depth or depth-stencil format, full size) as the draw framebuffer, sets the viewport to the full size, and
  * clears both: normals to (0, 0, 1, 0), depth to your glClearDepth value. Draw your opaque geometry, writing
- * view-space normals to output 0, then call glssao_end_normals, which restores framebuffers and viewport.
+ * view-space normals to output 0 and sampling neither, then call glssao_end_normals, which restores framebuffers and
+ * viewport.
  * Hand glssao_map(effect, GLSSAO_MAP_NORMAL, ...) to glssao_compute as normal_texture afterwards. */
 GLSSAO_API glssao_result glssao_begin_normals(glssao_effect *effect, uint32_t depth_texture);
 /* Restores the framebuffer and viewport of glssao_begin_normals. INVALID_ARGUMENT without one. */
@@ -300,7 +301,7 @@ GLSSAO_API void glssao_restart_accumulation(glssao_effect *effect);
 /* Multiplies accessibility into the colour (alpha stays) of draw buffer 0 of `framebuffer` (0: the default one),
  * over the full size, less the margin, from its lower left corner. Occlusion then darkens direct light too: to be exact, sample
  * the map in your own shader and scale ambient light alone. Needs a glssao_compute before. Fails with INVALID_ARGUMENT where
- * that buffer is the map itself, and as glssao_compute does. */
+ * the map itself is attached to `framebuffer`, and as glssao_compute does. */
 GLSSAO_API glssao_result glssao_apply(glssao_effect *effect, uint32_t framebuffer);
 
 /* The texture's name, and its size if the pointers are not NULL; valid until the next resize, compute (which makes

@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The main pass: lights, opaque items with depth EQUAL, the sky, then blended items back to front.
+ */
+#define CGLM_ALL_UNALIGNED /* the matrices are plain float[16] */
+#include "draw_internal.h"
+#include "gl.h"
+
+#include <cglm/cglm.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int compare_back_to_front(const void *a, const void *b)
+{
+    const draw_order *x = a, *y = b;
+    if (x->view_distance != y->view_distance)
+        return x->view_distance > y->view_distance ? -1 : 1;
+    return (x->item > y->item) - (x->item < y->item);
+}
+
+static void sort_blended(scene_renderer *r, const scene_view *view)
+{
+    const float *m = view->view_from_world;
+    for (uint32_t i = r->opaque_count; i < r->item_count; i++) {
+        double distance = -(double)m[14];
+        for (int axis = 0; axis < 3; axis++)
+            distance -= (double)m[4 * axis + 2] * 0.5 * (r->items[i].bounds_min[axis] + r->items[i].bounds_max[axis]);
+        r->blended_order[i - r->opaque_count] = (draw_order){.view_distance = distance, .item = i};
+    }
+    qsort(r->blended_order, r->item_count - r->opaque_count, sizeof *r->blended_order, compare_back_to_front);
+}
+
+static void draw_blended(draw_pass *pass, scene_renderer *r)
+{
+    sort_blended(r, pass->view);
+    gl.DepthFunc(GL_LEQUAL);
+    gl.Enable(GL_BLEND);
+    /* Colour by straight alpha; the target's own alpha as coverage. */
+    gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    for (uint32_t i = 0; i < r->item_count - r->opaque_count; i++) {
+        const draw_item *item = &r->items[r->blended_order[i].item];
+        if (r->options.everything || draw_item_is_seen(item, pass->clip_from_world)) {
+            draw_item_now(pass, item);
+            r->counts.blended++;
+        } else {
+            r->counts.culled++;
+        }
+    }
+}
+
+static void rotate_to_view(const scene_view *view, const float world[3], vec3 out)
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = view->view_from_world[i] * world[0] + view->view_from_world[4 + i] * world[1] +
+                 view->view_from_world[8 + i] * world[2];
+}
+
+/* As main.frag takes them. */
+static void pack_light(const scene_light *light, const scene_view *view, float out[4][4])
+{
+    memset(out, 0, sizeof(float[4][4]));
+    const bool directional = light->kind == SCENE_LIGHT_DIRECTIONAL, spot = light->kind == SCENE_LIGHT_SPOT;
+    vec3 axis;
+    rotate_to_view(view, light->direction_world, axis);
+    rotate_to_view(view, light->position_world, out[0]);
+    for (int i = 0; i < 3; i++) {
+        out[0][i] = directional ? -axis[i] : out[0][i] + view->view_from_world[12 + i];
+        out[1][i] = light->color[i] / GLM_PIf;
+        out[2][i] = spot ? axis[i] : 0;
+    }
+    out[0][3] = directional ? 0 : 1;
+    out[1][3] = light->range > 0 ? 1 / (light->range * light->range * light->range * light->range) : 0;
+    out[2][3] = spot ? light->outer_cos : -1;
+    out[3][0] = spot ? 1 / fmaxf(light->inner_cos - light->outer_cos, 1e-3f) : 1;
+}
+
+static void set_lighting(draw_pass *pass, const scene_lighting *lighting)
+{
+    static const float up_world[3] = {0, 1, 0};
+    for (int i = 0; i < 3; i++) {
+        pass->ambient[i] = lighting->ambient[i];
+        pass->ambient_tilt[i] = lighting->ambient_tilt[i];
+        /* A white matte surface sends pi-th of the irradiance towards the eye. */
+        pass->directional[i] = lighting->directional[i] / GLM_PIf;
+    }
+    rotate_to_view(pass->view, up_world, pass->up_view);
+    rotate_to_view(pass->view, lighting->direction_world, pass->to_light_view);
+    glm_vec3_negate(pass->to_light_view);
+    glm_vec3_normalize(pass->to_light_view);
+    glm_vec3_normalize(pass->up_view);
+    pass->environment = lighting->environment;
+    for (int c = 0; c < 3; c++)
+        for (int row = 0; row < 3; row++) /* a view only turns: its inverse is its transpose */
+            pass->world_from_view[c][row] = pass->view->view_from_world[4 * row + c];
+    pass->light_count = (int)(lighting->light_count < MOST_LIGHTS ? lighting->light_count : MOST_LIGHTS);
+    for (int i = 0; i < pass->light_count; i++)
+        pack_light(&lighting->lights[i], pass->view, pass->lights[i]);
+}
+
+/* Whether the sky of this view was drawn before and no pixel of it passed: the scene stands still, so none will. Never
+ * waits; where it is not known, the sky may be seen. */
+static bool is_sky_hidden(scene_renderer *r, const scene_view *view)
+{
+    draw_sky_seen *seen = &r->sky_seen;
+    GLuint known = 0, samples = 1;
+    if (!seen->asked || memcmp(&seen->view, view, sizeof *view) != 0 || gl.IsEnabled(GL_SCISSOR_TEST))
+        return false;
+    gl.GetQueryObjectuiv(seen->query, GL_QUERY_RESULT_AVAILABLE, &known);
+    if (known)
+        gl.GetQueryObjectuiv(seen->query, GL_QUERY_RESULT, &samples);
+    return samples == 0;
+}
+
+/* At the far plane, where opaque surfaces left it to be seen. */
+static void draw_sky(scene_renderer *r, const scene_view *view, const scene_lighting *lighting)
+{
+    mat4 clip_from_world, world_from_clip, view_from_world;
+    memcpy(view_from_world, view->view_from_world, sizeof view_from_world);
+    /* Only directions matter: without the eye's place, nothing is lost to large coordinates. */
+    view_from_world[3][0] = view_from_world[3][1] = view_from_world[3][2] = 0;
+    glm_mat4_mul((vec4 *)view->clip_from_view, view_from_world, clip_from_world);
+    glm_mat4_inv(clip_from_world, world_from_clip);
+    char error[1024];
+    const int program = draw_find_sky(r, lighting, error, sizeof error); /* as a rule there since configuring */
+    if (program < 0) {
+        fprintf(stderr, "scene: %s\n", error);
+        return;
+    }
+    const draw_program *p = &r->pool->variants[program].program;
+    gl.UseProgram(p->name);
+    gl.BindVertexArray(r->empty_vertex_array);
+    gl.UniformMatrix4fv(p->world_from_clip, 1, GL_FALSE, world_from_clip[0]);
+    gl.Uniform3fv(p->sky, 1, lighting->sky);
+    gl.Uniform3fv(p->sky_tilt, 1, lighting->sky_tilt);
+    if (lighting->environment)
+        draw_bind_texture(UNIT_ENVIRONMENT, lighting->environment->sky, lighting->environment->sampler);
+    gl.Disable(GL_CULL_FACE);
+    gl.FrontFace(GL_CCW);
+    gl.DepthFunc(GL_LEQUAL);
+    /* Through scissors less may pass than the next drawing shows. */
+    r->sky_seen.asked = !gl.IsEnabled(GL_SCISSOR_TEST);
+    if (r->sky_seen.asked) {
+        if (!r->sky_seen.query)
+            gl.GenQueries(1, &r->sky_seen.query);
+        r->sky_seen.view = *view;
+        gl.BeginQuery(GL_SAMPLES_PASSED, r->sky_seen.query);
+    }
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    if (r->sky_seen.asked)
+        gl.EndQuery(GL_SAMPLES_PASSED);
+    r->counts.sky = 1;
+}
+
+void scene_draw_main(scene_renderer *r, const scene_view *view, const scene_lighting *lighting, unsigned ambient_map)
+{
+    if (!draw_is_ready(r))
+        return;
+    draw_pass pass = draw_begin(r, view, DRAW_MAIN);
+    set_lighting(&pass, lighting);
+    r->counts.culled = r->counts.blended = r->counts.sky = 0;
+
+    gl.Enable(GL_FRAMEBUFFER_SRGB);
+    const float sky[4] = {lighting->sky[0], lighting->sky[1], lighting->sky[2], 1.0f};
+    gl.ClearBufferfv(GL_COLOR, 0, sky);
+
+    draw_bind_texture(UNIT_AMBIENT, ambient_map ? ambient_map : r->white_texture, r->linear_sampler);
+    if (lighting->environment)
+        draw_bind_texture(UNIT_ENVIRONMENT, lighting->environment->mirrors, lighting->environment->sampler);
+    if (r->shadow.used)
+        draw_bind_texture(UNIT_SHADOW, r->shadow.texture, r->shadow.sampler);
+    gl.DepthMask(GL_FALSE);
+    gl.DepthFunc(GL_EQUAL);
+    r->counts.main = draw_opaque(&pass, &r->counts.culled);
+    if (r->options.everything || (draw_has_sky(lighting) && !is_sky_hidden(r, view))) {
+        draw_sky(r, view, lighting);
+        if (lighting->environment)
+            draw_bind_texture(UNIT_ENVIRONMENT, lighting->environment->mirrors, lighting->environment->sampler);
+        gl.BindVertexArray(r->vertex_array);
+        pass.program = NULL;
+    }
+    if (r->opaque_count < r->item_count)
+        draw_blended(&pass, r);
+    draw_set_defaults();
+}

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * A picture of all that surrounds a scene, as a source of light: irradiance as nine spherical harmonics, and what
+ * mirrors of growing roughness show. No OpenGL.
+ *
+ * The picture is equirectangular: twice as wide as high, straight up along its upper edge, straight down along its
+ * lower one. Its middle lies along -z of the world, to the right of it +x.
+ */
+#ifndef GLSSAO_EXAMPLES_ENVIRONMENT_H
+#define GLSSAO_EXAMPLES_ENVIRONMENT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { ENVIRONMENT_LEVELS = 6, ENVIRONMENT_WIDTH = 512, ENVIRONMENT_MOST_WIDTH = 4096 };
+
+/* Linear RGB, rows from the top. */
+typedef struct environment_picture {
+    int width, height;
+    float *rgb;
+} environment_picture;
+
+typedef struct environment {
+    environment_picture sky; /* the file's own, halved until it is no wider than ENVIRONMENT_MOST_WIDTH */
+    /* What mirrors of roughness i / 5 show: ENVIRONMENT_WIDTH wide, then each half as wide as the one before. */
+    environment_picture mirrors[ENVIRONMENT_LEVELS];
+    /* Irradiance / pi, times: 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2 of the unit normal. */
+    float irradiance[9][3];
+} environment;
+
+/* A PNG or JPEG (sRGB), or a Radiance picture (linear). Such a file says nothing of exposure: where it would give a
+ * white surface more than 1 it is dimmed as a whole, so that this is the most that the six directions along the axes
+ * get. NULL, with one line in `error` that names the file and the fault, on failure. */
+environment *environment_load(const char *path, char *error, size_t error_size);
+void environment_destroy(environment *e);
+
+/* Radiance / pi of a white matte surface that faces along the unit vector. */
+void environment_irradiance(const environment *e, const float normal_world[3], float out_rgb[3]);
+/* What a mirror of roughness level / 5 shows along the unit vector, filtered as a texture is. */
+void environment_mirrored(const environment *e, int level, const float direction_world[3], float out_rgb[3]);
+
+/* ---- environment_light.c */
+
+/* Fills mirrors and irradiance from the sky. False where memory is short. */
+bool environment_light(environment *e);
+
+#endif

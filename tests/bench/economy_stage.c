@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: MIT */
+#include "economy_stage.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool economy_stage_open(economy_stage *s, const bench_scene *b, int width, int height, char *error, size_t error_size)
+{
+    *s = (economy_stage){.lights = NULL};
+    s->scene = bench_scene_open(b, width, height, &s->view, &s->radius, error, error_size);
+    if (!s->scene)
+        return false;
+    s->lights = malloc((s->scene->light_count + 1u) * sizeof *s->lights);
+    if (!s->lights) {
+        snprintf(error, error_size, "out of memory");
+        return false;
+    }
+    s->lighting = scene_lighting_of(s->scene, s->lights);
+    return true;
+}
+
+void economy_stage_close(economy_stage *s)
+{
+    scene_destroy(s->scene);
+    free(s->lights);
+    *s = (economy_stage){.scene = NULL};
+}
+
+bool economy_player_open(economy_player *p, const economy_stage *s, glssao_load_fn load, void *load_user, char *error,
+                         size_t error_size)
+{
+    const int w = s->view.width, h = s->view.height;
+    *p = (economy_player){.stage = s, .renderer = scene_renderer_create(s->scene, error, error_size)};
+    if (!p->renderer)
+        return false;
+    const glssao_config config = {
+        .load = load, .load_user = load_user, .log = glssao_log_to_stderr, .width = w, .height = h, .no_timers = true};
+    if (glssao_create(&config, &p->effect) != GLSSAO_OK) {
+        snprintf(error, error_size, "no effect of %dx%d", w, h);
+        return false;
+    }
+    gl.GenTextures(1, &p->depth);
+    gl.BindTexture(GL_TEXTURE_2D, p->depth);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, w, h, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, NULL);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl.GenTextures(1, &p->color);
+    gl.BindTexture(GL_TEXTURE_2D, p->color);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, w, h, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    gl.GenFramebuffers(1, &p->framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, p->framebuffer);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, p->color, 0);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, p->depth, 0);
+    return true;
+}
+
+void economy_player_close(economy_player *p)
+{
+    glssao_destroy(p->effect);
+    if (p->renderer) {
+        gl.DeleteFramebuffers(1, &p->framebuffer);
+        gl.DeleteTextures(2, (const GLuint[2]){p->depth, p->color});
+        scene_renderer_destroy(p->renderer);
+    }
+    *p = (economy_player){.stage = NULL};
+}
+
+void economy_player_draw(economy_player *p, const economy_frame *f)
+{
+    const economy_stage *s = p->stage;
+    unsigned ambient = 0;
+    (void)glssao_begin_normals(p->effect, p->depth);
+    scene_draw_normals(p->renderer, &s->view);
+    (void)glssao_end_normals(p->effect);
+    if (f->quality >= 0) {
+        glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)f->quality);
+        settings.radius = s->radius;
+        settings.tiles = f->tiles;
+        glssao_frame frame = {.depth_texture = p->depth};
+        if (!f->everything) {
+            frame.normal_texture = glssao_map(p->effect, GLSSAO_MAP_NORMAL, NULL, NULL);
+            const scene_seen seen = scene_find_seen(p->renderer, &s->view);
+            frame.only_sky = seen.opaque == 0;
+            frame.no_ambient_light = f->main && (seen.lit == 0 || !scene_lighting_has_ambient(&s->lighting));
+        }
+        memcpy(frame.projection, s->view.clip_from_view, sizeof frame.projection);
+        (void)glssao_compute(p->effect, &frame, &settings);
+        ambient = glssao_map(p->effect, GLSSAO_MAP_AMBIENT, NULL, NULL);
+    }
+    if (f->main) {
+        scene_draw_shadow(p->renderer, &s->lighting);
+        gl.BindFramebuffer(GL_FRAMEBUFFER, p->framebuffer);
+        scene_draw_main(p->renderer, &s->view, &s->lighting, ambient);
+    }
+    gl.Finish();
+}
