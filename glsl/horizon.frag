@@ -179,7 +179,7 @@ uint hidden_by(vec3 at, vec2 layers, float width, slice_side side, least from, i
 {
     float x2 = at.x * at.x + 1e-12;
     bool counts = occludes(at, from); // of what does not, nothing is asked below
-    float chord = sqrt(1.0 - x2);
+    float chord = sqrt(max(1.0 - x2, 0.0)); // beyond the sphere its root would be none
     float thickness = WIDTH * width * at.z;
     float cos_top;
     uint mask = 0u;

@@ -7,7 +7,7 @@
 // After both directions there is little noise left but that of twice the tile's period. Later rounds take it out in a single
 // pass: a quarter of the pixel and 3/16 of each of the four at three pixels from it, where they lie on a line or in a hollow.
 
-// All found by experiment. How far off a line may be, in units of the radius.
+// All found by experiment. How far off a line may be, in units of the radius; a step of the depth format, if that is more.
 const float BLUR_TOLERANCE = 0.02;
 // How far off a neighbour of a pixel without others may be, in units of the radius.
 const float BLUR_NEAR = 0.1;
@@ -15,10 +15,15 @@ const float BLUR_NEAR = 0.1;
 // the noise shows along it.
 const float BLUR_HOLLOW = 0.1;
 
+float line_tolerance(float linear)
+{
+    return max(linear_error(BLUR_TOLERANCE * gOcclusionRadius, linear), linear_step(linear));
+}
+
 // Accessibility of a pixel of the paired map from its own and the two on each side along `way`.
 float blurred(vec2 before_2, vec2 before, vec2 center, vec2 after, vec2 after_2, vec2 way)
 {
-    float tolerance = linear_error(BLUR_TOLERANCE * gOcclusionRadius, center.y);
+    float tolerance = line_tolerance(center.y);
     float near = linear_error(BLUR_NEAR * gOcclusionRadius, center.y);
     bool on_line = abs(before.y - 2.0 * center.y + after.y) < tolerance;
     bool on_before = abs(before_2.y - 2.0 * before.y + center.y) < tolerance;
@@ -46,7 +51,7 @@ float blurred(vec2 before_2, vec2 before, vec2 center, vec2 after, vec2 after_2,
 // The same of a later round, from its own and the four at three pixels from it.
 float blurred_wide(vec2 left, vec2 below, vec2 center, vec2 above, vec2 right)
 {
-    float tolerance = linear_error(BLUR_TOLERANCE * gOcclusionRadius, center.y);
+    float tolerance = line_tolerance(center.y);
     float hollow = linear_error(BLUR_HOLLOW * gOcclusionRadius, center.y);
     vec2 bend = vec2(left.y, below.y) - 2.0 * center.y + vec2(right.y, above.y);
     bend = orthographic() ? -bend : bend; // above 0 in a hollow

@@ -4,7 +4,7 @@
 // in  u_depth_map      stored depth, full size; point sampled
 // in  u_normal_map     view space, full size; point sampled
 
-// How far off the plane a pixel may be, and how far off a neighbour on the same surface, in units of the radius; found by
+// How far off the plane a pixel may be (half a step of the depth format, if that is more), and how far off a neighbour on the same surface, in units of the radius; found by
 // experiment.
 const float UPSAMPLE_TOLERANCE = 0.02;
 const float UPSAMPLE_NEAR = 0.1;
@@ -30,7 +30,8 @@ float upsampled(vec2 a, vec2 b, vec2 c, vec2 d, vec2 odd, vec2 full_uv)
                              turns_away(projected_normal(codes.w) - projected, odd));
         off = mix(off, vec4(AROUND_CREASE), turned);
     }
-    bool on_plane = abs(dot(apart, vec4(0.25))) < linear_error(UPSAMPLE_TOLERANCE * gOcclusionRadius, own);
+    float tolerance = max(linear_error(UPSAMPLE_TOLERANCE * gOcclusionRadius, own), 0.5 * linear_step(own));
+    bool on_plane = abs(dot(apart, vec4(0.25))) < tolerance;
     float near = on_plane ? 0.5 * AROUND_CREASE : linear_error(UPSAMPLE_NEAR * gOcclusionRadius, own);
     // At least the nearest is within it.
     near = max(near, min(min(off.x, off.y), min(off.z, off.w)));

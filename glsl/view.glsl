@@ -101,6 +101,13 @@ float linear_error(float length, float linear)
     return orthographic() ? length : length * linear * linear;
 }
 
+// What a step of the depth format comes to in it.
+float linear_step(float linear)
+{
+    vec2 shares = orthographic() ? vec2(1.0, linear * linear) : vec2(linear * linear, 1.0);
+    return shares.x * gDepthStep.x + linear * gDepthStep.y + shares.y * gDepthStep.z;
+}
+
 // Whether a stored depth means that nothing was drawn.
 bool is_sky(float depth)
 {
