@@ -27,15 +27,21 @@ typedef struct setup {
     pass_constants blur, upsample;
 } setup;
 
-static void set_up(setup *s, fixture *f, analytic_projection projection, int width, int height)
+/* `bits`: of the depth format, 16 or 32 (floats). */
+static void set_up(setup *s, fixture *f, analytic_projection projection, int bits, int width, int height)
 {
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     analytic_room(room, 1.0);
-    const analytic_view view = analytic_make_view(projection, (double)width / height, 0.5, 40.0, 1.0);
+    /* With the near plane that close, a step of 16 bits is more than the tolerance from 5 units on. */
+    const double near = bits == 16 ? 0.02 : 0.5;
+    const analytic_view view = analytic_make_view(projection, (double)width / height, near, 40.0, 1.0);
     *s = (setup){.width = width, .height = height};
     analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, width, height, &s->depth, &s->normals);
+    for (int i = 0; bits == 16 && i < width * height; ++i)
+        s->depth[i] = roundf(s->depth[i] * 65535.0f) / 65535.0f;
     s->effect = fixture_effect(f, width, height);
-    s->frame = (glssao_frame){.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, width, height, s->depth),
+    s->frame = (glssao_frame){.depth_texture = fixture_depth_texture(
+                                  bits == 16 ? GL_DEPTH_COMPONENT16 : GL_DEPTH_COMPONENT32F, width, height, s->depth),
                               .normal_texture = fixture_normal_texture(width, height, s->normals),
                               .clip_zero_to_one = view.clip_zero_to_one};
     memcpy(s->frame.projection, view.projection, sizeof view.projection);
@@ -51,6 +57,10 @@ static void set_up(setup *s, fixture *f, analytic_projection projection, int wid
         in_radius[i]->near *= (double)s->settings.radius;
         in_radius[i]->hollow *= (double)s->settings.radius;
     }
+    int w, h;
+    free(fixture_compute(s->effect, &s->frame, &s->settings, &w, &h));
+    for (int i = 0; i < 2; ++i)
+        horizon_depth_step(s->effect, in_radius[i]->depth_step);
 }
 
 static void tear_down(setup *s)
@@ -94,13 +104,13 @@ static void add(tally *t, double got, double before, double low, double high, do
 }
 
 /* Some pixels must change, or the pass could do nothing. Few may be open: those midway between two neighbours across a
- * crease, one as near as the other (measured: 0.45 %). */
+ * crease, one as near as the other (measured: 0.45 %), and with 16 bits bends of just a step (1.38 %). */
 static void finish(const tally *t)
 {
     print_message("%s: worst outside %.1e, open %.2f %%, changed %.0f %%\n", t->what, t->worst,
                   100.0 * t->open / t->count, 100.0 * t->changed / t->count);
     assert_int_equal(t->wrong, 0);
-    assert_true(t->open * 100 < t->count);
+    assert_true(t->open * 50 < t->count);
     assert_true(t->changed * 200 > t->count);
 }
 
@@ -172,10 +182,10 @@ static void check_linear(const setup *s, const paired_map *map)
 }
 
 /* The estimate brought to full size alone, then with one round of blur between, then with two. */
-static void check_half_size(fixture *f, analytic_projection projection, int width, int height)
+static void check_half_size(fixture *f, analytic_projection projection, int bits, int width, int height)
 {
     setup s;
-    set_up(&s, f, projection, width, height);
+    set_up(&s, f, projection, bits, width, height);
     int w, h;
     s.settings.blur = GLSSAO_BLUR_NONE;
     float *result = fixture_compute(s.effect, &s.frame, &s.settings, &w, &h);
@@ -208,7 +218,7 @@ static void check_half_size(fixture *f, analytic_projection projection, int widt
 static void check_full_size(fixture *f, analytic_projection projection, int width, int height)
 {
     setup s;
-    set_up(&s, f, projection, width, height);
+    set_up(&s, f, projection, 32, width, height);
     s.settings.half_resolution = false;
     int w, h;
     float *result = fixture_compute(s.effect, &s.frame, &s.settings, &w, &h);
@@ -225,9 +235,10 @@ static void check_full_size(fixture *f, analytic_projection projection, int widt
 
 static void passes_agree_at_half_size(void **state)
 {
-    check_half_size(*state, PERSPECTIVE, 160, 120);
-    check_half_size(*state, PERSPECTIVE_REVERSED_ZERO_TO_ONE, 161, 121);
-    check_half_size(*state, ORTHOGRAPHIC, 121, 160);
+    check_half_size(*state, PERSPECTIVE, 32, 160, 120);
+    check_half_size(*state, PERSPECTIVE_REVERSED_ZERO_TO_ONE, 32, 161, 121);
+    check_half_size(*state, ORTHOGRAPHIC, 32, 121, 160);
+    check_half_size(*state, PERSPECTIVE, 16, 160, 120);
 }
 
 static void passes_agree_at_full_size(void **state)

@@ -35,6 +35,12 @@ bool horizon_read_pass_constants(pass_constants *out_blur, pass_constants *out_u
            read_pass_constants(SHADER_UPSAMPLE, "UPSAMPLE_TOLERANCE", "UPSAMPLE_NEAR", out_upsample);
 }
 
+void horizon_depth_step(const glssao_effect *effect, double out_step[3])
+{
+    for (int i = 0; i < 3; ++i)
+        out_step[i] = (double)effect->frame_constants.gDepthStep[i];
+}
+
 bool horizon_variant(const glssao_effect *effect, horizon_input *out)
 {
     int found = 0;
@@ -46,8 +52,7 @@ bool horizon_variant(const glssao_effect *effect, horizon_input *out)
         }
     out->steps = variant & VARIANT_STEPS_16 ? 16 : variant & VARIANT_STEPS_12 ? 12 : variant & VARIANT_STEPS_8 ? 8 : 6;
     out->slices = variant & VARIANT_SLICES_2 ? 2 : 1;
-    for (int i = 0; i < 3; ++i)
-        out->depth_step[i] = (double)effect->frame_constants.gDepthStep[i];
+    horizon_depth_step(effect, out->depth_step);
     const char *pieces[GLSSAO__PROGRAM_MAX_SOURCES];
     const int count = glssao__program_sources(SHADER_HORIZON, variant, GL_FRAGMENT_SHADER, pieces);
     return found == 1 && horizon_read_constants(pieces, count, variant & VARIANT_LAYERS, &out->constants);

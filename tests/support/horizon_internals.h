@@ -25,6 +25,8 @@ void horizon_read_noise(const glssao_effect *effect, horizon_input *out);
 /* Constants of the planar blur and of upsampling, lengths in units of the radius; false where one is missing. */
 bool horizon_read_pass_constants(pass_constants *out_blur, pass_constants *out_upsample);
 
+/* Of the last frame: what a step of its depth format comes to in view distance t, of 1, t and t^2. */
+void horizon_depth_step(const struct glssao_effect *effect, double out_step[3]);
 /* Slices, steps and constants of the variant that was compiled, and the step of the depth format; the effect must have
  * run one alone. */
 bool horizon_variant(const glssao_effect *effect, horizon_input *out);

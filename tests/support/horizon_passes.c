@@ -52,11 +52,18 @@ static double in_linear(double length, double linear, bool orthographic)
     return orthographic ? length : length * linear * linear;
 }
 
+/* What `steps` steps of the depth format come to in it. */
+static double step_in_linear(double steps, double linear, bool orthographic, const pass_constants *c)
+{
+    const double t = orthographic ? linear : 1.0 / linear;
+    return steps * in_linear(c->depth_step[0] + t * (c->depth_step[1] + t * c->depth_step[2]), linear, orthographic);
+}
+
 typedef enum truth { NO, YES, MAYBE } truth;
 
 static truth is_below(double value, double error, double limit)
 {
-    return value + error < limit ? YES : value - error >= limit ? NO : MAYBE;
+    return value + error < limit * (1.0 - 1e-6) ? YES : value - error >= limit * (1.0 + 1e-6) ? NO : MAYBE;
 }
 
 /* Whether b lies on the line through a and c. Differences of equal floats are exact, sky's among them. */
@@ -141,7 +148,8 @@ void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic
     texel taps[5];
     for (int i = 0; i < 5; ++i)
         taps[i] = texel_at(map, horizontal ? x + i - 2 : x, horizontal ? y : y + i - 2);
-    const double tolerance = in_linear(constants->tolerance, taps[2].linear, orthographic);
+    const double tolerance = fmax(in_linear(constants->tolerance, taps[2].linear, orthographic),
+                                  step_in_linear(1.0, taps[2].linear, orthographic, constants));
     const double near = in_linear(constants->near, taps[2].linear, orthographic);
     const double own[2] = {taps[2].normal[0], taps[2].normal[1]};
     truth tests[TESTS];
@@ -180,7 +188,8 @@ void wide_blur_model(const paired_map *map, bool orthographic, const pass_consta
     static const int ways[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     texel taps[5];
     taps[4] = texel_at(map, x, y);
-    const double tolerance = in_linear(constants->tolerance, taps[4].linear, orthographic);
+    const double tolerance = fmax(in_linear(constants->tolerance, taps[4].linear, orthographic),
+                                  step_in_linear(1.0, taps[4].linear, orthographic, constants));
     const double own[2] = {taps[4].normal[0], taps[4].normal[1]};
     truth tests[WIDE_TESTS];
     for (int i = 0; i < 4; ++i) {
@@ -258,7 +267,8 @@ void upsample_model(const paired_map *half, bool orthographic, const pass_consta
     for (int i = 0; all_alike && i < 4; ++i)
         tests[JOINS_0 + i] = YES;
     tests[ON_PLANE] = is_below(fabs(mean), f.error + 4.0 * 0x1p-24 * fabs(mean),
-                               in_linear(constants->tolerance, own->linear, orthographic));
+                               fmax(in_linear(constants->tolerance, own->linear, orthographic),
+                                    step_in_linear(0.5, own->linear, orthographic, constants)));
     *out_low = HUGE_VAL;
     *out_high = -HUGE_VAL;
     for (int i = 0; i < 2; ++i) {

@@ -17,8 +17,9 @@ typedef struct paired_map {
 
 typedef struct pass_constants {
     double tolerance, near, hollow; /* scene units; the last of later rounds of the blur alone */
-    double chord;           /* of two unit normals that belong to different sides of a crease */
+    double chord;                   /* of two unit normals that belong to different sides of a crease */
     double normal_step;
+    double depth_step[3]; /* what a step of the depth format comes to in view distance t: of 1, t and t^2 */
 } pass_constants;
 
 /* One direction of the first round; a later round. */
