@@ -361,11 +361,13 @@ static void plan_says_what_stats_prove(void **state)
     settings[1].blur = GLSSAO_BLUR_NONE;
     settings[2].radius = 0.0f;
     settings[3].fade_start = settings[3].fade_end = 0.0f;
-    /* Normals rebuilt, estimate, two a blur round; distance map and upsampling where the defaults have them. */
+    /* Normals rebuilt, estimate, two a blur round (planar: one after the first); distance map, and two for upsampling,
+     * where the defaults have them. */
     const int extra =
-        technique == GLSSAO_HORIZON ? 1 + (settings[0].half_resolution && settings[0].upsample ? 1 : 0) : 0;
-    const int draws[4] = {2 + extra + 2 * settings[0].blur_rounds, 2 + extra, 0,
-                          technique == GLSSAO_CLASSIC ? 0 : 2 + extra + 2 * settings[0].blur_rounds};
+        technique == GLSSAO_HORIZON ? 1 + (settings[0].half_resolution && settings[0].upsample ? 2 : 0) : 0;
+    const int rounds = settings[0].blur_rounds;
+    const int blur = settings[0].blur == GLSSAO_BLUR_PLANAR ? rounds + 1 : 2 * rounds;
+    const int draws[4] = {2 + extra + blur, 2 + extra, 0, technique == GLSSAO_CLASSIC ? 0 : 2 + extra + blur};
     for (int i = 0; i < 4; ++i) {
         glssao_plan plan = glssao_plan_frame(effect, &frame, &settings[i]);
         int w, h, planned = 0;
