@@ -112,7 +112,8 @@ bool economy_compare(const economy *e, const glssao_frame *frame, int width, int
                                       .log = glssao_log_to_stderr,
                                       .width = width,
                                       .height = height,
-                                      .no_timers = e->software};
+                                      .no_timers = e->software,
+                                      .path = GLSSAO_PATH_FRAGMENT}; /* only draws leave tiles out */
         glssao_settings s = *settings;
         s.tiles = tiles[i];
         done = glssao_create(&config, &effects[i]) == GLSSAO_OK && glssao_compute(effects[i], frame, &s) == GLSSAO_OK;
