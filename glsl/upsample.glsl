@@ -4,8 +4,8 @@
 // in  u_depth_map      stored depth, full size; point sampled
 // in  u_normal_map     view space, full size; point sampled
 
-// How far off the plane a pixel may be (half a step of the depth format, if that is more), and how far off a neighbour on the same surface, in units of the radius; found by
-// experiment.
+// How far off the plane a pixel may be (half a step of the depth format, if that is more), and how far off a neighbour on the
+// same surface, in units of the radius; found by experiment.
 const float UPSAMPLE_TOLERANCE = 0.02;
 const float UPSAMPLE_NEAR = 0.1;
 // How far off a neighbour around a crease counts as being: farther than any other.

@@ -20,9 +20,9 @@ typedef enum context_kind {
 
 typedef struct context_options {
     context_kind kind;
-    int major, minor;    /* version asked for; 0, 0 means 3.3 */
-    bool compatibility;  /* false: core profile */
-    context *share;      /* textures, buffers and programs are shared with this one; NULL: with none */
+    int major, minor;   /* version asked for; 0, 0 means 3.3 */
+    bool compatibility; /* false: core profile */
+    context *share;     /* textures, buffers and programs are shared with this one; NULL: with none */
 } context_options;
 
 /* Makes a context and makes it current on this thread. NULL on failure, with one line in `error` that says what
@@ -36,7 +36,8 @@ void context_destroy(context *c);
  * current on another thread. */
 bool context_make_current(context *c);
 
-/* What was taken, for a person: "EGL surfaceless: llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa ...". */
+/* What was taken, for a person: "EGL surfaceless: llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa
+ * ...". */
 const char *context_description(const context *c);
 
 /* True where the renderer is a software rasteriser (llvmpipe, softpipe, swrast, SwiftShader). */
