@@ -2,6 +2,7 @@
  *
  * Light on a surface: the environment, reflections against a plain C model, punctual lights.
  */
+#define _POSIX_C_SOURCE 200809L
 #include "camera.h"
 #include "draw.h"
 #include "draw_frame.h"
@@ -12,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const double pi = 3.14159265358979;
 
@@ -225,8 +227,9 @@ static void lights_of_the_scene_take_the_suns_place(void **state)
 static scene_environment *load_gradients(bool black)
 {
     enum { WIDTH = 256, HEIGHT = WIDTH / 2 };
-    static const char path[] = "test_draw_light.hdr";
-    char error[256];
+    char path[64], error[256];
+    snprintf(path, sizeof path, "test_draw_light-%ld.hdr",
+             (long)getpid()); /* the other context's test runs beside it */
     FILE *file = fopen(path, "wb");
     assert_non_null(file);
     fprintf(file, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n", HEIGHT, WIDTH);
