@@ -342,6 +342,8 @@ glssao_plan glssao__plan_accumulate(const glssao_effect *effect, const glssao_fr
 /* The size of the ambient maps that the settings ask for. */
 void glssao__plan_ambient_size(const glssao_effect *effect, const glssao_settings *settings, int *out_width,
                                int *out_height);
+/* What is left of a map without so many pixels along each side. */
+glssao__region glssao__plan_inner(int width, int height, int margin);
 /* What of its map a pass must draw so that the result comes out: all but the margin, and what later passes reach there.
  */
 glssao__region glssao__plan_region(const glssao_effect *effect, const glssao_frame *frame,
@@ -403,8 +405,6 @@ bool glssao__compute_can_run(const glssao_settings *settings, glssao_pass pass);
 /* Whether the frame is to be tried again without, after its programs could not be made. */
 bool glssao__compute_gives_up(glssao_effect *effect, const glssao_plan *plan, glssao_result result);
 /* Of the blur's rounds, those that run within the dispatch that brings the result to full size. */
-/* What is left of a map without so many pixels along each side. */
-glssao__region glssao__plan_inner(int width, int height, int margin);
 int glssao__compute_rounds_within(const glssao_settings *settings, const glssao_plan *plan);
 /* The program in use writes the region of the target. */
 void glssao__compute_dispatch(glssao_effect *effect, const glssao__target *target, const glssao__region *region);

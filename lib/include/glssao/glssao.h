@@ -74,7 +74,7 @@ typedef void (*glssao_log_fn)(glssao_log_level level, const char *message, void 
 /* ---- config: fixed for the effect's life ---------------------------------------------------------------- */
 
 /* How passes run that can run as compute shaders, too: distance, horizon's estimate, blurs and upsampling. Both ways
- * agree within a step of R16. */
+ * agree within a step of R16, on a GPU but for a few pixels where its rounding differs at a threshold. */
 typedef enum glssao_path {
     GLSSAO_PATH_AUTO = 0, /* compute shaders on GPUs that have and take them; fragment shaders on software rasterisers */
     GLSSAO_PATH_FRAGMENT, /* never compute shaders */
@@ -187,8 +187,9 @@ typedef struct glssao_frame { /* zero a field that you don't use */
 
 typedef enum glssao_map_id { /* textures to look at */
     GLSSAO_MAP_AMBIENT = 0,   /* the result: accessibility in red, R16; half size where it was estimated so and not upsampled */
-    GLSSAO_MAP_AMBIENT_OTHER, /* the second of the two ping-pong maps: the last horizontal blur, in red, where fragment
-                                 shaders blur (compute shaders may do without it). R16; after
+    GLSSAO_MAP_AMBIENT_OTHER, /* the second of the two ping-pong maps: what the blur last drew into it, in red: the last
+                                 horizontal blur, or a later round of the planar blur, where fragment shaders blur
+                                 (compute shaders may do without it). R16; after
                                  upsampling or the planar blur RG32F, in green what is linear in the picture of a plane,
                                  and red's ten lowest bits hold the normal */
     GLSSAO_MAP_NORMAL,        /* the effect's own normal map, RGBA16F, full size */
