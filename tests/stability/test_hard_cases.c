@@ -264,7 +264,7 @@ static void picture_count(void **state)
 {
     (void)state;
     print_message("%d pictures\n", pictures);
-    assert_true(pictures > 1800 / stride);
+    assert_true(pictures > 2000 / stride);
 }
 
 int main(int argc, char **argv)
