@@ -5,7 +5,7 @@
 set -euo pipefail
 [ $# = 2 ] || { sed -n 3,4p "$0"; exit 2; }
 if [ -z "${INSIDE_XVFB:-}" ]; then
-    INSIDE_XVFB=1 LIBGL_ALWAYS_SOFTWARE=1 exec xvfb-run -a -s "-screen 0 1280x800x24" bash "$0" "$@"
+    INSIDE_XVFB=1 LIBGL_ALWAYS_SOFTWARE=1 exec xvfb-run -a -s "-screen 0 1280x800x24 -noreset" bash "$0" "$@"
 fi
 view=$(realpath "$1")
 scenes=$(realpath "$2")

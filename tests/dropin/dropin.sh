@@ -10,7 +10,7 @@ if ! command -v xvfb-run >/dev/null; then
     exit 77
 fi
 if [ -z "${INSIDE_XVFB:-}" ]; then
-    INSIDE_XVFB=1 LIBGL_ALWAYS_SOFTWARE=1 exec xvfb-run -a -s "-screen 0 800x600x24" bash "$0" "$check" "$@"
+    INSIDE_XVFB=1 LIBGL_ALWAYS_SOFTWARE=1 exec xvfb-run -a -s "-screen 0 800x600x24 -noreset" bash "$0" "$check" "$@"
 fi
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT

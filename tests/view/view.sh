@@ -18,7 +18,8 @@ finish() {
 }
 trap finish EXIT
 cd "$work" || exit 1
-Xvfb -displayfd 4 -screen 0 800x600x24 -nolisten tcp 4>display 2>server.err &
+# Without -noreset it starts anew whenever its last client leaves, and refuses who comes meanwhile.
+Xvfb -displayfd 4 -screen 0 800x600x24 -nolisten tcp -noreset 4>display 2>server.err &
 server=$!
 for try in $(seq 100); do
     [ -s display ] && break
