@@ -14,11 +14,12 @@ out AMBIENT o_ambient;
 // How much an occluder counts that is this much nearer to the camera than the point (scene units), and more than `least`.
 float weight_from_distance(float nearer, float least)
 {
-    if (nearer <= least)
+    if (nearer <= least || nearer >= gOcclusionFadeEnd)
         return 0.0;
-    // Equal bounds make a step; the floor keeps its 0 / 0 from arising at exactly fade_end.
-    float fade_length = max(gOcclusionFadeEnd - gOcclusionFadeStart, 1e-20);
-    return clamp((gOcclusionFadeEnd - nearer) / fade_length, 0.0, 1.0);
+    // Equal bounds make a step and are never divided by: nothing lies between them.
+    if (nearer <= gOcclusionFadeStart)
+        return 1.0;
+    return (gOcclusionFadeEnd - nearer) / (gOcclusionFadeEnd - gOcclusionFadeStart);
 }
 
 void main()

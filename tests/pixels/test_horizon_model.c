@@ -277,60 +277,84 @@ static void add_layers(setup *s, const float *distance, double radius, uint32_t 
     free(layer);
 }
 
+typedef struct random_options {
+    int width, height, sample_count;
+    bool orthographic, layers;
+    double roughness, radius;
+} random_options;
+
 /* Distances and normals of no scene at all: some sky, some normals that look away, all heights from runs of steps to
  * noise. */
+static void check_random_frame(fixture *f, const random_options *o, uint32_t *random, const char *name)
+{
+    const int width = o->width, height = o->height;
+    const analytic_view view =
+        analytic_make_view(o->orthographic ? ORTHOGRAPHIC : PERSPECTIVE, (double)width / height, 0.5, 40.0, 1.0);
+    float *distance = malloc((size_t)(width * height) * sizeof *distance);
+    float *normals = malloc((size_t)(3 * width * height) * sizeof *normals);
+    double level = 4.0;
+    for (int i = 0; i < width * height; ++i) {
+        if (next_random(random) < 0.1)
+            level = 1.0 + 8.0 * next_random(random);
+        distance[i] = (float)(level * (1.0 + o->roughness * (next_random(random) - 0.5)));
+        if (next_random(random) < 0.05)
+            distance[i] = INFINITY;
+        for (int axis = 0; axis < 3; ++axis)
+            normals[3 * i + axis] = (float)(2.0 * next_random(random) - (axis == 2 ? 0.5 : 1.0));
+    }
+    setup s = {.effect = fixture_effect(f, width, height),
+               .frame = {.depth_kind = GLSSAO_DEPTH_VIEW_DISTANCE,
+                         .normal_texture = fixture_normal_texture(width, height, normals)},
+               .settings = bare_settings(o->sample_count, next_random(random) < 0.5, o->radius),
+               .width = width,
+               .height = height,
+               .normals = normals};
+    s.frame.depth_texture = distance_texture(width, height, distance);
+    if (o->layers)
+        add_layers(&s, distance, o->radius, random);
+    memcpy(s.frame.projection, view.projection, sizeof view.projection);
+    char what[140];
+    snprintf(what, sizeof what, "%s: %dx%d, %d samples, radius %.3f, roughness %.4f%s%s", name, width, height,
+             o->sample_count, o->radius, o->roughness, o->orthographic ? ", orthographic" : "",
+             o->layers ? ", layers" : "");
+    const vagueness most = {0.005, 0.01};
+    (void)check(&s, distance, &most, what);
+    gl.DeleteTextures(1, &s.frame.depth_texture);
+    gl.DeleteTextures(1, &s.frame.normal_texture);
+    gl.DeleteTextures(1, &s.frame.back_texture);
+    gl.DeleteTextures(1, &s.frame.second_texture);
+    glssao_destroy(s.effect);
+    free(distance);
+    free(normals);
+}
+
 static void agrees_on_random_frames(void **state)
 {
     static const int counts[] = {12, 16, 24, 32, 48, 64};
-    fixture *f = *state;
     for (uint32_t seed = 1; seed <= 24; ++seed) {
         uint32_t random = seed;
         for (int i = 0; i < 20; ++i)
             (void)next_random(&random);
-        const int width = 5 + (int)(36.0 * next_random(&random)), height = 5 + (int)(36.0 * next_random(&random));
-        const bool orthographic = next_random(&random) < 0.3;
-        const double roughness = pow(10.0, -3.0 * next_random(&random)),
-                     radius = pow(10.0, 2.0 * next_random(&random) - 1.0);
-        const int sample_count = counts[(int)(6.0 * next_random(&random))];
-        const analytic_view view =
-            analytic_make_view(orthographic ? ORTHOGRAPHIC : PERSPECTIVE, (double)width / height, 0.5, 40.0, 1.0);
-        float *distance = malloc((size_t)(width * height) * sizeof *distance);
-        float *normals = malloc((size_t)(3 * width * height) * sizeof *normals);
-        double level = 4.0;
-        for (int i = 0; i < width * height; ++i) {
-            if (next_random(&random) < 0.1)
-                level = 1.0 + 8.0 * next_random(&random);
-            distance[i] = (float)(level * (1.0 + roughness * (next_random(&random) - 0.5)));
-            if (next_random(&random) < 0.05)
-                distance[i] = INFINITY;
-            for (int axis = 0; axis < 3; ++axis)
-                normals[3 * i + axis] = (float)(2.0 * next_random(&random) - (axis == 2 ? 0.5 : 1.0));
-        }
-        setup s = {.effect = fixture_effect(f, width, height),
-                   .frame = {.depth_kind = GLSSAO_DEPTH_VIEW_DISTANCE,
-                             .normal_texture = fixture_normal_texture(width, height, normals)},
-                   .settings = bare_settings(sample_count, next_random(&random) < 0.5, radius),
-                   .width = width,
-                   .height = height,
-                   .normals = normals};
-        s.frame.depth_texture = distance_texture(width, height, distance);
-        const bool layers = seed % 3 == 0;
-        if (layers)
-            add_layers(&s, distance, radius, &random);
-        memcpy(s.frame.projection, view.projection, sizeof view.projection);
-        char what[120];
-        snprintf(what, sizeof what, "seed %u: %dx%d, %d samples, radius %.3f, roughness %.4f%s%s", seed, width, height,
-                 sample_count, radius, roughness, orthographic ? ", orthographic" : "", layers ? ", layers" : "");
-        const vagueness most = {0.005, 0.01};
-        (void)check(&s, distance, &most, what);
-        gl.DeleteTextures(1, &s.frame.depth_texture);
-        gl.DeleteTextures(1, &s.frame.normal_texture);
-        gl.DeleteTextures(1, &s.frame.back_texture);
-        gl.DeleteTextures(1, &s.frame.second_texture);
-        glssao_destroy(s.effect);
-        free(distance);
-        free(normals);
+        random_options o = {.layers = seed % 3 == 0};
+        o.width = 5 + (int)(36.0 * next_random(&random));
+        o.height = 5 + (int)(36.0 * next_random(&random));
+        o.orthographic = next_random(&random) < 0.3;
+        o.roughness = pow(10.0, -3.0 * next_random(&random));
+        o.radius = pow(10.0, 2.0 * next_random(&random) - 1.0);
+        o.sample_count = counts[(int)(6.0 * next_random(&random))];
+        char name[20];
+        snprintf(name, sizeof name, "seed %u", seed);
+        check_random_frame(*state, &o, &random, name);
     }
+}
+
+/* The radius is some 10^5 pixels, past which it counts as so many: in some pixels the first sample is then still in
+ * the picture. */
+static void agrees_where_steps_are_bounded(void **state)
+{
+    uint32_t random = 1;
+    const random_options o = {.width = 221, .height = 41, .sample_count = 16, .roughness = 0.1, .radius = 17000.0};
+    check_random_frame(*state, &o, &random, "steps that are bounded");
 }
 
 /* Each estimate that glssao_accumulate adds has other noise, and every second one the tile turned over. */
@@ -440,6 +464,7 @@ int main(void)
         GL_TEST(agrees_for_every_projection),
         GL_TEST(agrees_at_other_settings),
         GL_TEST(agrees_on_random_frames),
+        GL_TEST(agrees_where_steps_are_bounded),
         GL_TEST(agrees_for_each_estimate_of_a_still_view),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);

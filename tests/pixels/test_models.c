@@ -356,6 +356,39 @@ static void hemisphere_agrees_at_other_settings(void **state)
     }
 }
 
+/* A radius greater than the distance of all that is seen: samples behind the camera must not be mirrored into the
+ * picture, nor be counted. */
+static void estimates_agree_with_samples_behind_the_camera(void **state)
+{
+    for (int hemisphere = 0; hemisphere < 2; ++hemisphere) {
+        setup s;
+        set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 151, 100, 1.0, false});
+        if (hemisphere)
+            use_hemisphere(&s, 16);
+        s.settings.radius = 20.0f;
+        s.settings.fade_end = 10.0f;
+        s.settings.power = 1.0f;
+        check_estimate(&s, "samples behind the camera");
+        tear_down(&s);
+    }
+}
+
+/* Normals along the tile's own rotation vectors, which then span no plane with them. */
+static void hemisphere_agrees_for_normals_along_the_noise(void **state)
+{
+    setup s;
+    set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 151, 100, 1.0, false});
+    use_hemisphere(&s, 16);
+    s.settings.radius = 1.0f;
+    for (int y = 0; y < 100; ++y)
+        for (int x = 0; x < 151; ++x)
+            memcpy(s.normals + 3 * (y * 151 + x), s.rotations[y % 4 * 4 + x % 4], 3 * sizeof(float));
+    gl.DeleteTextures(1, &s.frame.normal_texture);
+    s.frame.normal_texture = fixture_normal_texture(151, 100, s.normals);
+    check_estimate(&s, "normals along the noise");
+    tear_down(&s);
+}
+
 /* Octahedral encoding of a unit vector, from its definition: project onto |x| + |y| + |z| = 1, fold the lower half. */
 static void octahedral(const float n[3], float out[2])
 {
@@ -425,6 +458,8 @@ int main(void)
         GL_TEST(estimates_agree_for_stored_distances),
         GL_TEST(hemisphere_agrees_for_every_projection),
         GL_TEST(hemisphere_agrees_at_other_settings),
+        GL_TEST(estimates_agree_with_samples_behind_the_camera),
+        GL_TEST(hemisphere_agrees_for_normals_along_the_noise),
         GL_TEST(octahedral_normals_shade_like_plain_ones),
         GL_TEST(blur_agrees),
     };
