@@ -63,7 +63,7 @@ void main()
         occlusion += weight_from_distance(to_occluder.z, least) * facing;
     }
     float accessibility = 1.0 - radius_fade(distance) * occlusion / float(gSampleCount);
-    // pow() is undefined for a base of 0 with power 0, and for the negative that rounding can leave.
+    // pow() is undefined below 0, which rounding can leave, and at 0 for a power so small that it is flushed to 0.
     o_ambient = ambient(clamp(pow(max(accessibility, 1e-6), gPower), 0.0, 1.0), linear, code);
 #endif
 }

@@ -60,7 +60,7 @@ void main()
     }
     // Where no sample counts, 0 / 0.
     float accessibility = 1.0 - radius_fade(center_distance) * occlusion / max(counted, 1.0);
-    // pow() is undefined for a base of 0 with power 0.
+    // pow() is undefined below 0, which rounding can leave, and at 0 for a power so small that it is flushed to 0.
     o_ambient = ambient(clamp(pow(max(accessibility, 1e-6), gPower), 0.0, 1.0), linear, code);
 #endif
 }

@@ -367,8 +367,8 @@ RESULT result()
     occlusion = 0.5 * (occlusion + slice_occlusion(f, normal_view, up, px, 0.5 * (noise.x + 1.0), noise.y));
 #endif
 #endif
-    // pow() is undefined for a base of 0 with power 0, and for the negative that rounding can leave, as it can leave more
-    // than 1.
+    // pow() is undefined below 0, which rounding can leave (as it can leave more than 1), and at 0 for a power so small that it
+    // is flushed to 0.
     float share = max(1.0 - occlusion, 1e-6);
 #if ACCUMULATE
     return gAccumulation.xy * min(pow(share, CALIBRATION), 1.0);

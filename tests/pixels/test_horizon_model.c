@@ -353,7 +353,7 @@ static void agrees_on_random_frames(void **state)
 static void agrees_where_steps_are_bounded(void **state)
 {
     uint32_t random = 1;
-    const random_options o = {.width = 221, .height = 41, .sample_count = 16, .roughness = 0.1, .radius = 17000.0};
+    const random_options o = {.width = 401, .height = 81, .sample_count = 16, .roughness = 0.1, .radius = 25000.0};
     check_random_frame(*state, &o, &random, "steps that are bounded");
 }
 

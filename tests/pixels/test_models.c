@@ -275,17 +275,17 @@ static void estimate_agrees_without_angle_weight(void **state)
     tear_down(&s);
 }
 
-/* The room as distances, in a red map or in the normal map's alpha. Sky is stored as 0, infinite, or no number. */
+/* The room as distances, in a red map or in the normal map's alpha. Sky is stored as each of what means it. */
 static void store_distances(setup *s, glssao_depth kind)
 {
+    static const float skies[] = {INFINITY, NAN, 1e30f, 0.0f};
     int count = s->input.width * s->input.height;
     float *rgba = malloc((size_t)count * 4 * sizeof *rgba);
     const float *p = s->frame.projection;
     for (int i = 0; i < count; ++i) {
-        float sky = i % 3 == 0 ? INFINITY : i % 3 == 1 ? NAN : 1e30f;
         double ndc = 2.0 * (double)s->depth[i] - 1.0;
         double distance = ((double)p[14] - ndc * (double)p[15]) / ((double)p[10] - ndc * (double)p[11]);
-        s->depth[i] = s->depth[i] == 1.0f ? sky : (float)distance;
+        s->depth[i] = s->depth[i] == 1.0f ? skies[i % 4] : (float)distance;
         for (int k = 0; k < 3; ++k)
             rgba[4 * i + k] = s->normals[3 * i + k];
         rgba[4 * i + 3] = s->depth[i];
@@ -352,6 +352,37 @@ static void hemisphere_agrees_at_other_settings(void **state)
         s.settings.radius = i == 2 ? 3.0f : 0.5f; /* samples off the screen and behind the camera */
         s.settings.power = i == 2 ? 2.0f : 1.0f;
         check_estimate(&s, "hemisphere");
+        tear_down(&s);
+    }
+}
+
+/* Steps of depth that are no occluders, though nothing else says so. */
+static void estimates_agree_for_16_bit_depth(void **state)
+{
+    for (int hemisphere = 0; hemisphere < 2; ++hemisphere) {
+        setup s;
+        set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT16, 151, 100, 1.0, false});
+        if (hemisphere)
+            use_hemisphere(&s, 16);
+        s.settings.surface_epsilon = 0.0f;
+        s.settings.power = 1.0f;
+        check_estimate(&s, "16 bits");
+        tear_down(&s);
+    }
+}
+
+/* A single sample, at any angle: where it is hidden nothing is left, of which a small power makes much. */
+static void estimates_agree_where_nothing_is_left(void **state)
+{
+    for (int hemisphere = 0; hemisphere < 2; ++hemisphere) {
+        setup s;
+        set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 151, 100, 1.0, false});
+        if (hemisphere)
+            use_hemisphere(&s, 1);
+        s.settings.sample_count = 1;
+        s.settings.no_angle_weight = true;
+        s.settings.power = 0.01f;
+        check_estimate(&s, "nothing left");
         tear_down(&s);
     }
 }
@@ -458,6 +489,8 @@ int main(void)
         GL_TEST(estimates_agree_for_stored_distances),
         GL_TEST(hemisphere_agrees_for_every_projection),
         GL_TEST(hemisphere_agrees_at_other_settings),
+        GL_TEST(estimates_agree_for_16_bit_depth),
+        GL_TEST(estimates_agree_where_nothing_is_left),
         GL_TEST(estimates_agree_with_samples_behind_the_camera),
         GL_TEST(hemisphere_agrees_for_normals_along_the_noise),
         GL_TEST(octahedral_normals_shade_like_plain_ones),

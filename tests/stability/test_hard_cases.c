@@ -93,13 +93,9 @@ static void no_epsilon(glssao_settings *s)
     s->surface_epsilon = 0.0f;
 }
 
-/* And of a single sample, at any angle, which leaves nothing where it is hidden. */
 static void power_0(glssao_settings *s)
 {
     s->power = 0.0f;
-    s->no_angle_weight = true;
-    if (s->technique != GLSSAO_HORIZON)
-        s->sample_count = 1;
 }
 
 static void power_64(glssao_settings *s)
