@@ -27,8 +27,8 @@ void main()
     vec2 cell = floor(gl_FragCoord.xy);
     vec2 texel = min(floor(gProbe.xy + (cell + place(uvec2(cell))) * gProbe.zw), size - 1.0);
     vec2 uv = (texel + 0.5) / size;
-    // pow() is undefined for a base of 0 with power 0.
-    vec2 means = max(textureLod(u_ambient_map, uv, 0.0).rg / gAccumulation.zw, vec2(1e-6));
+    // The bases of pow() are above 0, since each estimate is.
+    vec2 means = textureLod(u_ambient_map, uv, 0.0).rg / gAccumulation.zw;
     float difference = pow(means.x, gPower) - pow(means.y, gPower);
     bool surface = textureLod(u_distance_map, uv, 0.0).r < FAR_AWAY;
     o_difference = surface ? vec2(difference * difference, 1.0) : vec2(0.0);

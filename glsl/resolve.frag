@@ -14,7 +14,7 @@ void main()
     vec2 uv = pixel_center() * gInvRenderTargetSize;
     vec2 sums = textureLod(u_ambient_map, uv, 0.0).rg;
     float mean = (sums.x + sums.y) / (gAccumulation.z + gAccumulation.w);
-    // pow() is undefined for a base of 0 with power 0.
-    o_ambient = ambient(pow(max(mean, 1e-6), gPower), linear_from_distance(textureLod(u_distance_map, uv, 0.0).r),
+    // The base of pow() is above 0, since each estimate is.
+    o_ambient = ambient(pow(mean, gPower), linear_from_distance(textureLod(u_distance_map, uv, 0.0).r),
                         normal_code(normal_view_at_uv(uv)));
 }

@@ -173,7 +173,8 @@ float stored_depth(vec2 uv)
 float radius_fade(float distance)
 {
     vec2 pixel = abs(gRayOrigin.xy + distance * gRayDirection.xy) * gInvRenderTargetSize;
-    return clamp(gOcclusionRadius / max(min(pixel.x, pixel.y), 1e-30), 0.0, 1.0); // at the eye a pixel has no width
+    float width = min(pixel.x, pixel.y);
+    return width > gOcclusionRadius ? gOcclusionRadius / width : 1.0; // so that at the eye, where it is 0, nothing is divided
 }
 
 // The point that is seen at uv at a view distance (scene units).

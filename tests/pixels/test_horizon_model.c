@@ -80,6 +80,7 @@ static float *read_layers(uint32_t map, int width, int height)
 {
     float *texels = fixture_read_texture(map, width, height, 3);
     for (int i = 0; i < width * height; ++i) {
+        assert_true(texels[3 * i + 2] >= 0.0f);
         texels[2 * i] = texels[3 * i + 1];
         texels[2 * i + 1] = texels[3 * i + 2];
     }
@@ -261,7 +262,7 @@ static GLuint distance_texture(int width, int height, const float *distance)
     return texture;
 }
 
-/* Back faces and second front faces: some close, some far, some missing. */
+/* Back faces and second front faces: some close, some far, some missing, and some, by rounding, before the surface. */
 static void add_layers(setup *s, const float *distance, double radius, uint32_t *random)
 {
     const int count = s->width * s->height;
@@ -272,6 +273,8 @@ static void add_layers(setup *s, const float *distance, double radius, uint32_t 
             layer[i] = next_random(random) < 0.2
                            ? INFINITY
                            : (float)((double)distance[i] + radius * pow(10.0, 3.0 * next_random(random) - 2.0));
+        for (int i = 0; i < count; i += 17)
+            layer[i] = distance[i] * 0.999f;
         *out[k] = distance_texture(s->width, s->height, layer);
     }
     free(layer);
@@ -281,6 +284,7 @@ typedef struct random_options {
     int width, height, sample_count;
     bool orthographic, layers;
     double roughness, radius;
+    double scale; /* of distances */
 } random_options;
 
 /* Distances and normals of no scene at all: some sky, some normals that look away, all heights from runs of steps to
@@ -296,7 +300,7 @@ static void check_random_frame(fixture *f, const random_options *o, uint32_t *ra
     for (int i = 0; i < width * height; ++i) {
         if (next_random(random) < 0.1)
             level = 1.0 + 8.0 * next_random(random);
-        distance[i] = (float)(level * (1.0 + o->roughness * (next_random(random) - 0.5)));
+        distance[i] = (float)(o->scale * level * (1.0 + o->roughness * (next_random(random) - 0.5)));
         if (next_random(random) < 0.05)
             distance[i] = INFINITY;
         for (int axis = 0; axis < 3; ++axis)
@@ -335,7 +339,7 @@ static void agrees_on_random_frames(void **state)
         uint32_t random = seed;
         for (int i = 0; i < 20; ++i)
             (void)next_random(&random);
-        random_options o = {.layers = seed % 3 == 0};
+        random_options o = {.layers = seed % 3 == 0, .scale = 1.0};
         o.width = 5 + (int)(36.0 * next_random(&random));
         o.height = 5 + (int)(36.0 * next_random(&random));
         o.orthographic = next_random(&random) < 0.3;
@@ -353,8 +357,17 @@ static void agrees_on_random_frames(void **state)
 static void agrees_where_steps_are_bounded(void **state)
 {
     uint32_t random = 1;
-    const random_options o = {.width = 401, .height = 81, .sample_count = 16, .roughness = 0.1, .radius = 25000.0};
+    const random_options o = {
+        .width = 401, .height = 81, .sample_count = 16, .roughness = 0.1, .radius = 25000.0, .scale = 1.0};
     check_random_frame(*state, &o, &random, "steps that are bounded");
+}
+
+/* Lengths so small that the square of a missing layer's distance, in radii, is more than a float holds. */
+static void agrees_on_layers_of_a_small_scene(void **state)
+{
+    uint32_t random = 1;
+    const random_options o = {41, 41, 32, .layers = true, .roughness = 0.1, .radius = 1e-7, .scale = 1e-7};
+    check_random_frame(*state, &o, &random, "a small scene");
 }
 
 /* Each estimate that glssao_accumulate adds has other noise, and every second one the tile turned over. */
@@ -465,6 +478,7 @@ int main(void)
         GL_TEST(agrees_at_other_settings),
         GL_TEST(agrees_on_random_frames),
         GL_TEST(agrees_where_steps_are_bounded),
+        GL_TEST(agrees_on_layers_of_a_small_scene),
         GL_TEST(agrees_for_each_estimate_of_a_still_view),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);

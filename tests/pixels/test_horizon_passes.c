@@ -251,12 +251,42 @@ static void passes_agree_at_full_size(void **state)
     check_full_size(*state, ORTHOGRAPHIC, 121, 91);
 }
 
+/* Without one, or looking straight away from the eye, where the projection ends: the code stays within its ten bits,
+ * beside an accessibility of 0 to 1. */
+static void every_normal_has_a_code(void **state)
+{
+    static const float normals[5][3] = {
+        {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -1.0f}, {0.1f, 0.0f, -1.0f}, {-0.1f, 0.0f, -1.0f}, {0.0f, -0.1f, -1.0f}};
+    static const uint32_t codes[5][2] = {{15, 15}, {15, 15}, {31, 15}, {0, 15}, {15, 0}};
+    setup s;
+    set_up(&s, *state, PERSPECTIVE, 32, 40, 30);
+    for (int i = 0; i < 40 * 30; ++i)
+        memcpy(s.normals + 3 * i, normals[i / 2 % 5], sizeof normals[0]);
+    gl.DeleteTextures(1, &s.frame.normal_texture);
+    s.frame.normal_texture = fixture_normal_texture(40, 30, s.normals);
+    int width, height;
+    s.settings.blur = GLSSAO_BLUR_NONE;
+    free(fixture_compute(s.effect, &s.frame, &s.settings, &width, &height));
+    paired_map estimate = read_paired(&s, 0);
+    for (int i = 0; i < estimate.width * estimate.height; ++i) {
+        uint32_t bits;
+        memcpy(&bits, &estimate.texels[3 * i], sizeof bits);
+        const uint32_t *code = codes[i % estimate.width % 5];
+        assert_int_equal(bits & 1023u, code[0] << 5 | code[1]);
+        const double accessibility = paired_accessibility(estimate.texels[3 * i]);
+        assert_true(accessibility >= 0.0 && accessibility < 1.001);
+    }
+    free_paired(&estimate);
+    tear_down(&s);
+}
+
 int main(void)
 {
 #define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         GL_TEST(passes_agree_at_half_size),
         GL_TEST(passes_agree_at_full_size),
+        GL_TEST(every_normal_has_a_code),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
 }

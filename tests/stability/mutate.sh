@@ -41,7 +41,7 @@ for line in "${lines[@]}"; do
     elif [ $? = 124 ]; then
         answer="not run to its end: $test takes too long"
     else
-        answer="$test: $(grep -am1 'ERROR: \|ERROR   \]\|FAILED' "$copy/log" | sed 's/^ERROR: //' | cut -c1-100)"
+        answer="$test: $(grep -am1 'ERROR: \|FAILED  ] [a-z]' "$copy/log" | sed 's/^ERROR: //; s/^.*FAILED  ] //' | cut -c1-100)"
         held=$((held + 1))
     fi
     [[ $answer == $test:* ]] || loose=$((loose + 1))

@@ -188,6 +188,8 @@ static const hard_case cases[] = {
      .least = OPEN},
     {"normals away from the eye", SEE_ROOM, .spoil = normals_away_from_the_eye, .depth = DEPTH_24,
      .normal = NORMAL_32F},
+    {"normals straight away from the eye", SEE_PLANE, .projection = ORTHOGRAPHIC, .spoil = normals_away_from_the_eye,
+     .depth = DEPTH_32F, .normal = NORMAL_32F, .least = {0.0, 0.0, 0.999}},
     {"distances that are none", SEE_ROOM, .spoil = distances_that_are_none, .depth = DISTANCE_32F,
      .normal = NORMAL_32F},
     {"distances that are none, in alpha", SEE_ROOM, .spoil = distances_that_are_none, .depth = ALPHA_32F, .turn = 2},
