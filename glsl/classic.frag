@@ -57,7 +57,7 @@ void main()
 #if NO_ANGLE_WEIGHT
         float facing = 1.0;
 #else
-        // r = p: the direction is 0 / 0 without the floor; its weight is 0 in any case.
+        // r = p, or so near that its square is 0 in a float: without the floor the direction is 0 / 0 or infinite.
         float facing = max(dot(normal_view, to_occluder) * inversesqrt(max(dot(to_occluder, to_occluder), 1e-30)), 0.0);
 #endif
         occlusion += weight_from_distance(to_occluder.z, least) * facing;
