@@ -179,7 +179,7 @@ uint hidden_by(vec3 at, vec2 layers, float width, slice_side side, least from, i
 {
     float x2 = at.x * at.x + 1e-12;
     bool counts = occludes(at, from); // of what does not, nothing is asked below
-    float chord = sqrt(1.0 - x2); // none beyond the sphere, where the sample does not count
+    float chord = sqrt(max(1.0 - x2, 0.0)); // beyond the sphere its root would be none
     float thickness = WIDTH * width * at.z;
     float cos_top;
     uint mask = 0u;
@@ -303,8 +303,8 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
     float sin_g = normal_along / projected;
     // Sectors are numbered from the far end of the minus side.
     float total_minus = value(measure(cos_g, -sin_g, 1.0), sin_g);
-    // 0 where the normal lies straight across the slice: then whatever sectors are hidden count for nothing.
-    float total = value(measure(cos_g, sin_g, 1.0), -sin_g) + total_minus;
+    // The floor: a normal straight across the slice leaves no measure to share out among sectors.
+    float total = max(value(measure(cos_g, sin_g, 1.0), -sin_g) + total_minus, 1e-6);
     float scale = SECTORS / total;
     float least_x = 0.2 * STEP * length(f.x_per_px) / f.per_scale; // a fifth of a pixel
     uint mask = 0u;

@@ -128,6 +128,7 @@ static slice make_slice(const point *p, double angle, double jitter)
     const interval to = bounds(s.sin_g);
     s.total_minus = middle(horizon_slice_measure(&s, -1.0, to));
     s.total = add(s.total_minus, middle(horizon_slice_measure(&s, 1.0, (interval){-to.high, -to.low})));
+    s.total = at_least(s.total, 1e-6);
     return s;
 }
 
