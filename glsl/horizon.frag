@@ -9,8 +9,8 @@
 // in  u_depth_map     bound for its size alone
 // out result          accessibility, with PAIRED 1 what passes after this one read; with ACCUMULATE 1 the linear
 //                     accessibility, to be added to the sum of its replicate
-// STEPS_8, STEPS_12, STEPS_16 1: that many samples on each side of a slice, else 6. SLICES_2 1: two slices, else one.
-// OPEN 1: nothing occludes.
+// PRECISE and FMA: view.glsl. STEPS_8, STEPS_12, STEPS_16 1: that many samples on each side of a slice, else 6. SLICES_2 1: two slices, else one.
+// OPEN 1: nothing occludes. BRANCHES 1: a branch that all pixels of a warp take alike spares work.
 //
 // In a slice, x is the distance along it from the point, outwards on either side, and y the height towards the eye, both
 // in units of the radius; angles are measured from y. Loops are written out by macros: Mesa's software rasteriser does
@@ -87,14 +87,17 @@ struct polynomial {
 
 polynomial measure(float cos_g, float sin_g, float scale)
 {
-    return polynomial(0.5 * scale * vec4(cos_g + 0.5 * PI * sin_g, -1.98868 * sin_g, -cos_g, 0.25869 * sin_g),
-                      0.5 * scale * 0.15521 * sin_g);
+    PRECISE polynomial p =
+        polynomial(0.5 * scale * vec4(cos_g + 0.5 * PI * sin_g, -1.98868 * sin_g, -cos_g, 0.25869 * sin_g),
+                   0.5 * scale * 0.15521 * sin_g);
+    return p;
 }
 
 float value(polynomial p, float c)
 {
-    float c2 = c * c;
-    return (p.low.y + c2 * (p.low.w + c2 * p.c5)) * c + (p.low.x + c2 * p.low.z);
+    PRECISE float c2 = c * c;
+    PRECISE float sum = FMA(FMA(c2, FMA(c2, p.c5, p.low.w), p.low.y), c, FMA(c2, p.low.z, p.low.x));
+    return sum;
 }
 
 // The value, rounded. The polynomial leaves 0..31 by an eighth at most, which rounding takes back; a shift by more than 31
@@ -137,8 +140,8 @@ struct least {
 vec3 sample_at(slice_frame f, vec2 first_px, vec2 step_px, float number, out vec2 layers)
 {
     // The point is a texel's centre itself, so that whole pixels lead to others.
-    vec2 offset = clamp(floor(first_px + number * step_px + 0.5), f.low, f.high);
-    vec2 uv = f.center_uv + offset * f.texel_uv;
+    PRECISE vec2 offset = clamp(floor(FMA(vec2(number), step_px, first_px) + 0.5), f.low, f.high);
+    PRECISE vec2 uv = FMA(offset, f.texel_uv, f.center_uv);
 #if LAYERS
     vec3 texels = textureLod(u_distance_map, uv, 0.0).rgb;
     float distance = texels.r;
@@ -148,9 +151,11 @@ vec3 sample_at(slice_frame f, vec2 first_px, vec2 step_px, float number, out vec
     float distance = textureLod(u_distance_map, uv, 0.0).r;
 #endif
     float scale = orthographic() ? 1.0 : distance;
-    return vec3(scale * dot(offset, f.x_per_px),
-                f.y_per_distance * (f.center_distance - distance) + scale * dot(offset, f.y_per_px),
-                scale * f.per_scale);
+    PRECISE vec2 per_scale = vec2(FMA(offset.x, f.x_per_px.x, offset.y * f.x_per_px.y),
+                                  FMA(offset.x, f.y_per_px.x, offset.y * f.y_per_px.y));
+    PRECISE vec3 at =
+        vec3(scale * per_scale.x, FMA(f.y_per_distance, f.center_distance - distance, scale * per_scale.y), scale * f.per_scale);
+    return at;
 }
 
 // Sectors that are hidden at x between two heights, where they lie within the sphere, by its half chord there.
@@ -158,8 +163,8 @@ uint hidden_between(float x2, float chord, float top, float bottom, slice_side s
 {
     top = min(top, chord);
     bottom = max(bottom, -chord);
-    cos_top = max(top * inversesqrt(x2 + top * top), side.lowest);
-    float cos_bottom = clamp(bottom * inversesqrt(x2 + bottom * bottom), side.lowest, cos_top);
+    cos_top = max(top * inversesqrt(FMA(top, top, x2)), side.lowest);
+    PRECISE float cos_bottom = clamp(bottom * inversesqrt(FMA(bottom, bottom, x2)), side.lowest, cos_top);
     uint near = 1u << sector(side.sectors, cos_top);
     uint far = 1u << sector(side.sectors, cos_bottom);
     return (far - near + side.flip) ^ side.flip; // the difference, or with all bits to flip its negative
@@ -170,22 +175,22 @@ uint hidden_between(float x2, float chord, float top, float bottom, slice_side s
 // depth format can't tell from the tangent plane is no occluder.
 bool occludes(vec3 at, least from)
 {
-    return at.x > from.x && at.x < 1.0 && at.y > from.tangent * at.x + from.above;
+    return at.x > from.x && at.x < 1.0 && at.y > FMA(from.tangent, at.x, from.above);
 }
 
 // Sectors that one sample hides, whose run is `width` steps wide. Raises `highest` to the sample's top where it veils what is
 // behind it.
 uint hidden_by(vec3 at, vec2 layers, float width, slice_side side, least from, inout float highest)
 {
-    float x2 = at.x * at.x + 1e-12;
+    PRECISE float x2 = FMA(at.x, at.x, 1e-12);
     bool counts = occludes(at, from); // of what does not, nothing is asked below
-    float chord = sqrt(max(1.0 - x2, 0.0)); // beyond the sphere its root would be none
-    float thickness = WIDTH * width * at.z;
+    PRECISE float chord = sqrt(max(1.0 - x2, 0.0)); // beyond the sphere its root would be none
+    PRECISE float thickness = WIDTH * width * at.z;
     float cos_top;
     uint mask = 0u;
 #if LAYERS
-    float second = min(at.y - layers.y, chord); // its thickness counts from where it is within the sphere
-    mask = hidden_between(x2, chord, second, second - SECOND * thickness, side, cos_top);
+    PRECISE float second = min(at.y - layers.y, chord); // its thickness counts from where it is within the sphere
+    mask = hidden_between(x2, chord, second, FMA(-SECOND, thickness, second), side, cos_top);
     thickness = layers.x >= 0.0 ? layers.x : thickness;
 #endif
     mask |= hidden_between(x2, chord, at.y, at.y - thickness, side, cos_top);
@@ -196,7 +201,7 @@ uint hidden_by(vec3 at, vec2 layers, float width, slice_side side, least from, i
 // Sectors that one side's samples hide. `highest` is the cosine of the horizon over occluders that veil what is behind them.
 uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, slice_side side, least from, out float highest)
 {
-#if COMPUTE
+#if COMPUTE || BRANCHES && SLICES_2
     // Where no sample of the side does for any pixel of a warp, a GPU is spared the rest.
     bool any_occludes = false;
 #define LOOK(i) any_occludes = any_occludes || occludes(samples[i], from);
@@ -205,7 +210,7 @@ uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, slice
     if (!any_occludes)
         return 0u;
 #endif
-    float change[STEPS];
+    PRECISE float change[STEPS];
     bool bend[STEPS + 1];
     bool jump[STEPS];
     float start[STEPS];
@@ -266,7 +271,7 @@ void add_side(slice_frame f, vec2 first_px, vec2 step_px, vec2 g, float scale, f
     f.x_per_px *= sign;
     first_px *= sign;
     step_px *= sign;
-    slice_side side;
+    PRECISE slice_side side;
     side.sectors = measure(sign * g.x, g.y, scale);
     side.sectors.low.x += origin;
     side.flip = sign > 0.0 ? 0u : ~0u;
@@ -283,33 +288,33 @@ void add_side(slice_frame f, vec2 first_px, vec2 step_px, vec2 g, float scale, f
 // What the slice adds to occlusion. `px`: view xy that a pixel gains, per unit of distance in perspective.
 float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float angle, float jitter)
 {
-    vec2 direction = vec2(cos(PI * angle), sin(PI * angle));
+    PRECISE vec2 direction = vec2(cos(PI * angle), sin(PI * angle));
     // The bound keeps pixel coordinates exact, however near the point is.
-    vec2 step_px = STEP * clamp(gOcclusionRadius * float(STEPS) * f.per_scale * direction / px, -1e5, 1e5);
-    vec2 first_px = (1.0 - jitter) * step_px;
-    vec3 along = vec3(direction, 0.0);
+    PRECISE vec2 step_px = STEP * clamp(gOcclusionRadius * float(STEPS) * f.per_scale * direction / px, -1e5, 1e5);
+    PRECISE vec2 first_px = (1.0 - jitter) * step_px;
+    PRECISE vec3 along = vec3(direction, 0.0);
     along = normalize(along - up * dot(along, up)); // never of length 0: up is a ray that leaves the picture's plane
-    vec3 across = cross(up, along);
+    PRECISE vec3 across = cross(up, along);
     // Shading normals may look away from the eye; the hemisphere is then seen from its rim.
-    float normal_up = max(dot(normal_view, up), 0.0);
-    float normal_along = dot(normal_view, along);
+    PRECISE float normal_up = max(dot(normal_view, up), 0.0);
+    PRECISE float normal_along = dot(normal_view, along);
     // Seen edge-on the tangent plane is all slope; the bounds keep a snapped sample's height of the same order as its x.
-    float slope = clamp(dot(normal_view, across) / max(normal_up, 1e-3), -40.0, 40.0);
+    PRECISE float slope = clamp(dot(normal_view, across) / max(normal_up, 1e-3), -40.0, 40.0);
     f.x_per_px = px * along.xy / gOcclusionRadius;
     f.y_per_px = px * (up.xy + slope * across.xy) / gOcclusionRadius;
     // The normal, projected into the slice, leans by g; a normal straight across the slice projects to nothing.
-    float projected = sqrt(max(normal_along * normal_along + normal_up * normal_up, 1e-12));
-    float cos_g = normal_up / projected;
-    float sin_g = normal_along / projected;
+    PRECISE float projected = sqrt(max(normal_along * normal_along + normal_up * normal_up, 1e-12));
+    PRECISE float cos_g = normal_up / projected;
+    PRECISE float sin_g = normal_along / projected;
     // Sectors are numbered from the far end of the minus side.
-    float total_minus = value(measure(cos_g, -sin_g, 1.0), sin_g);
+    PRECISE float total_minus = value(measure(cos_g, -sin_g, 1.0), sin_g);
     // The floor: a normal straight across the slice leaves no measure to share out among sectors.
-    float total = max(value(measure(cos_g, sin_g, 1.0), -sin_g) + total_minus, 1e-6);
-    float scale = SECTORS / total;
-    float least_x = 0.2 * STEP * length(f.x_per_px) / f.per_scale; // a fifth of a pixel
+    PRECISE float total = max(value(measure(cos_g, sin_g, 1.0), -sin_g) + total_minus, 1e-6);
+    PRECISE float scale = SECTORS / total;
+    PRECISE float least_x = 0.2 * STEP * length(f.x_per_px) / f.per_scale; // a fifth of a pixel
     uint mask = 0u;
-    float veiled = total;
-#if COMPUTE
+    PRECISE float veiled = total;
+#if COMPUTE || BRANCHES && SLICES_2
     for (int i = 0; i < 2; ++i)
         add_side(f, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, least_x, jitter,
                  i == 0 ? 1.0 : -1.0, mask, veiled);
@@ -317,8 +322,9 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
     add_side(f, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, least_x, jitter, 1.0, mask, veiled);
     add_side(f, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, least_x, jitter, -1.0, mask, veiled);
 #endif
-    float hidden = total * float(count_bits(mask)) / SECTORS;
-    return projected * mix(hidden, veiled, VEIL);
+    PRECISE float hidden = total * float(count_bits(mask)) / SECTORS;
+    PRECISE float both = projected * mix(hidden, veiled, VEIL);
+    return both;
 }
 
 RESULT result()
@@ -326,7 +332,7 @@ RESULT result()
     vec2 map_size = vec2(textureSize(u_distance_map, 0));
     float distance = textureLod(u_distance_map, pixel_center() / map_size, 0.0).r;
     vec2 full_size = vec2(textureSize(u_depth_map, 0));
-    vec2 uv = (floor(pixel_center()) * float(gFactor) + 0.5) / full_size;
+    PRECISE vec2 uv = (floor(pixel_center()) * float(gFactor) + 0.5) / full_size;
     vec3 normal_view = normal_view_at_uv(uv);
 #if ACCUMULATE
     RESULT open = gAccumulation.xy;
@@ -341,11 +347,11 @@ RESULT result()
     // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
     if (distance >= FAR_AWAY || normal_view == vec3(0.0))
         return open;
-    vec3 ray = vec3(uv * gRayDirection.xy + gRayDirection.zw, -1.0);
-    float ray_length = length(ray);
-    vec3 up = -ray / ray_length;
-    vec2 px = float(gFactor) / full_size * (orthographic() ? gRayOrigin.xy : gRayDirection.xy);
-    slice_frame f;
+    PRECISE vec3 ray = vec3(uv * gRayDirection.xy + gRayDirection.zw, -1.0);
+    PRECISE float ray_length = length(ray);
+    PRECISE vec3 up = -ray / ray_length;
+    PRECISE vec2 px = float(gFactor) / full_size * (orthographic() ? gRayOrigin.xy : gRayDirection.xy);
+    PRECISE slice_frame f;
     f.texel_uv = 1.0 / map_size;
     f.center_uv = pixel_center() * f.texel_uv;
     f.low = 0.5 - pixel_center();
@@ -356,20 +362,20 @@ RESULT result()
     f.y_step = f.y_per_distance * depth_step(distance + gOcclusionRadius);
     vec2 noise = tile_noise();
     // By loops a GPU's caches hold all of the program, which they don't written out.
-#if COMPUTE
-    float occlusion = 0.0;
+#if COMPUTE || BRANCHES && SLICES_2
+    PRECISE float occlusion = 0.0;
     for (int i = 0; i < SLICES; ++i)
         occlusion += slice_occlusion(f, normal_view, up, px, (noise.x + float(i)) / float(SLICES), noise.y);
     occlusion /= float(SLICES);
 #else
-    float occlusion = slice_occlusion(f, normal_view, up, px, noise.x / float(SLICES), noise.y);
+    PRECISE float occlusion = slice_occlusion(f, normal_view, up, px, noise.x / float(SLICES), noise.y);
 #if SLICES_2
     occlusion = 0.5 * (occlusion + slice_occlusion(f, normal_view, up, px, 0.5 * (noise.x + 1.0), noise.y));
 #endif
 #endif
     // pow() is undefined below 0, which rounding can leave (as it can leave more than 1), and at 0 for a power so small that it
     // is flushed to 0.
-    float share = max(1.0 - occlusion, 1e-6);
+    PRECISE float share = max(1.0 - occlusion, 1e-6);
 #if ACCUMULATE
     return gAccumulation.xy * min(pow(share, CALIBRATION), 1.0);
 #else

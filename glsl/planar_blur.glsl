@@ -3,6 +3,7 @@
 // line with two neighbours in the same direction, or with the two about the pixel, and where the surface does not turn
 // away from the eye in between. A silhouette breaks both lines; a plane seen at any angle breaks neither. A pixel left
 // without a tap takes neighbours that are merely near.
+// BRANCHES 1: as in horizon.frag.
 //
 // After both directions there is little noise left but that of twice the tile's period. Later rounds take it out in a single
 // pass: a quarter of the pixel and 3/16 of each of the four at three pixels from it, where they lie on a line or in a hollow.
@@ -23,6 +24,11 @@ float line_tolerance(float linear)
 // Accessibility of a pixel of the paired map from its own and the two on each side along `way`.
 float blurred(vec2 before_2, vec2 before, vec2 center, vec2 after, vec2 after_2, vec2 way)
 {
+#if BRANCHES
+    // Most pixels lie amid others that nothing occludes either.
+    if (before_2.x == center.x && before.x == center.x && after.x == center.x && after_2.x == center.x)
+        return accessibility_of(center);
+#endif
     float tolerance = line_tolerance(center.y);
     float near = linear_error(BLUR_NEAR * gOcclusionRadius, center.y);
     bool on_line = abs(before.y - 2.0 * center.y + after.y) < tolerance;
@@ -51,6 +57,10 @@ float blurred(vec2 before_2, vec2 before, vec2 center, vec2 after, vec2 after_2,
 // The same of a later round, from its own and the four at three pixels from it.
 float blurred_wide(vec2 left, vec2 below, vec2 center, vec2 above, vec2 right)
 {
+#if BRANCHES
+    if (left.x == center.x && below.x == center.x && above.x == center.x && right.x == center.x)
+        return accessibility_of(center);
+#endif
     float tolerance = line_tolerance(center.y);
     float hollow = linear_error(BLUR_HOLLOW * gOcclusionRadius, center.y);
     vec2 bend = vec2(left.y, below.y) - 2.0 * center.y + vec2(right.y, above.y);

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 // From stored depth to view space, for any perspective or orthographic projection. Included by passes that read depth.
 
+// PRECISE stands for `precise` where a GPU's driver knows it, else for nothing, and FMA(a, b, c) for a b + c, rounded once there. A
+// compiler may fuse and reorder in one shader what it leaves in another; this way fragment and compute shaders have the same
+// bits, down to what is held against thresholds.
+
 // DEPTH_IS_DISTANCE 1: the host stores view distance, not window depth. DEPTH_IN_ALPHA 1: in the alpha of its normal map.
 uniform sampler2D u_depth_map; // as the host stores it
 
@@ -53,7 +57,7 @@ float distance_from_depth(float depth)
     float distance = depth;
 #else
     vec4 k = gDistanceFromDepth;
-    float distance = ((1.0 - depth) * k.x + depth * k.y) / ((1.0 - depth) * k.z + depth * k.w);
+    PRECISE float distance = ((1.0 - depth) * k.x + depth * k.y) / ((1.0 - depth) * k.z + depth * k.w);
 #endif
     // An infinite far plane divides by 0 at the sky, 0 / 0 is possible beyond it, and hosts may store infinity or what
     // is no number (a comparison with it is false): none of them may reach a sum.
@@ -63,7 +67,8 @@ float distance_from_depth(float depth)
 // What a step of the depth format comes to in view distance (scene units), and what single precision loses anyway.
 float depth_step(float distance)
 {
-    return gDepthStep.x + distance * (gDepthStep.y + distance * gDepthStep.z);
+    PRECISE float length = gDepthStep.x + distance * (gDepthStep.y + distance * gDepthStep.z);
+    return length;
 }
 
 // A quantity that is linear across the picture of a plane: 1 / distance in perspective, distance itself where the
@@ -79,7 +84,8 @@ bool orthographic()
 
 float linear_from_distance(float distance)
 {
-    return orthographic() ? distance : 1.0 / distance;
+    PRECISE float linear = orthographic() ? distance : 1.0 / distance;
+    return linear;
 }
 
 // The same of a stored depth that is not sky.
@@ -89,23 +95,26 @@ float linear_from_depth(float depth)
     return linear_from_distance(depth);
 #else
     vec4 k = gDistanceFromDepth;
-    vec2 fraction = vec2((1.0 - depth) * k.x + depth * k.y, (1.0 - depth) * k.z + depth * k.w);
+    PRECISE vec2 fraction = vec2((1.0 - depth) * k.x + depth * k.y, (1.0 - depth) * k.z + depth * k.w);
     fraction = orthographic() ? fraction : fraction.yx;
-    return fraction.x / fraction.y;
+    PRECISE float linear = fraction.x / fraction.y;
+    return linear;
 #endif
 }
 
 // What an error of `length` (scene units) about a surface comes to in it.
 float linear_error(float length, float linear)
 {
-    return orthographic() ? length : length * linear * linear;
+    PRECISE float error = orthographic() ? length : length * linear * linear;
+    return error;
 }
 
 // What a step of the depth format comes to in it.
 float linear_step(float linear)
 {
-    vec2 shares = orthographic() ? vec2(1.0, linear * linear) : vec2(linear * linear, 1.0);
-    return shares.x * gDepthStep.x + linear * gDepthStep.y + shares.y * gDepthStep.z;
+    PRECISE vec2 shares = orthographic() ? vec2(1.0, linear * linear) : vec2(linear * linear, 1.0);
+    PRECISE float sum = shares.x * gDepthStep.x + linear * gDepthStep.y + shares.y * gDepthStep.z;
+    return sum;
 }
 
 // Whether a stored depth means that nothing was drawn.

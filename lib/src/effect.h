@@ -95,8 +95,8 @@ enum glssao__variant {
     VARIANT_ROUNDS_2 = 4194304,
     VARIANT_WIDE = 8388608,
     VARIANT_PERSPECTIVE = 16777216,
-    VARIANT_FLAGS = 25, /* how many there are */
-    VARIANT_COUNT = 1 << VARIANT_FLAGS
+    VARIANT_BRANCHES = 33554432,
+    VARIANT_FLAGS = 26 /* how many there are */
 };
 
 enum {
@@ -462,11 +462,13 @@ glssao_result glssao__maps_check_texture(glssao_effect *effect, gl_uint texture,
 
 /* program.c */
 enum {
-    GLSSAO__PROGRAM_MAX_SOURCES = 3 * VARIANT_FLAGS + 15
-}; /* three a macro, nine about blocks and sizes, six files */
+    GLSSAO__PROGRAM_MAX_SOURCES = 3 * VARIANT_FLAGS + 16
+}; /* three a macro, ten about versions, blocks and sizes, six files */
 /* Pieces of a shader stage of a variant, in the order that the driver gets them; returns how many. */
 int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enum stage,
                             const char *out_sources[GLSSAO__PROGRAM_MAX_SOURCES]);
+/* What the shader tests. */
+unsigned glssao__program_flags(enum glssao__shader shader);
 /* False where the shader does not test one of the flags, or they exclude each other. */
 bool glssao__program_exists(enum glssao__shader shader, unsigned variant);
 const char *glssao__program_shader_name(enum glssao__shader shader);

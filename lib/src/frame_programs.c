@@ -73,9 +73,8 @@ glssao_result glssao__frame_programs_get(glssao_effect *effect, const glssao_fra
         blur | last_rounds | (calls > first_calls ? wide : 0u) | (plan->passes[GLSSAO_PASS_UPSAMPLE].run ? paired : 0u);
     const unsigned first_blur = calls > 1 ? blur | paired | all_rounds : last_blur;
     const unsigned wide_blur = calls > first_calls + 1 ? first_blur | wide : last_blur;
-    /* Where clip w depends on z; the other shaders, and fragment shaders, ask the constants. */
-    const unsigned perspective =
-        plan->passes[GLSSAO_PASS_ESTIMATE].compute && frame->projection[11] != 0.0f ? VARIANT_PERSPECTIVE : 0u;
+    /* Where clip w depends on z; the other shaders ask the constants. */
+    const unsigned perspective = frame->projection[11] != 0.0f ? VARIANT_PERSPECTIVE : 0u;
     const unsigned tiles = inputs | glssao__tiles_variant(settings);
     const struct {
         glssao_pass pass;

@@ -34,6 +34,7 @@ static const char *const macros[VARIANT_FLAGS] = {
     "ROUNDS_2",
     "WIDE",
     "PERSPECTIVE",
+    "BRANCHES",
 };
 
 enum {
@@ -65,7 +66,7 @@ static const struct shader {
                          {shader_view_glsl, shader_distance_frag, shader_entry_glsl}},
     [SHADER_HORIZON] = {"horizon",
                         NORMAL_FLAGS | STEP_FLAGS | VARIANT_SLICES_2 | VARIANT_ACCUMULATE | VARIANT_LAYERS |
-                            VARIANT_PAIRED | VARIANT_OPEN | VARIANT_COMPUTE | VARIANT_PERSPECTIVE,
+                            VARIANT_PAIRED | VARIANT_OPEN | VARIANT_COMPUTE | VARIANT_PERSPECTIVE | VARIANT_BRANCHES,
                         {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_horizon_frag,
                          shader_entry_glsl}},
     [SHADER_RESOLVE] = {"resolve",
@@ -73,7 +74,7 @@ static const struct shader {
                         {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_resolve_frag}},
     [SHADER_PROBE] = {"probe", 0, {shader_view_glsl, shader_probe_frag}},
     [SHADER_PLANAR_BLUR] = {"planar-blur",
-                            VARIANT_PAIRED | VARIANT_WIDE,
+                            VARIANT_PAIRED | VARIANT_WIDE | VARIANT_BRANCHES,
                             {shader_view_glsl, shader_paired_glsl, shader_planar_blur_glsl, shader_planar_blur_frag,
                              shader_entry_glsl}},
     [SHADER_UPSAMPLE] = {"upsample",
@@ -83,7 +84,7 @@ static const struct shader {
     [SHADER_SPREAD] = {"spread", 0, {shader_view_glsl, shader_spread_frag}},
     [SHADER_PLANAR_TILE] = {"planar-tile",
                             NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_PAIRED | VARIANT_COMPUTE | VARIANT_UPSAMPLE |
-                                ROUND_FLAGS | VARIANT_WIDE,
+                                ROUND_FLAGS | VARIANT_WIDE | VARIANT_BRANCHES,
                             {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_planar_blur_glsl,
                              shader_upsample_glsl, shader_planar_tile_comp}},
     [SHADER_BLUR] = {"blur",
@@ -139,6 +140,11 @@ const char *glssao__program_shader_name(enum glssao__shader shader)
     return shaders[shader].name;
 }
 
+unsigned glssao__program_flags(enum glssao__shader shader)
+{
+    return shaders[shader].flags;
+}
+
 bool glssao__program_exists(enum glssao__shader shader, unsigned variant)
 {
     if (variant & ~shaders[shader].flags)
@@ -158,8 +164,10 @@ bool glssao__program_exists(enum glssao__shader shader, unsigned variant)
          (variant & VARIANT_UPSAMPLE ? !(variant & VARIANT_PAIRED)
                                      : (variant & ROUND_FLAGS) && !(variant & (NORMAL_FLAGS | DEPTH_FLAGS))));
     /* The others ask the constants, since a branch that all pixels take alike costs them nothing to speak of. */
-    bool projection_known = (variant & VARIANT_PERSPECTIVE) && !(variant & VARIANT_COMPUTE);
-    return !both_encodings && !projection_known && !is_sum && !drawn_alone && (steps & (steps - 1)) == 0 &&
+    bool projection_known = (variant & VARIANT_PERSPECTIVE) && !(variant & VARIANT_BRANCHES);
+    bool branches =
+        (shaders[shader].flags & VARIANT_BRANCHES) && (variant & VARIANT_COMPUTE) && !(variant & VARIANT_BRANCHES);
+    return !both_encodings && !projection_known && !branches && !is_sum && !drawn_alone && (steps & (steps - 1)) == 0 &&
            !alpha_alone && tile_known && (shader != SHADER_BLUR || edges_needed);
 }
 
@@ -167,8 +175,9 @@ int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enu
                             const char *out_sources[GLSSAO__PROGRAM_MAX_SOURCES])
 {
     int n = 0;
-    /* In contexts that are older the driver is told another first line, see `compile`. */
+    /* The driver may be told two other first lines, see `compile`. */
     out_sources[n++] = stage == GL_COMPUTE_SHADER ? "#version 430\n" : "#version 330\n";
+    out_sources[n++] = "#define PRECISE\n#define FMA(a, b, c) ((a) * (b) + (c))\n";
     if (stage == GL_VERTEX_SHADER) {
         out_sources[n++] = shader_fullscreen_vert;
         return n;
@@ -221,6 +230,10 @@ static gl_uint compile(const glssao_effect *effect, enum glssao__shader id, unsi
     if (stage == GL_COMPUTE_SHADER && gl->version < 43)
         sources[0] = "#version 330\n#extension GL_ARB_compute_shader : require\n"
                      "#extension GL_ARB_shader_image_load_store : require\n";
+    /* Classic and hemisphere are estimated one way only. */
+    if (gl->precise && id != SHADER_CLASSIC && id != SHADER_HEMISPHERE)
+        sources[1] = "#extension GL_ARB_gpu_shader5 : require\n"
+                     "#define PRECISE precise\n#define FMA(a, b, c) fma(a, b, c)\n";
     gl_uint shader = gl->CreateShader(stage);
     gl->ShaderSource(shader, count, sources, NULL);
     gl->CompileShader(shader);
@@ -417,11 +430,16 @@ static glssao_result make(glssao_effect *effect, enum glssao__shader shader, uns
 glssao_result glssao__program_get(glssao_effect *effect, enum glssao__shader shader, unsigned variant,
                                   glssao__program_object *out)
 {
+    /* A software rasteriser takes both sides of a branch. */
+    if (!effect->gl.is_software || (variant & VARIANT_COMPUTE))
+        variant |= VARIANT_BRANCHES;
+    else
+        variant &= ~(unsigned)VARIANT_PERSPECTIVE;
     variant &= shaders[shader].flags;
     if (shader == SHADER_BLUR && !(variant & VARIANT_EDGE_AWARE))
         variant &= VARIANT_BOX | VARIANT_PAIRED | VARIANT_COMPUTE; /* it reads neither normals nor depth */
     if (shader == SHADER_PLANAR_TILE && !(variant & VARIANT_UPSAMPLE))
-        variant &= VARIANT_PAIRED | VARIANT_COMPUTE | ROUND_FLAGS | VARIANT_WIDE;
+        variant &= VARIANT_PAIRED | VARIANT_COMPUTE | VARIANT_BRANCHES | ROUND_FLAGS | VARIANT_WIDE;
     const glssao__program_object *found = find(effect, shader, variant);
     if (found) {
         *out = *found;

@@ -59,7 +59,7 @@ static const struct format {
 } formats[] = {
     {"R16, full size", GL_R16, 2, 1},         {"R32F, half size", GL_R32F, 4, 2},
     {"RG32F, half size", GL_RG32F, 8, 2},     {"RGBA16, half size", GL_RGBA16, 8, 2},
-    {"RGBA16F, full size", GL_RGBA16F, 8, 1},
+    {"RGBA16F, full size", GL_RGBA16F, 8, 1}, {"R32F, 64x36", GL_R32F, 4, 30},
 };
 
 typedef struct job {

@@ -49,8 +49,11 @@ int main(int argc, char **argv)
     enum { BATCH = 64, COMMAND_SIZE = 96 * 1024 };
     static char command[COMMAND_SIZE];
     int bad = 0, programs = 0, pending = 0;
-    for (int id = 0; id < SHADER_COUNT; ++id)
-        for (unsigned variant = 0; variant < VARIANT_COUNT; ++variant) {
+    for (int id = 0; id < SHADER_COUNT; ++id) {
+        const unsigned flags = glssao__program_flags((enum glssao__shader)id);
+        unsigned variant = flags;
+        do { /* each subset of the flags, the empty one first */
+            variant = (variant - flags) & flags;
             if (!glssao__program_exists((enum glssao__shader)id, variant))
                 continue;
             if (pending == 0)
@@ -63,7 +66,8 @@ int main(int argc, char **argv)
                 bad += system(command) != 0;
                 pending = 0;
             }
-        }
+        } while (variant != flags);
+    }
     if (pending == 0)
         snprintf(command, sizeof command, "\"%s\"", argv[1]);
     bad += !write_stage(argv[2], SHADER_APPLY, 0, GL_VERTEX_SHADER, command, sizeof command); /* shared by all */

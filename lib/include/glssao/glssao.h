@@ -74,7 +74,7 @@ typedef void (*glssao_log_fn)(glssao_log_level level, const char *message, void 
 /* ---- config: fixed for the effect's life ---------------------------------------------------------------- */
 
 /* How passes run that can run as compute shaders, too: distance, horizon's estimate, blurs and upsampling. Both ways
- * agree within a step of R16, on a GPU but for a few pixels where its rounding differs at a threshold. */
+ * agree within a step of R16. */
 typedef enum glssao_path {
     GLSSAO_PATH_AUTO = 0, /* compute shaders on GPUs that have and take them; fragment shaders on software rasterisers */
     GLSSAO_PATH_FRAGMENT, /* never compute shaders */
