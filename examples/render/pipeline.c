@@ -47,6 +47,27 @@ glssao_settings pipeline_settings(const options *o, const scene *s)
     return settings;
 }
 
+/* The library's last error, for the line that reports a failure: its own names no job. Of the context's thread. */
+static char heard[200];
+
+static void hear(glssao_log_level level, const char *message, void *user)
+{
+    glssao_log_to_stderr(level, message, user);
+    if (level == GLSSAO_LOG_ERROR) {
+        snprintf(heard, sizeof heard, "%.*s", (int)strcspn(message, "\n"), message);
+    }
+}
+
+static bool check(glssao_result result, const char *what, char *error, size_t error_size)
+{
+    if (result != GLSSAO_OK) {
+        snprintf(error, error_size, "%s failed: %s%s%s", what, glssao_result_string(result), heard[0] ? ": " : "",
+                 heard);
+        heard[0] = '\0';
+    }
+    return result == GLSSAO_OK;
+}
+
 static bool is_folder(const char *path)
 {
     struct stat found;
@@ -71,7 +92,7 @@ static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, co
         }
         const glssao_config config = {.load = load,
                                       .load_user = load_user,
-                                      .log = glssao_log_to_stderr,
+                                      .log = hear,
                                       .width = p->width,
                                       .height = p->height,
                                       .seed = o->seed,
@@ -79,8 +100,7 @@ static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, co
                                       .path = (glssao_path)o->path,
                                       .program_cache = o->program_cache};
         const glssao_result result = glssao_create(&config, &p->kept);
-        if (result != GLSSAO_OK) {
-            snprintf(error, error_size, "the effect can't be made: %s", glssao_result_string(result));
+        if (!check(result, "glssao_create", error, error_size)) {
             return false;
         }
         p->kept_timers = p->wants.timers;
@@ -172,14 +192,6 @@ void pipeline_destroy(pipeline *p)
     }
     stage_close(&p->own);
     *p = (pipeline){.margin = 0};
-}
-
-static bool check(glssao_result result, const char *what, char *error, size_t error_size)
-{
-    if (result != GLSSAO_OK) {
-        snprintf(error, error_size, "%s failed: %s", what, glssao_result_string(result));
-    }
-    return result == GLSSAO_OK;
 }
 
 static bool draw_prepass(pipeline *p, const scene_view *view, char *error, size_t error_size)
