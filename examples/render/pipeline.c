@@ -194,9 +194,23 @@ void pipeline_destroy(pipeline *p)
     *p = (pipeline){.margin = 0};
 }
 
+bool pipeline_runs_occlusion(const pipeline *p, const scene_view *view)
+{
+    if (!p->wants.ao || p->wants.traced) {
+        return false;
+    }
+    const glssao_frame frame = pipeline_frame(p, view);
+    return glssao_plan_frame(p->effect, &frame, &p->settings).passes[GLSSAO_PASS_ESTIMATE].run;
+}
+
+bool pipeline_reads_normals(const pipeline *p, const scene_view *view)
+{
+    return p->effect && (p->wants.normal_map || pipeline_runs_occlusion(p, view));
+}
+
 static bool draw_prepass(pipeline *p, const scene_view *view, char *error, size_t error_size)
 {
-    if (p->effect) {
+    if (pipeline_reads_normals(p, view)) {
         if (!check(glssao_begin_normals(p->effect, p->depth), "glssao_begin_normals", error, error_size)) {
             return false;
         }
@@ -204,7 +218,7 @@ static bool draw_prepass(pipeline *p, const scene_view *view, char *error, size_
         if (!check(glssao_end_normals(p->effect), "glssao_end_normals", error, error_size)) {
             return false;
         }
-        for (int i = 0; p->draw_options.layers && i < 2; i++) {
+        for (int i = 0; p->draw_options.layers && pipeline_runs_occlusion(p, view) && i < 2; i++) {
             gl.BindFramebuffer(GL_FRAMEBUFFER, p->layer_framebuffer);
             gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, p->layers[i], 0);
             scene_draw_layer(p->renderer, view, p->depth, i == 0 ? SCENE_LAYER_BACK : SCENE_LAYER_SECOND);

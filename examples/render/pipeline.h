@@ -18,13 +18,14 @@
 
 /* What the command line makes necessary. */
 typedef struct pipeline_wants {
-    bool picture; /* the main pass */
-    bool ao_map;  /* accessibility for its own sake, not only for the picture */
-    bool ao;      /* accessibility: the occlusion passes, or */
-    bool traced;  /* rays */
-    bool prepass; /* depth, and with it: */
-    bool timers;  /* times of the occlusion passes */
-    bool normals; /* a normal map, for --normals or the occlusion passes */
+    bool picture;    /* the main pass */
+    bool ao_map;     /* accessibility for its own sake, not only for the picture */
+    bool ao;         /* accessibility: the occlusion passes, or */
+    bool traced;     /* rays */
+    bool prepass;    /* depth, and with it: */
+    bool timers;     /* times of the occlusion passes */
+    bool normals;    /* a normal map, for the occlusion passes where they run, or */
+    bool normal_map; /* for its own sake */
 } pipeline_wants;
 
 typedef struct pipeline {
@@ -120,5 +121,9 @@ void pipeline_free_targets(pipeline *p);
 GLuint pipeline_map_framebuffer(pipeline *p, pixel_kind kind);
 /* What the effect takes. */
 glssao_frame pipeline_frame(const pipeline *p, const scene_view *view);
+/* Whether the effect has anything to do in this view. */
+bool pipeline_runs_occlusion(const pipeline *p, const scene_view *view);
+/* Whether anyone reads the normals of this view. */
+bool pipeline_reads_normals(const pipeline *p, const scene_view *view);
 
 #endif

@@ -72,7 +72,7 @@ bool pipeline_make_targets(pipeline *p, char *error, size_t error_size)
     if (!p->depth) {
         p->depth = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, p->width, p->height);
     }
-    if (!p->effect && !p->depth_framebuffer) {
+    if (p->wants.prepass && !p->depth_framebuffer) {
         complete = make_framebuffer(0, p->depth, &p->depth_framebuffer);
     }
     if (p->wants.picture && !p->color) {

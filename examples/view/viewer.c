@@ -68,8 +68,13 @@ void viewer_frame_scene(viewer *v)
 
 static bool make_pipeline(viewer *v, pipeline *p, const scene *s)
 {
-    const pipeline_wants wants = {
-        .picture = true, .ao = true, .ao_map = true, .prepass = true, .normals = true, .timers = true};
+    const pipeline_wants wants = {.picture = true,
+                                  .ao = true,
+                                  .ao_map = true,
+                                  .prepass = true,
+                                  .normals = true,
+                                  .normal_map = true,
+                                  .timers = true};
     options o = v->options;
     o.width = v->width;
     o.height = v->height;
