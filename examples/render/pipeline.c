@@ -58,7 +58,7 @@ static void hear(glssao_log_level level, const char *message, void *user)
     }
 }
 
-static bool check(glssao_result result, const char *what, char *error, size_t error_size)
+bool pipeline_check(glssao_result result, const char *what, char *error, size_t error_size)
 {
     if (result != GLSSAO_OK) {
         snprintf(error, error_size, "%s failed: %s%s%s", what, glssao_result_string(result), heard[0] ? ": " : "",
@@ -100,7 +100,7 @@ static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, co
                                       .path = (glssao_path)o->path,
                                       .program_cache = o->program_cache};
         const glssao_result result = glssao_create(&config, &p->kept);
-        if (!check(result, "glssao_create", error, error_size)) {
+        if (!pipeline_check(result, "glssao_create", error, error_size)) {
             return false;
         }
         p->kept_timers = p->wants.timers;
@@ -211,11 +211,11 @@ bool pipeline_reads_normals(const pipeline *p, const scene_view *view)
 static bool draw_prepass(pipeline *p, const scene_view *view, char *error, size_t error_size)
 {
     if (pipeline_reads_normals(p, view)) {
-        if (!check(glssao_begin_normals(p->effect, p->depth), "glssao_begin_normals", error, error_size)) {
+        if (!pipeline_check(glssao_begin_normals(p->effect, p->depth), "glssao_begin_normals", error, error_size)) {
             return false;
         }
         scene_draw_normals(p->renderer, view);
-        if (!check(glssao_end_normals(p->effect), "glssao_end_normals", error, error_size)) {
+        if (!pipeline_check(glssao_end_normals(p->effect), "glssao_end_normals", error, error_size)) {
             return false;
         }
         for (int i = 0; p->draw_options.layers && pipeline_runs_occlusion(p, view) && i < 2; i++) {
@@ -256,13 +256,13 @@ static bool find_accessibility(pipeline *p, const scene_view *view, char *error,
     }
     const glssao_frame frame = pipeline_frame(p, view);
     if (p->goal.error <= 0 && p->goal.budget_ms <= 0) {
-        return check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", error, error_size);
+        return pipeline_check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", error, error_size);
     }
     const glssao_result result = progressive_run(p->effect, &frame, &p->settings, &p->goal, &p->reached);
     if (result == GLSSAO_OK) {
         progressive_print(&p->reached, &p->goal);
     }
-    return check(result, "glssao_accumulate", error, error_size);
+    return pipeline_check(result, "glssao_accumulate", error, error_size);
 }
 
 GLuint pipeline_ambient_map(const pipeline *p)

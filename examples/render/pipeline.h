@@ -112,6 +112,8 @@ void pipeline_print_plan(const pipeline *p, const scene_view *view);
 
 /* ---- Between the pipeline's own files: pipeline_targets.c, pipeline.c */
 
+/* False, with what failed and the library's last error in `error`, where the result is not GLSSAO_OK. */
+bool pipeline_check(glssao_result result, const char *what, char *error, size_t error_size);
 /* Frees the targets. False, with one line in `error`, where the context has no framebuffers of that size. */
 bool pipeline_change_size(pipeline *p, int width, int height, char *error, size_t error_size);
 /* Makes those that are wanted and not there. */

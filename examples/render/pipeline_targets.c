@@ -119,8 +119,7 @@ bool pipeline_change_size(pipeline *p, int width, int height, char *error, size_
         return false;
     }
     const glssao_result result = p->kept ? glssao_resize(p->kept, width, height) : GLSSAO_OK;
-    if (result != GLSSAO_OK) {
-        snprintf(error, error_size, "glssao_resize failed: %s", glssao_result_string(result));
+    if (!pipeline_check(result, "glssao_resize", error, error_size)) {
         return false;
     }
     pipeline_free_targets(p);
