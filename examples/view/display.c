@@ -204,6 +204,7 @@ void viewer_display(viewer *v)
 void *viewer_read_shown(viewer *v)
 {
     GLuint framebuffer;
+    viewer_display(v); /* the keys before may have come with this one */
     const GLuint texture = make_target(GL_RGBA8, v->width, v->height, 0, &framebuffer);
     void *pixels = malloc((size_t)v->width * (size_t)v->height * 4);
     if (pixels) {

@@ -82,11 +82,10 @@ await() {
     fail "never: $*"
 }
 has_title() { [ "$(xdotool getwindowname "$window")" = "$1" ]; }
-# The command line that the viewer prints, and the picture that it saves.
+# The command line that the viewer prints, and the picture that it saves, after keys that come in one go with these.
 save() {
     rm -f saved.png
-    press ctrl+c
-    press ctrl+s
+    xdotool key --delay 1 "$@" ctrl+c ctrl+s
     await test -s saved.png
     sleep 0.1
     command=$(tail -n 1 view.out)
@@ -157,8 +156,7 @@ save
 [[ $command = *"--near 0.5 --far 90 --layers 2 --error 0.0625 --path compute --debug-map ao"* ]] || fail "left out: $command"
 press Tab
 save
-press 2
-save
+save Left Left bracketright 2
 press f Next
 await has_title columns
 save
