@@ -5,7 +5,6 @@
 #include "inject.h"
 
 #include <glssao/glssao.h>
-#include <math.h>
 #include <pthread.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -25,16 +24,16 @@ void inject_say(const char *format, ...)
     va_end(arguments);
 }
 
-static float number(const char *name, float least)
+static float number(const char *name, float least, float most)
 {
     const char *text = getenv(name);
     if (!text || !*text)
         return 0.0f;
     char *end;
     float value = strtof(text, &end);
-    if (*end == '\0' && isfinite(value) && value >= least)
+    if (*end == '\0' && value >= least && value <= most)
         return value;
-    inject_say("%s=%s is no number from %g up and is not used", name, text, (double)least);
+    inject_say("%s=%s is no number from %g to %g and is not used", name, text, (double)least, (double)most);
     return 0.0f;
 }
 
@@ -48,27 +47,33 @@ static void read_environment(void)
 {
     static const char *const levels[] = {"low", "medium", "high", "ultra"};
     options = (inject_options){
-        .fov = number("GLSSAO_INJECT_FOV", 1.0f),
-        .near_plane = number("GLSSAO_INJECT_NEAR", 0.0f),
-        .far_plane = number("GLSSAO_INJECT_FAR", 0.0f),
-        .radius = number("GLSSAO_INJECT_RADIUS", 0.0f),
-        .power = number("GLSSAO_INJECT_POWER", 0.0f),
+        .fov = number("GLSSAO_INJECT_FOV", 1.0f, 179.0f),
+        .near_plane = number("GLSSAO_INJECT_NEAR", 0.0f, 1e12f),
+        .far_plane = number("GLSSAO_INJECT_FAR", 0.0f, 1e12f),
+        .radius = number("GLSSAO_INJECT_RADIUS", 0.0f, 1e11f),
+        .power = number("GLSSAO_INJECT_POWER", 0.0f, 64.0f),
         .quality = GLSSAO_HIGH,
         .off = flag("GLSSAO_INJECT_OFF"),
         .map = flag("GLSSAO_INJECT_MAP"),
         .picture = getenv("GLSSAO_INJECT_PICTURE"),
         .before = getenv("GLSSAO_INJECT_BEFORE"),
-        .picture_frame = (int)number("GLSSAO_INJECT_FRAME", 1.0f),
+        .picture_frame = (int)number("GLSSAO_INJECT_FRAME", 1.0f, 1e6f),
     };
     if (options.picture_frame == 0)
         options.picture_frame = 100;
     const char *quality = getenv("GLSSAO_INJECT_QUALITY");
-    for (int i = 0; quality && i < 4; ++i)
-        if (strcmp(quality, levels[i]) == 0)
+    bool known = !quality || !*quality;
+    for (int i = 0; !known && i < 4; ++i)
+        if (strcmp(quality, levels[i]) == 0) {
             options.quality = i;
-    if (options.fov > 0.0f &&
-        !(options.near_plane > 0.0f && options.far_plane > options.near_plane && options.fov < 180.0f)) {
-        inject_say("GLSSAO_INJECT_FOV needs GLSSAO_INJECT_NEAR above 0 and GLSSAO_INJECT_FAR beyond it");
+            known = true;
+        }
+    if (!known)
+        inject_say("GLSSAO_INJECT_QUALITY=%s is none of low, medium, high, ultra and is not used", quality);
+    const bool planes = options.near_plane > 0.0f && options.far_plane > options.near_plane;
+    if ((options.fov > 0.0f) != planes) {
+        inject_say("a projection takes all of GLSSAO_INJECT_FOV, GLSSAO_INJECT_NEAR above 0 and GLSSAO_INJECT_FAR "
+                   "beyond it, and is not used");
         options.fov = 0.0f;
     }
 }

@@ -15,7 +15,10 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-int batch_split_line(char *line, char **words, const char **out_fault)
+/* Splits a line into words, in place: blanks separate; '...', "..." and \ quote as in a shell; # before a word starts a
+ * comment. `words` has room for half as many as the line has characters, and one more. -1, with the fault, where a
+ * quote has no end. */
+static int split_line(char *line, char **words, const char **out_fault)
 {
     const char *in = line;
     char *out = line; /* never overtakes `in` */
@@ -105,7 +108,7 @@ static bool add_job(batch_list *list, const options *defaults, int number, char 
         return false;
     }
     words[0] = line; /* where a program's name would stand */
-    const int count = batch_split_line(line, words + 1, &fault);
+    const int count = split_line(line, words + 1, &fault);
     if (count < 0) {
         job.error = strdup(fault);
     } else if (count > 0 && !options_parse_job(defaults, count + 1, words, &job.options, error, sizeof error)) {

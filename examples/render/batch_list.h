@@ -27,11 +27,6 @@ typedef struct batch_list {
 bool batch_list_read(batch_list *list, const options *defaults, char *error, size_t error_size);
 void batch_list_free(batch_list *list);
 
-/* Splits a line into words, in place: blanks separate; '...', "..." and \ quote as in a shell; # before a word starts a
- * comment. `words` has room for half as many as the line has characters, and one more. -1, with the fault, where a
- * quote has no end. */
-int batch_split_line(char *line, char **words, const char **out_fault);
-
 /* batch_names.c: gives an error to every job that writes a file which an earlier one writes. False where memory is
  * short. */
 bool batch_find_clashes(batch_list *list);

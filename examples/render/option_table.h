@@ -23,10 +23,10 @@ typedef enum option_kind {
 } option_kind;
 
 typedef enum option_scope {
-    SCOPE_PICTURE,  /* of one picture: also in a batch's lines */
-    SCOPE_RENDERED, /* the same, and not the viewer's */
-    SCOPE_RUN,      /* of the whole run: on the command line alone */
-    SCOPE_BATCH     /* the same, and not the viewer's */
+    SCOPE_PICTURE,     /* of one picture: also in a batch's lines */
+    SCOPE_RENDERED,    /* the same, and not the viewer's */
+    SCOPE_RUN,         /* of the whole run: on the command line alone */
+    SCOPE_RENDERED_RUN /* the same, and not the viewer's */
 } option_scope;
 
 typedef struct option {

@@ -17,8 +17,12 @@ static bool parse_option(int argc, char **argv, int *at, options_program program
     const bool is_long = argument[1] == '-';
     const size_t name_length = is_long ? strcspn(argument + 2, "=") : 1;
     const option *o = is_long ? option_find(argument + 2, name_length) : option_find_letter(argument[1]);
-    if (!o || (program == OPTIONS_VIEWER && !option_is_viewers(o))) {
+    if (!o) {
         snprintf(error, error_size, "unknown option %s", argument);
+        return false;
+    }
+    if (program == OPTIONS_VIEWER && !option_is_viewers(o)) {
+        snprintf(error, error_size, "--%s: glssao-render takes it, glssao-view does not", o->name);
         return false;
     }
     if (program == OPTIONS_JOB && o->scope >= SCOPE_RUN) {
@@ -91,7 +95,8 @@ static options_result parse(int argc, char **argv, options_program program, opti
             viewer
                 ? "usage: glssao-view [options] [scene.gltf|scene.glb]\n"
                   "Shows a glTF scene, or a built-in one, with screen-space ambient occlusion, in a window. F1 there "
-                  "shows\nthe keys. The options are glssao-render's; --output is where pictures are saved.\n"
+                  "shows\nthe keys. The options mean what they mean to glssao-render; --output is where pictures are "
+                  "saved.\n"
                 : "usage: glssao-render [options] [scene.gltf|scene.glb]\n"
                   "       glssao-render [options] --batch LIST [--shard I/N]\n"
                   "Renders a glTF scene, or a built-in one, with screen-space ambient occlusion, without a display.\n",

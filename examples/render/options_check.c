@@ -29,13 +29,35 @@ static bool is_horizon_count(int n)
     return n == 12 || n == 16 || n == 24 || n == 32 || n == 48 || n == 64;
 }
 
+/* Those of --set, which was checked, else --samples. */
+static bool check_samples(const options *o, char *error, size_t error_size)
+{
+    char fault[256];
+    glssao_settings settings = {.sample_count = o->sample_count};
+    if (o->set) {
+        setting_apply(o->set, &settings, fault, sizeof fault);
+    }
+    const int count = settings.sample_count, most = o->technique == GLSSAO_CLASSIC ? 14 : 64;
+    if (count == 0 || o->technique == OPTIONS_RAYTRACE) {
+        return true;
+    }
+    if (o->technique == GLSSAO_HORIZON && !is_horizon_count(count)) {
+        snprintf(error, error_size, "--samples \"%d\": horizon takes 12, 16, 24, 32, 48 or 64", count);
+        return false;
+    }
+    if (count > most) {
+        snprintf(error, error_size, "--samples \"%d\": this technique takes at most %d", count, most);
+        return false;
+    }
+    return true;
+}
+
 /* What no value alone tells: options that need or exclude each other. */
 static bool check_together(const options *o, bool is_viewer, char *error, size_t error_size)
 {
     const bool file_wanted =
         o->output || o->ao || o->normals || o->depth || o->stats || o->bench || o->plan || is_viewer;
     const bool traced = o->technique == OPTIONS_RAYTRACE;
-    const int most_samples = o->technique == GLSSAO_CLASSIC ? 14 : 64;
     if (traced && !GLSSAO_HAS_EMBREE) {
         snprintf(error, error_size, "--technique raytrace: this glssao-render was built without Embree");
     } else if (traced && o->bench) {
@@ -43,10 +65,6 @@ static bool check_together(const options *o, bool is_viewer, char *error, size_t
                  o->bench);
     } else if (traced && o->blur_rounds >= 0) {
         snprintf(error, error_size, "--blur-rounds %d: traced accessibility is not blurred", o->blur_rounds);
-    } else if (!traced && o->sample_count > most_samples) {
-        snprintf(error, error_size, "--samples \"%d\": this technique takes at most %d", o->sample_count, most_samples);
-    } else if (o->technique == GLSSAO_HORIZON && o->sample_count && !is_horizon_count(o->sample_count)) {
-        snprintf(error, error_size, "--samples \"%d\": horizon takes 12, 16, 24, 32, 48 or 64", o->sample_count);
     } else if ((o->error.given || o->budget_ms.given) && o->technique != GLSSAO_HORIZON) {
         snprintf(error, error_size, "--%s %g: only the horizon technique adds up estimates",
                  o->error.given ? "error" : "budget", (double)(o->error.given ? o->error.value : o->budget_ms.value));
@@ -82,9 +100,6 @@ static bool check_together(const options *o, bool is_viewer, char *error, size_t
                  (double)o->far_plane.value);
     } else if (o->eye.given && o->target.given && memcmp(&o->eye, &o->target, sizeof o->eye) == 0) {
         snprintf(error, error_size, "--eye and --target are the same point");
-    } else if (is_viewer && (o->ao || o->normals || o->depth || o->stats || o->bench || o->plan || o->frames)) {
-        snprintf(error, error_size,
-                 "glssao-view takes no --ao, --normals, --depth, --stats, --bench, --plan, --frames");
     } else if (is_viewer && traced) {
         snprintf(error, error_size, "--technique raytrace: the viewer shows it as the difference to it (key T)");
     } else if (!file_wanted) {
@@ -123,5 +138,6 @@ bool options_check(const options *o, options_program program, char *error, size_
         snprintf(error, error_size, "--shard %d/%d: needs a list, --batch LIST", o->shard_index, o->shard_count);
         return false;
     }
-    return check_together(o, program == OPTIONS_VIEWER, error, error_size) && check_settings(o, error, error_size);
+    return check_together(o, program == OPTIONS_VIEWER, error, error_size) && check_settings(o, error, error_size) &&
+           check_samples(o, error, error_size);
 }

@@ -47,6 +47,27 @@ glssao_settings pipeline_settings(const options *o, const scene *s)
     return settings;
 }
 
+/* The library's last error, for the line that reports a failure: its own names no job. Of the context's thread. */
+static char heard[200];
+
+static void hear(glssao_log_level level, const char *message, void *user)
+{
+    glssao_log_to_stderr(level, message, user);
+    if (level == GLSSAO_LOG_ERROR) {
+        snprintf(heard, sizeof heard, "%.*s", (int)strcspn(message, "\n"), message);
+    }
+}
+
+bool pipeline_check(glssao_result result, const char *what, char *error, size_t error_size)
+{
+    if (result != GLSSAO_OK) {
+        snprintf(error, error_size, "%s failed: %s%s%s", what, glssao_result_string(result), heard[0] ? ": " : "",
+                 heard);
+        heard[0] = '\0';
+    }
+    return result == GLSSAO_OK;
+}
+
 static bool is_folder(const char *path)
 {
     struct stat found;
@@ -71,7 +92,7 @@ static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, co
         }
         const glssao_config config = {.load = load,
                                       .load_user = load_user,
-                                      .log = glssao_log_to_stderr,
+                                      .log = hear,
                                       .width = p->width,
                                       .height = p->height,
                                       .seed = o->seed,
@@ -79,8 +100,7 @@ static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, co
                                       .path = (glssao_path)o->path,
                                       .program_cache = o->program_cache};
         const glssao_result result = glssao_create(&config, &p->kept);
-        if (result != GLSSAO_OK) {
-            snprintf(error, error_size, "the effect can't be made: %s", glssao_result_string(result));
+        if (!pipeline_check(result, "glssao_create", error, error_size)) {
             return false;
         }
         p->kept_timers = p->wants.timers;
@@ -174,25 +194,31 @@ void pipeline_destroy(pipeline *p)
     *p = (pipeline){.margin = 0};
 }
 
-static bool check(glssao_result result, const char *what, char *error, size_t error_size)
+bool pipeline_runs_occlusion(const pipeline *p, const scene_view *view)
 {
-    if (result != GLSSAO_OK) {
-        snprintf(error, error_size, "%s failed: %s", what, glssao_result_string(result));
+    if (!p->wants.ao || p->wants.traced) {
+        return false;
     }
-    return result == GLSSAO_OK;
+    const glssao_frame frame = pipeline_frame(p, view);
+    return glssao_plan_frame(p->effect, &frame, &p->settings).passes[GLSSAO_PASS_ESTIMATE].run;
+}
+
+bool pipeline_reads_normals(const pipeline *p, const scene_view *view)
+{
+    return p->effect && (p->wants.normal_map || pipeline_runs_occlusion(p, view));
 }
 
 static bool draw_prepass(pipeline *p, const scene_view *view, char *error, size_t error_size)
 {
-    if (p->effect) {
-        if (!check(glssao_begin_normals(p->effect, p->depth), "glssao_begin_normals", error, error_size)) {
+    if (pipeline_reads_normals(p, view)) {
+        if (!pipeline_check(glssao_begin_normals(p->effect, p->depth), "glssao_begin_normals", error, error_size)) {
             return false;
         }
         scene_draw_normals(p->renderer, view);
-        if (!check(glssao_end_normals(p->effect), "glssao_end_normals", error, error_size)) {
+        if (!pipeline_check(glssao_end_normals(p->effect), "glssao_end_normals", error, error_size)) {
             return false;
         }
-        for (int i = 0; p->draw_options.layers && i < 2; i++) {
+        for (int i = 0; p->draw_options.layers && pipeline_runs_occlusion(p, view) && i < 2; i++) {
             gl.BindFramebuffer(GL_FRAMEBUFFER, p->layer_framebuffer);
             gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, p->layers[i], 0);
             scene_draw_layer(p->renderer, view, p->depth, i == 0 ? SCENE_LAYER_BACK : SCENE_LAYER_SECOND);
@@ -230,13 +256,13 @@ static bool find_accessibility(pipeline *p, const scene_view *view, char *error,
     }
     const glssao_frame frame = pipeline_frame(p, view);
     if (p->goal.error <= 0 && p->goal.budget_ms <= 0) {
-        return check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", error, error_size);
+        return pipeline_check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", error, error_size);
     }
     const glssao_result result = progressive_run(p->effect, &frame, &p->settings, &p->goal, &p->reached);
     if (result == GLSSAO_OK) {
         progressive_print(&p->reached, &p->goal);
     }
-    return check(result, "glssao_accumulate", error, error_size);
+    return pipeline_check(result, "glssao_accumulate", error, error_size);
 }
 
 GLuint pipeline_ambient_map(const pipeline *p)

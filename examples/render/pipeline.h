@@ -18,13 +18,14 @@
 
 /* What the command line makes necessary. */
 typedef struct pipeline_wants {
-    bool picture; /* the main pass */
-    bool ao_map;  /* accessibility for its own sake, not only for the picture */
-    bool ao;      /* accessibility: the occlusion passes, or */
-    bool traced;  /* rays */
-    bool prepass; /* depth, and with it: */
-    bool timers;  /* times of the occlusion passes */
-    bool normals; /* a normal map, for --normals or the occlusion passes */
+    bool picture;    /* the main pass */
+    bool ao_map;     /* accessibility for its own sake, not only for the picture */
+    bool ao;         /* accessibility: the occlusion passes, or */
+    bool traced;     /* rays */
+    bool prepass;    /* depth, and with it: */
+    bool timers;     /* times of the occlusion passes */
+    bool normals;    /* a normal map, for the occlusion passes where they run, or */
+    bool normal_map; /* for its own sake */
 } pipeline_wants;
 
 typedef struct pipeline {
@@ -111,6 +112,8 @@ void pipeline_print_plan(const pipeline *p, const scene_view *view);
 
 /* ---- Between the pipeline's own files: pipeline_targets.c, pipeline.c */
 
+/* False, with what failed and the library's last error in `error`, where the result is not GLSSAO_OK. */
+bool pipeline_check(glssao_result result, const char *what, char *error, size_t error_size);
 /* Frees the targets. False, with one line in `error`, where the context has no framebuffers of that size. */
 bool pipeline_change_size(pipeline *p, int width, int height, char *error, size_t error_size);
 /* Makes those that are wanted and not there. */
@@ -120,5 +123,9 @@ void pipeline_free_targets(pipeline *p);
 GLuint pipeline_map_framebuffer(pipeline *p, pixel_kind kind);
 /* What the effect takes. */
 glssao_frame pipeline_frame(const pipeline *p, const scene_view *view);
+/* Whether the effect has anything to do in this view. */
+bool pipeline_runs_occlusion(const pipeline *p, const scene_view *view);
+/* Whether anyone reads the normals of this view. */
+bool pipeline_reads_normals(const pipeline *p, const scene_view *view);
 
 #endif

@@ -27,10 +27,11 @@ static void print_row(const char *name, bool run, int draws, int width, int heig
 void pipeline_print_plan(const pipeline *p, const scene_view *view)
 {
     printf("%-12s %-5s %5s  %-12s %s\n", "pass", "", "draws", "size", "reason");
+    const bool occludes = pipeline_runs_occlusion(p, view);
     print_row("pre-pass", p->wants.prepass, -1, p->width, p->height,
-              p->effect          ? "depth and view-space normals"
-              : p->wants.prepass ? "depth alone: nothing reads normals"
-                                 : "rays find their surfaces themselves");
+              pipeline_reads_normals(p, view) ? "depth and view-space normals"
+              : p->wants.prepass              ? "depth alone: nothing reads normals"
+                                              : "rays find their surfaces themselves");
     if (p->wants.traced) {
         print_row("raytrace", true, 0, p->width, p->height, "rays from each pixel's surface, on the processor");
     } else if (p->wants.ao) {
@@ -46,12 +47,15 @@ void pipeline_print_plan(const pipeline *p, const scene_view *view)
     } else {
         print_row("occlusion", false, 0, 0, 0, "no output reads it");
     }
-    print_row("layers", p->draw_options.layers, -1, p->width, p->height,
-              p->draw_options.layers ? "back faces and the next fronts, for thickness" : "not asked for");
+    const bool layers = p->draw_options.layers && occludes;
+    print_row("layers", layers, -1, p->width, p->height,
+              layers                   ? "back faces and the next fronts, for thickness"
+              : p->draw_options.layers ? "no estimate reads them"
+                                       : "not asked for");
     print_row("main", p->wants.picture, -1, p->width, p->height,
-              !p->wants.picture ? "no shaded picture is wanted"
-              : p->wants.ao     ? "shades, ambient light scaled by accessibility"
-                                : "shades, ambient light in full");
+              !p->wants.picture             ? "no shaded picture is wanted"
+              : occludes || p->wants.traced ? "shades, ambient light scaled by accessibility"
+                                            : "shades, ambient light in full");
     const scene_seen seen = scene_find_seen(p->renderer, view);
     const unsigned hidden = seen.opaque_total + seen.blended_total - seen.opaque - seen.blended;
     char text[128];

@@ -72,7 +72,7 @@ bool pipeline_make_targets(pipeline *p, char *error, size_t error_size)
     if (!p->depth) {
         p->depth = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, p->width, p->height);
     }
-    if (!p->effect && !p->depth_framebuffer) {
+    if (p->wants.prepass && !p->depth_framebuffer) {
         complete = make_framebuffer(0, p->depth, &p->depth_framebuffer);
     }
     if (p->wants.picture && !p->color) {
@@ -119,8 +119,7 @@ bool pipeline_change_size(pipeline *p, int width, int height, char *error, size_
         return false;
     }
     const glssao_result result = p->kept ? glssao_resize(p->kept, width, height) : GLSSAO_OK;
-    if (result != GLSSAO_OK) {
-        snprintf(error, error_size, "glssao_resize failed: %s", glssao_result_string(result));
+    if (!pipeline_check(result, "glssao_resize", error, error_size)) {
         return false;
     }
     pipeline_free_targets(p);

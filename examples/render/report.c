@@ -173,6 +173,7 @@ static void print_settings(FILE *f, const report *r)
     static const char *const techniques[] = {"classic", "hemisphere", "horizon"};
     static const char *const qualities[] = {"low", "medium", "high", "ultra"};
     static const char *const blurs[] = {"none", "gaussian", "bilateral", "box", "planar"};
+    static const char *const tiles[] = {"auto", "off", "on"};
     const glssao_settings *s = r->settings;
     if (!s) {
         fputs("  \"settings\": null,\n", f);
@@ -181,12 +182,14 @@ static void print_settings(FILE *f, const report *r)
     fprintf(f,
             "  \"settings\": {\"technique\": \"%s\", \"quality\": \"%s\", \"radius\": %.9g, \"fade_start\": %.9g, "
             "\"fade_end\": %.9g, \"surface_epsilon\": %.9g, \"power\": %.9g, \"sample_count\": %d, "
-            "\"half_resolution\": %s, \"blur\": \"%s\", \"blur_rounds\": %d, \"blur_sigma\": %.9g, "
+            "\"half_resolution\": %s, \"upsample\": %s, \"tiles\": \"%s\", \"blur\": \"%s\", \"blur_rounds\": %d, "
+            "\"blur_sigma\": %.9g, "
             "\"blur_normal_threshold\": %.9g, \"blur_depth_threshold\": %.9g, \"seed\": %u},\n",
             techniques[s->technique], qualities[r->options->quality], (double)s->radius, (double)s->fade_start,
             (double)s->fade_end, (double)s->surface_epsilon, (double)s->power, s->sample_count,
-            s->half_resolution ? "true" : "false", blurs[s->blur], s->blur_rounds, (double)s->blur_sigma,
-            (double)s->blur_normal_threshold, (double)s->blur_depth_threshold, r->options->seed);
+            s->half_resolution ? "true" : "false", s->upsample ? "true" : "false", tiles[s->tiles], blurs[s->blur],
+            s->blur_rounds, (double)s->blur_sigma, (double)s->blur_normal_threshold, (double)s->blur_depth_threshold,
+            r->options->seed);
 }
 
 static void print_traced(FILE *f, const report *r)

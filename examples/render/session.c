@@ -46,8 +46,8 @@ static pipeline_wants choose_wants(const options *o)
     wants.ao = !o->no_ao && (wants.picture || o->ao);
     wants.ao_map = o->ao || o->debug_map == OPTIONS_MAP_AO || o->debug_map == OPTIONS_MAP_TILES;
     wants.traced = wants.ao && o->technique == OPTIONS_RAYTRACE;
-    wants.normals = (wants.ao && !wants.traced) || o->normals || o->debug_map == OPTIONS_MAP_NORMALS ||
-                    o->debug_map == OPTIONS_MAP_RANDOM;
+    wants.normal_map = o->normals || o->debug_map == OPTIONS_MAP_NORMALS;
+    wants.normals = (wants.ao && !wants.traced) || wants.normal_map || o->debug_map == OPTIONS_MAP_RANDOM;
     wants.timers = o->stats || o->bench;
     wants.prepass = wants.picture || wants.normals || o->depth;
     return wants;

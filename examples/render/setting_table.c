@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "setting_table.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,30 +15,29 @@ enum {
 
 #define AT(member) offsetof(glssao_settings, member)
 const setting setting_table[] = {
-    {"radius", "scene units", "how far away an occluder can be", SETTING_NUMBER, AT(radius), 0, FLT_MAX, true, NULL,
-     ALL},
+    {"radius", "scene units", "how far away an occluder can be", SETTING_NUMBER, AT(radius), 0, 1e12f, true, NULL, ALL},
     {"power", "exponent", "contrast: accessibility is raised to this", SETTING_NUMBER, AT(power), 0, 64, false, NULL,
      ALL},
     {"samples", "a pixel", "more is smoother, and slower", SETTING_WHOLE, AT(sample_count), 1, 64, false, NULL, ALL},
     {"half", "", "estimate at half the size", SETTING_SWITCH, AT(half_resolution), 0, 1, false, NULL, ALL},
     {"upsample", "", "a half-size result is brought to full size along surfaces", SETTING_SWITCH, AT(upsample), 0, 1,
      false, NULL, ALL},
-    {"fade-start", "scene units", "an occluder this much nearer counts fully", SETTING_NUMBER, AT(fade_start), 0,
-     FLT_MAX, true, NULL, CLASSIC},
-    {"fade-end", "scene units", "an occluder this much nearer no longer counts", SETTING_NUMBER, AT(fade_end), 0,
-     FLT_MAX, true, NULL, CLASSIC},
+    {"fade-start", "scene units", "an occluder this much nearer counts fully", SETTING_NUMBER, AT(fade_start), 0, 1e12f,
+     true, NULL, CLASSIC},
+    {"fade-end", "scene units", "an occluder this much nearer no longer counts", SETTING_NUMBER, AT(fade_end), 0, 1e12f,
+     true, NULL, CLASSIC},
     {"epsilon", "scene units", "an occluder less than this nearer does not count", SETTING_NUMBER, AT(surface_epsilon),
-     0, FLT_MAX, true, NULL, CLASSIC | HEMISPHERE},
+     0, 1e12f, true, NULL, CLASSIC | HEMISPHERE},
     {"blur", "", "how noise is smoothed", SETTING_WORD, AT(blur), 0, 4, false, "none|gaussian|bilateral|box|planar",
      ALL},
     {"blur-rounds", "rounds", "each is one horizontal and one vertical pass", SETTING_WHOLE, AT(blur_rounds), 0, 16,
      false, NULL, ALL},
-    {"blur-sigma", "pixels", "width of the Gaussian and bilateral blurs", SETTING_NUMBER, AT(blur_sigma), 0.01f, 2.5f,
+    {"blur-sigma", "pixels", "width of the Gaussian and bilateral blurs", SETTING_NUMBER, AT(blur_sigma), 0.1f, 2.5f,
      false, NULL, ALL},
     {"blur-normals", "cosine", "bilateral: taps whose normals' dot product is below are dropped", SETTING_NUMBER,
      AT(blur_normal_threshold), -1, 1, false, NULL, ALL},
     {"blur-depth", "scene units", "bilateral: taps farther off in view distance are dropped", SETTING_NUMBER,
-     AT(blur_depth_threshold), 0, FLT_MAX, true, NULL, ALL},
+     AT(blur_depth_threshold), 0, 1e12f, true, NULL, ALL},
     {"tiles", "", "tiles where nothing can occlude are looked for, and left out", SETTING_WORD, AT(tiles), 0, 2, false,
      "auto|off|on", ALL},
     {"no-angle-weight", "", "for teaching: occluders count at any angle", SETTING_SWITCH, AT(no_angle_weight), 0, 1,
@@ -81,7 +79,7 @@ static bool take(const setting *s, const char *text, size_t length, glssao_setti
     number[length] = '\0';
     char *end;
     const double value = strtod(number, &end);
-    if (*end != '\0' || strpbrk(number, "xX") || !(value >= (double)s->low && value <= (double)s->high)) {
+    if (*end != '\0' || strpbrk(number, "xX") || !((float)value >= s->low && (float)value <= s->high)) {
         return false;
     }
     if (s->kind == SETTING_NUMBER) {

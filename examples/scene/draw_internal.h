@@ -142,11 +142,7 @@ bool draw_plan_items(scene_renderer *r, draw_instance *instances);
 /* False where the item lies wholly outside what the matrix shows. */
 bool draw_item_is_seen(const draw_item *item, const double clip_from_world[16]);
 
-/* draw_programs.c: gives every item the programs that the options call for, building those that are missing. */
-bool draw_choose_programs(scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options,
-                          bool shadowed, char *error, size_t error_size);
-
-/* False where the sky is one colour. */
+/* draw_programs.c: false where the sky is one colour. */
 bool draw_has_sky(const scene_lighting *lighting);
 /* Index of its program among the pool's variants, built where it is not there yet; -1, with one line in `error`, on
  * failure. */

@@ -86,8 +86,9 @@ int draw_find_sky(scene_renderer *r, const scene_lighting *lighting, char *error
     return find_program(r->pool, DRAW_SKY, lighting->environment ? VARIANT_ENVIRONMENT : 0u, error, error_size);
 }
 
-bool draw_choose_programs(scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options,
-                          bool shadowed, char *error, size_t error_size)
+/* Gives every item the programs that the options call for, building those that are missing. */
+static bool choose_programs(scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options,
+                            bool shadowed, char *error, size_t error_size)
 {
     if (!options->no_picture && (options->everything || draw_has_sky(lighting)) &&
         draw_find_sky(r, lighting, error, error_size) < 0)
@@ -131,7 +132,7 @@ bool scene_renderer_configure(scene_renderer *r, const scene_lighting *lighting,
     const int size = options->shadow_size ? options->shadow_size : 2048;
     if (shadowed && !draw_shadow_make(r, size, error, error_size))
         return false;
-    if (!draw_choose_programs(r, lighting, options, shadowed, error, error_size))
+    if (!choose_programs(r, lighting, options, shadowed, error, error_size))
         return false;
     if (options->everything)
         draw_make_neutral(r);

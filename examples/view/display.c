@@ -93,10 +93,19 @@ static bool compiles_quickly(viewer *v)
            glfwGetTime() - start < quick_seconds;
 }
 
+/* The horizon technique alone adds estimates up, and a single one is raw. */
+static progressive_goal frame_goal(const viewer *v)
+{
+    if (v->settings.technique != GLSSAO_HORIZON || v->shown == SHOWN_RAW)
+        return (progressive_goal){0};
+    return (progressive_goal){(double)v->options.error.value, (double)v->options.budget_ms.value};
+}
+
 static bool draw_frame(viewer *v)
 {
     stopwatch times = {.finish = true};
     v->pipeline.settings = frame_settings(v);
+    v->pipeline.goal = frame_goal(v);
     stopwatch_start(&times);
     if (!viewpoint_view(&v->viewpoint, v->scene, 0, v->width, v->height, &v->view, v->error, sizeof v->error)) {
         viewer_say(v, true, "%s", v->error);
@@ -113,12 +122,16 @@ static bool draw_frame(viewer *v)
     return true;
 }
 
-/* The picture without occlusion shares the frame's depth. */
+/* The picture without occlusion shares the frame's depth, and has no map of occlusion in its corner. */
 static void draw_off(viewer *v)
 {
+    const options_map corner = v->pipeline.debug_map;
     if (!v->off_color)
         v->off_color = make_target(GL_SRGB8_ALPHA8, v->width, v->height, v->pipeline.depth, &v->off_framebuffer);
+    if (corner == OPTIONS_MAP_AO || corner == OPTIONS_MAP_TILES)
+        v->pipeline.debug_map = OPTIONS_MAP_NONE;
     pipeline_shade(&v->pipeline, &v->view, 0, v->off_framebuffer);
+    v->pipeline.debug_map = corner;
 }
 
 static void draw_map(viewer *v)
@@ -191,6 +204,7 @@ void viewer_display(viewer *v)
 void *viewer_read_shown(viewer *v)
 {
     GLuint framebuffer;
+    viewer_display(v); /* the keys before may have come with this one */
     const GLuint texture = make_target(GL_RGBA8, v->width, v->height, 0, &framebuffer);
     void *pixels = malloc((size_t)v->width * (size_t)v->height * 4);
     if (pixels) {

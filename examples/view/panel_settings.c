@@ -6,13 +6,12 @@
 #include "setting_table.h"
 #include "viewer.h"
 
-#include <float.h>
 #include <math.h>
 
 /* Sliders have ends: for a length, ten times what comes with the radius that suits the scene. */
 static float slider_end(const setting *s, const viewer *v, float standard)
 {
-    if (s->high < FLT_MAX)
+    if (!s->length)
         return s->high;
     const float suggested = camera_suggest_radius(v->scene);
     return s->offset == offsetof(glssao_settings, radius) ? 10 * suggested : fmaxf(10 * standard, suggested);

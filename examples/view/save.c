@@ -98,11 +98,38 @@ static void add_camera(line *l, const viewer *v)
         add(l, " --far %.9g", (double)o->far_plane.value);
 }
 
+/* What glssao-render takes with the technique of the moment, and with occlusion alone. */
+static void add_occlusion(line *l, const viewer *v)
+{
+    static const char *const paths[] = {"auto", "fragment", "compute"};
+    const options *o = &v->options;
+    const bool horizon = v->settings.technique == GLSSAO_HORIZON;
+    if (v->mode == MODE_OFF)
+        add(l, " --no-ao");
+    if (o->layers && horizon)
+        add(l, " --layers %d", o->layers);
+    if (o->error.given && horizon && v->mode != MODE_OFF)
+        add(l, " --error %.9g", (double)o->error.value);
+    if (o->budget_ms.given && horizon && v->mode != MODE_OFF)
+        add(l, " --budget %.9g", (double)o->budget_ms.value);
+    if (o->path)
+        add(l, " --path %s", paths[o->path]);
+}
+
+/* The map in the corner, where glssao-render has it too. */
+static void add_debug_map(line *l, const viewer *v)
+{
+    static const char *const maps[] = {"none", "ao", "normals", "depth", "random", "shadow", "tiles"};
+    const int map = v->options.debug_map;
+    const bool is_of_occlusion = map == OPTIONS_MAP_AO || map == OPTIONS_MAP_TILES;
+    if (map && !(is_of_occlusion && v->mode == MODE_OFF) && !(map == OPTIONS_MAP_SHADOW && v->options.no_shadows))
+        add(l, " --debug-map %s", maps[map]);
+}
+
 bool viewer_command_line(const viewer *v, char *out, size_t out_size)
 {
     static const char *const techniques[] = {"classic", "hemisphere", "horizon"};
     static const char *const qualities[] = {"low", "medium", "high", "ultra"};
-    static const char *const maps[] = {"none", "ao", "normals", "depth", "random", "shadow", "tiles"};
     const options *o = &v->options;
     char settings[1024];
     line l = {out, out_size, 0, false};
@@ -117,26 +144,22 @@ bool viewer_command_line(const viewer *v, char *out, size_t out_size)
     if (settings[0])
         add(&l, " --set %s", settings);
     add_camera(&l, v);
-    if (v->mode == MODE_OFF)
-        add(&l, " --no-ao");
+    add_occlusion(&l, v);
     if (o->no_shadows)
         add(&l, " --no-shadows");
     if (o->shadow_size && !o->no_shadows)
         add(&l, " --shadow-size %d", o->shadow_size);
     add(&l, "%s%s%s", o->mapped_normals ? " --mapped-normals" : "",
         o->specular_occlusion ? " --specular-occlusion" : "", o->multi_bounce ? " --multi-bounce" : "");
-    if (o->layers)
-        add(&l, " --layers %d", o->layers);
-    if (o->error.given)
-        add(&l, " --error %.9g", (double)o->error.value);
     if (o->environment) {
         add(&l, " --environment");
         add_quoted(&l, o->environment);
     }
-    if (o->debug_map)
-        add(&l, " --debug-map %s", maps[o->debug_map]);
+    add_debug_map(&l, v);
     if (o->seed)
         add(&l, " --seed %u", o->seed);
+    if (o->time_s.given)
+        add(&l, " --time %.9g", (double)o->time_s.value);
     if (v->scene_path[0])
         add_quoted(&l, v->scene_path);
     else

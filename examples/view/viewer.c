@@ -53,11 +53,14 @@ void viewer_frame_scene(viewer *v)
     options o = v->options;
     o.width = v->width;
     o.height = v->height;
+    const viewpoint whole = {.base = camera_frame_scene(v->scene, (float)v->width / (float)v->height),
+                             .near_plane = o.near_plane,
+                             .far_plane = o.far_plane};
     if (v->moved) { /* once more: the whole scene, whatever the file's camera shows */
-        v->viewpoint = (viewpoint){.base = camera_frame_scene(v->scene, (float)v->width / (float)v->height)};
+        v->viewpoint = whole;
     } else if (!viewpoint_choose(&o, v->scene, &v->viewpoint, v->error, sizeof v->error)) {
         viewer_say(v, true, "%s", v->error);
-        v->viewpoint = (viewpoint){.base = camera_frame_scene(v->scene, (float)v->width / (float)v->height)};
+        v->viewpoint = whole;
         v->moved = true;
     }
     viewer_change(v);
@@ -65,8 +68,13 @@ void viewer_frame_scene(viewer *v)
 
 static bool make_pipeline(viewer *v, pipeline *p, const scene *s)
 {
-    const pipeline_wants wants = {
-        .picture = true, .ao = true, .ao_map = true, .prepass = true, .normals = true, .timers = true};
+    const pipeline_wants wants = {.picture = true,
+                                  .ao = true,
+                                  .ao_map = true,
+                                  .prepass = true,
+                                  .normals = true,
+                                  .normal_map = true,
+                                  .timers = true};
     options o = v->options;
     o.width = v->width;
     o.height = v->height;
@@ -77,13 +85,15 @@ bool viewer_open(viewer *v, const char *path, const char *name)
 {
     const double start = glfwGetTime();
     const bool first = !v->scene;
-    scene *s = path ? scene_load(path, v->error, sizeof v->error) : scene_make(name, v->error, sizeof v->error);
     pipeline made = {0};
     const options before = v->options;
     v->options.scene_path = path;
     v->options.scene_name = name;
-    if (s && !first)
-        v->options.radius.given = false; /* another scene, another size */
+    if (!first) { /* another scene, another size and another animation */
+        v->options.radius.given = v->options.near_plane.given = v->options.far_plane.given = false;
+        v->options.time_s.given = false;
+    }
+    scene *s = stage_load_scene(&v->options, v->error, sizeof v->error);
     if (!s || !make_pipeline(v, &made, s)) {
         v->options = before;
         pipeline_destroy(&made);
@@ -170,7 +180,11 @@ void viewer_set_technique(viewer *v, int technique, int quality)
     v->options.technique = technique;
     v->options.quality = quality;
     v->settings = viewer_standard(v);
-    viewer_change(v);
+    v->pipeline.draw_options.layers =
+        technique == GLSSAO_HORIZON && v->options.layers == 2; /* nobody else reads them */
+    if (!pipeline_make_targets(&v->pipeline, v->error, sizeof v->error))
+        viewer_say(v, true, "%s", v->error);
+    viewer_configure(v);
 }
 
 void viewer_configure(viewer *v)

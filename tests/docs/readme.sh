@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # readme.sh PAGE CC INCLUDE: the C blocks of the page compile without a warning, as the body of a function that has what
-# the page takes for granted. (integration.md's blocks are cut from compiled files: snippets.sh.)
+# the page takes for granted, and its table has the options of CMakeLists.txt beside it, and no other. (integration.md's
+# blocks are cut from compiled files: snippets.sh.)
 set -euo pipefail
 page=$1 cc=$2 include=$3
 scratch=$(mktemp -d)
@@ -21,3 +22,9 @@ C
     echo "}"
 } >"$scratch/block.c"
 "$cc" -std=c11 -Wall -Wextra -Wpedantic -Wno-sizeof-array-argument -Werror -fsyntax-only -I "$include" "$scratch/block.c"
+
+diff <(sed -n 's/^option(\([A-Z_]*\) .*/\1/p' "$(dirname "$page")/CMakeLists.txt" | sort) \
+    <(sed -n 's/^| `\([A-Z_]*\)` |.*/\1/p' "$page" | sort) || {
+    echo "readme.sh: options of CMakeLists.txt (<) and of $page (>) differ" >&2
+    exit 1
+}

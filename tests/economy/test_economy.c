@@ -363,6 +363,42 @@ static void each_scene_causes_these_calls(void **state)
     assert_true(gl_load(context_load, f->context, error, sizeof error));
 }
 
+/* How many pixels of the normal map the pre-pass of a frame has drawn; the floor's normals don't face the eye. */
+static int drawn_normals(fixture *f, const scene *s, bool wanted)
+{
+    char error[1024] = "";
+    options o;
+    char *arguments[] = {"test", "-s", "64x48", "-o", "unused.png"};
+    assert_int_equal(options_parse(5, arguments, &o, error, sizeof error), OPTIONS_RUN);
+    pipeline p;
+    const pipeline_wants wants = {.picture = true, .ao = true, .prepass = true, .normals = true, .normal_map = wanted};
+    const camera c = camera_frame_scene(s, (float)W / H);
+    const scene_view view = camera_view(&c, W, H);
+    stopwatch times = {.finish = false};
+    if (!pipeline_create(&p, s, context_load, f->context, &o, wants, error, sizeof error) ||
+        !pipeline_draw(&p, &view, &times, error, sizeof error))
+        fail_msg("%s", error);
+    float *normals = fixture_read_texture(glssao_map(p.effect, GLSSAO_MAP_NORMAL, NULL, NULL), W, H, 4);
+    int drawn = 0;
+    for (int i = 0; i < W * H; ++i)
+        drawn += normals[4 * i + 2] != 1.0f;
+    free(normals);
+    pipeline_destroy(&p);
+    return drawn;
+}
+
+static void normals_are_drawn_where_they_are_read(void **state)
+{
+    fixture *f = *state;
+    char error[1024] = "";
+    scene *s = scene_make("plane", error, sizeof error);
+    assert_true(drawn_normals(f, s, false) > 0);
+    make_unlit(s);
+    assert_int_equal(drawn_normals(f, s, false), 0);
+    assert_true(drawn_normals(f, s, true) > 0);
+    scene_destroy(s);
+}
+
 /* A wall before the whole view: its sky is asked for once. Seen past it, it is drawn again. */
 static void hidden_sky_is_not_drawn_again(void **state)
 {
@@ -411,7 +447,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(each_setting_causes_these_calls),     TEST(each_setting_causes_these_dispatches),
         TEST(tiles_and_path_depend_on_the_driver), TEST(prepared_frames_make_nothing),
-        TEST(each_scene_causes_these_calls),       TEST(hidden_sky_is_not_drawn_again),
+        TEST(each_scene_causes_these_calls),       TEST(normals_are_drawn_where_they_are_read),
+        TEST(hidden_sky_is_not_drawn_again),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
 }

@@ -36,6 +36,13 @@ for options in "" "--samples 4" "--egl"; do
     grep -q 'glssao-inject: on: 640 x 480, field of view 45.8 degrees, near 0.1, far 50' log || fail "legacy $options: not on"
     "$check" legacy-after.ppm legacy-before.ppm || fail "legacy $options: wrong picture"
 done
+# What is told wrongly is named, and not used.
+GLSSAO_INJECT_FOV=200 GLSSAO_INJECT_NEAR=0.1 GLSSAO_INJECT_FAR=50 GLSSAO_INJECT_POWER=65 GLSSAO_INJECT_QUALITY=best \
+    inject wrong "$folder/dropin-legacy" --no-ao --frames 5
+for words in 'FOV=200 is no number from 1 to 179' 'a projection takes all of' 'POWER=65 is no number from 0 to 64' 'QUALITY=best is none of'; do
+    grep -q "$words" log || fail "wrongly told: nothing says \"$words\""
+done
+cmp wrong-after.ppm legacy-after.ppm || fail "what was told wrongly is used"
 GLSSAO_INJECT_FOV=45.8 GLSSAO_INJECT_NEAR=0.1 GLSSAO_INJECT_FAR=50 inject told "$folder/dropin-legacy" --no-ao --frames 5
 "$check" told-after.ppm told-before.ppm || fail "projection told by hand: wrong picture"
 GLSSAO_INJECT_BEFORE=switched-before.ppm GLSSAO_INJECT_PICTURE=switched-after.ppm GLSSAO_INJECT_FRAME=120 GLSSAO_INJECT_QUALITY=low \

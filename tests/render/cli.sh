@@ -67,6 +67,10 @@ size="-s 65x37"
     want 2 "--power" --power 65 -o a.png
     want 2 "--samples" -t classic --samples 15 -o a.png
     want 2 "--samples" --samples 1.5 -o a.png
+    want 2 "horizon takes" --set samples=13 -o a.png
+    want 2 "at most 14" -t classic --set samples=15 -o a.png
+    want 2 "blur-sigma" --set blur-sigma=0.09 -o a.png
+    want 2 "--radius" --radius 2e11 -o a.png
     want 2 "--blur-rounds" --blur-rounds 17 -o a.png
     want 2 "--fov" --fov 180 -o a.png
     want 2 "--near" --near 0 -o a.png
@@ -93,6 +97,8 @@ size="-s 65x37"
     mkdir folder.png
     want 1 "folder.png" -o folder.png
     want 1 "no-folder/s.json" --stats no-folder/s.json
+    # The line that reports the failure says what the library minds; in a batch it alone names the job.
+    want 1 "invalid argument: settings.fade_end = 0.1: less than" $size --set fade-end=0.1,fade-start=3 -o a.png
     want 1 "--camera 3" $size -o a.png --camera 3
     echo '{"asset":' >broken.gltf
     want 1 "broken.gltf" -o a.png broken.gltf

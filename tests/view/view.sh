@@ -82,11 +82,10 @@ await() {
     fail "never: $*"
 }
 has_title() { [ "$(xdotool getwindowname "$window")" = "$1" ]; }
-# The command line that the viewer prints, and the picture that it saves.
+# The command line that the viewer prints, and the picture that it saves, after keys that come in one go with these.
 save() {
     rm -f saved.png
-    press ctrl+c
-    press ctrl+s
+    xdotool key --delay 1 "$@" ctrl+c ctrl+s
     await test -s saved.png
     sleep 0.1
     command=$(tail -n 1 view.out)
@@ -101,7 +100,7 @@ start() {
     viewer=$!
     local try
     for try in $(seq 200); do # it has the scene's name once the picture is whole
-        window=$(xdotool search --onlyvisible --name '^(columns|plane|steps|cornell)$' 2>/dev/null | head -n 1)
+        window=$(xdotool search --onlyvisible --name '^(columns|plane|steps|cornell|moving.gltf)$' 2>/dev/null | head -n 1)
         [ -n "$window" ] && break
         kill -0 $viewer 2>/dev/null || break
         sleep 0.05
@@ -148,6 +147,51 @@ shot restored
 draw -s 320x200 --scene plane -o render-restored.png
 same "restored" restored.png render-restored.png
 stop
+
+# What the command line leaves out, since glssao-render would refuse it: options of the horizon technique with another
+# one, maps of occlusion where there is none.
+start -s 320x200 --scene plane -o saved.png --layers 2 --error 0.0625 --path compute --debug-map ao --near 0.5 --far 90
+press g
+save
+[[ $command = *"--near 0.5 --far 90 --layers 2 --error 0.0625 --path compute --debug-map ao"* ]] || fail "left out: $command"
+press Tab
+save
+save Left Left bracketright 2
+press f Next
+await has_title columns
+save
+[[ $command = *"--near"* ]] && fail "another scene has the planes of the one before: $command"
+stop
+
+# A file at a time.
+cat >moving.gltf <<'GLTF'
+{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+ "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0.3, 0.3, 3]}],
+ "cameras": [{"type": "perspective", "perspective": {"yfov": 0.6, "znear": 0.1}}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+               {"bufferView": 0, "byteOffset": 8, "componentType": 5126, "count": 2, "type": "SCALAR"},
+               {"bufferView": 0, "componentType": 5126, "count": 2, "type": "VEC3"}],
+ "animations": [{"channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
+                 "samplers": [{"input": 1, "output": 2}]}],
+ "bufferViews": [{"buffer": 0, "byteLength": 36}],
+ "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}
+GLTF
+start -s 320x200 -o saved.png --time 0.5 moving.gltf
+press g
+save
+draw -s 320x200 -o resting.png moving.gltf
+different "the file at half a second and as it stands" 500 saved.png resting.png
+stop
+
+# Options that it has not are refused, as its help says.
+"$view" --help >help
+for option in --ao --normals --depth --frames --stats --plan --bench --context --margin --batch; do
+    grep -q -- " $option " help && fail "the help has $option"
+    "$view" "$option" x.png 2>view.err
+    [ $? = 2 ] || fail "$option is taken"
+    grep -q -- "$option: glssao-render takes it" view.err || fail "$option: stderr says $(<view.err)"
+done
 
 start -s 640x400 --set tiles=on -o saved.png
 press g # the panel away
