@@ -259,9 +259,6 @@ static bool find_accessibility(pipeline *p, const scene_view *view, char *error,
         return pipeline_check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", error, error_size);
     }
     const glssao_result result = progressive_run(p->effect, &frame, &p->settings, &p->goal, &p->reached);
-    if (result == GLSSAO_OK) {
-        progressive_print(&p->reached, &p->goal);
-    }
     return pipeline_check(result, "glssao_accumulate", error, error_size);
 }
 

@@ -99,6 +99,9 @@ static bool draw(session *s, float angle_rad, scene_view *out_view, char *error,
         pipeline_destroy(&s->pipeline);
         return false;
     }
+    if (s->pipeline.reached.estimates > 0) {
+        progressive_print(&s->pipeline.reached, &s->pipeline.goal);
+    }
     return true;
 }
 

@@ -3,7 +3,6 @@
  * Compute and fragment shaders make the same picture, within a step of R16; which way a frame goes, and that a loader
  * which knows OpenGL 3.3 alone gets the fragment shaders' bits.
  */
-#include "functions_of_3_3.h" /* made of GL/glcorearb.h */
 #include "techniques.h"
 
 #include <math.h>
@@ -55,14 +54,6 @@ static void APIENTRY get_shader(GLuint shader, GLenum name, GLint *out)
         *out = GL_FALSE;
 }
 
-static bool is_of_3_3(const char *name)
-{
-    for (size_t i = 0; i < sizeof functions_of_3_3 / sizeof *functions_of_3_3; ++i)
-        if (strcmp(name, functions_of_3_3[i]) == 0)
-            return true;
-    return false;
-}
-
 static void *load(const char *name, void *user)
 {
     asked = user;
@@ -83,7 +74,7 @@ static void *load(const char *name, void *user)
         memcpy(&real_get_shader, &address, sizeof address);
         memcpy(&address, &(PFNGLGETSHADERIVPROC){get_shader}, sizeof address);
     }
-    return asked->knows_3_3_alone && !is_of_3_3(name) ? NULL : address;
+    return asked->knows_3_3_alone && !fixture_is_of_3_3(name) ? NULL : address;
 }
 
 static glssao_result make(host *h, glssao_path path, int width, int height, glssao_effect **out)

@@ -33,6 +33,9 @@ int fixture_no_gl_error(void **state);
 void fixture_clear_log(fixture *f);
 void fixture_log(glssao_log_level level, const char *message, void *user);
 
+/* Whether OpenGL 3.3 has a function of that name. */
+bool fixture_is_of_3_3(const char *name);
+
 /* A config for the fixture's context, log kept. */
 glssao_config fixture_config(fixture *f, int width, int height);
 glssao_effect *fixture_effect(fixture *f, int width, int height);
