@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // From stored depth to view space, for any perspective or orthographic projection. Included by passes that read depth.
 
-// PRECISE stands for `precise` where a GPU's driver knows it, else for nothing, and FMA(a, b, c) for a b + c, rounded once there. A
-// compiler may fuse and reorder in one shader what it leaves in another; this way fragment and compute shaders have the same
-// bits, down to what is held against thresholds.
+// PRECISE stands for `precise` where the driver knows it, else for nothing, and FMA(a, b, c) for a b + c, on GPUs that know it
+// rounded once. A compiler may fuse and reorder in one shader what it leaves in another; this way fragment and compute
+// shaders have the same bits, down to what is held against thresholds.
 
 // DEPTH_IS_DISTANCE 1: the host stores view distance, not window depth. DEPTH_IN_ALPHA 1: in the alpha of its normal map.
 uniform sampler2D u_depth_map; // as the host stores it

@@ -92,7 +92,7 @@ bool glssao__gl_load(glssao__gl *gl, glssao__gl_load_fn load, void *user, const 
         gl->GetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
     gl->program_binaries = formats > 0;
     gl->is_software = names_software((const char *)gl->GetString(GL_RENDERER));
-    gl->precise = !gl->is_software && has_extension(gl, "GL_ARB_gpu_shader5");
+    gl->precise = has_extension(gl, "GL_ARB_gpu_shader5");
     gl->depth_bounds_test = has_extension(gl, "GL_EXT_depth_bounds_test");
 
     gl_int mask = 0, texture_size = 0, viewport[2] = {0, 0};

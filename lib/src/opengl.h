@@ -317,7 +317,7 @@ typedef struct glssao__gl {
     bool program_binaries;  /* linked programs can be read back */
     bool depth_bounds_test; /* GL_EXT_depth_bounds_test */
     bool is_software;       /* the processor rasterises */
-    bool precise;           /* shaders know `precise`, and it is of use: compilers of GPUs fuse as they like */
+    bool precise;           /* shaders know `precise` and fma() */
     int max_size;           /* largest texture and viewport side, pixels */
     int max_draw_buffers;
     float max_point_size; /* pixels */
