@@ -460,7 +460,7 @@ void glssao__maps_clear_all(glssao_effect *effect);
 void glssao__maps_make_samplers(glssao_effect *effect);
 glssao_result glssao__maps_check_texture(glssao_effect *effect, gl_uint texture, bool needs_depth, const char *field);
 
-/* program.c */
+/* program_sources.c */
 enum {
     GLSSAO__PROGRAM_MAX_SOURCES = 3 * VARIANT_FLAGS + 16
 }; /* three a macro, ten about versions, blocks and sizes, six files */
@@ -472,6 +472,13 @@ unsigned glssao__program_flags(enum glssao__shader shader);
 /* False where the shader does not test one of the flags, or they exclude each other. */
 bool glssao__program_exists(enum glssao__shader shader, unsigned variant);
 const char *glssao__program_shader_name(enum glssao__shader shader);
+/* Without the flags that the shader does not test, or that change nothing, and with those that the driver is to have.
+ */
+unsigned glssao__program_variant(enum glssao__shader shader, unsigned variant, bool is_software);
+/* Pixels of the target that a work group makes. */
+void glssao__program_group(enum glssao__shader shader, unsigned variant, int out[2]);
+
+/* program.c */
 /* The program, compiled on first use; flags that the shader does not test are dropped. */
 glssao_result glssao__program_get(glssao_effect *effect, enum glssao__shader shader, unsigned variant,
                                   glssao__program_object *out);
