@@ -136,8 +136,10 @@ static glssao_effect *ways[WAYS];
 static void assert_alike(fixture *f, const char *what, int width, int height, const glssao_frame *frame,
                          const glssao_settings *settings)
 {
-    picture pictures[WAYS];
+    picture pictures[WAYS] = {{0}};
     for (int i = 0; i < WAYS; ++i) {
+        if (i == 1 && settings->technique != GLSSAO_HORIZON)
+            continue; /* a GPU's fragment shaders are the same there */
         host *const h = &(host){.f = f, .claims_gpu = i == 1};
         const glssao_path path = i == 2 ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT;
         if (!ways[i])
@@ -154,7 +156,8 @@ static void assert_alike(fixture *f, const char *what, int width, int height, co
     }
     assert_true(picture_least(&pictures[0]) < 0.99 || width * height < 100); /* there is something to be alike in */
     for (int i = 1; i < WAYS; ++i)
-        assert_within_a_step(&pictures[0], &pictures[i], what);
+        if (pictures[i].values)
+            assert_within_a_step(&pictures[0], &pictures[i], what);
     for (int i = 0; i < WAYS; ++i)
         free(pictures[i].values);
 }
