@@ -9,8 +9,8 @@
 // in  u_depth_map     bound for its size alone
 // out result          accessibility, with PAIRED 1 what passes after this one read; with ACCUMULATE 1 the linear
 //                     accessibility, to be added to the sum of its replicate
-// PRECISE and FMA: view.glsl. STEPS_8, STEPS_12, STEPS_16 1: that many samples on each side of a slice, else 6. SLICES_2 1: two slices, else one.
-// OPEN 1: nothing occludes. BRANCHES 1: a branch that all pixels of a warp take alike spares work.
+// STEPS_8, STEPS_12, STEPS_16 1: that many samples on each side of a slice, else 6. SLICES_2 1: two slices, else one.
+// OPEN 1: nothing occludes. BRANCHES 1: a branch that all pixels of a warp take alike spares work. PRECISE, FMA: view.glsl.
 //
 // In a slice, x is the distance along it from the point, outwards on either side, and y the height towards the eye, both
 // in units of the radius; angles are measured from y. Loops are written out by macros: Mesa's software rasteriser does
@@ -44,6 +44,13 @@ uniform sampler2D u_distance_map;
 #define SLICES 2
 #else
 #define SLICES 1
+#endif
+
+// By loops a GPU's caches hold all of the program, which they don't written out; fragment shaders gain by it from two slices on.
+#if COMPUTE || BRANCHES && SLICES_2
+#define LOOPS 1
+#else
+#define LOOPS 0
 #endif
 
 const float PI = 3.14159265;
@@ -201,7 +208,7 @@ uint hidden_by(vec3 at, vec2 layers, float width, slice_side side, least from, i
 // Sectors that one side's samples hide. `highest` is the cosine of the horizon over occluders that veil what is behind them.
 uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, slice_side side, least from, out float highest)
 {
-#if COMPUTE || BRANCHES && SLICES_2
+#if LOOPS
     // Where no sample of the side does for any pixel of a warp, a GPU is spared the rest.
     bool any_occludes = false;
 #define LOOK(i) any_occludes = any_occludes || occludes(samples[i], from);
@@ -314,7 +321,7 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
     PRECISE float least_x = 0.2 * STEP * length(f.x_per_px) / f.per_scale; // a fifth of a pixel
     uint mask = 0u;
     PRECISE float veiled = total;
-#if COMPUTE || BRANCHES && SLICES_2
+#if LOOPS
     for (int i = 0; i < 2; ++i)
         add_side(f, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, least_x, jitter,
                  i == 0 ? 1.0 : -1.0, mask, veiled);
@@ -323,8 +330,8 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
     add_side(f, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, least_x, jitter, -1.0, mask, veiled);
 #endif
     PRECISE float hidden = total * float(count_bits(mask)) / SECTORS;
-    PRECISE float both = projected * mix(hidden, veiled, VEIL);
-    return both;
+    PRECISE float occlusion = projected * mix(hidden, veiled, VEIL);
+    return occlusion;
 }
 
 RESULT result()
@@ -361,8 +368,7 @@ RESULT result()
     f.y_per_distance = ray_length / gOcclusionRadius;
     f.y_step = f.y_per_distance * depth_step(distance + gOcclusionRadius);
     vec2 noise = tile_noise();
-    // By loops a GPU's caches hold all of the program, which they don't written out.
-#if COMPUTE || BRANCHES && SLICES_2
+#if LOOPS
     PRECISE float occlusion = 0.0;
     for (int i = 0; i < SLICES; ++i)
         occlusion += slice_occlusion(f, normal_view, up, px, (noise.x + float(i)) / float(SLICES), noise.y);

@@ -35,10 +35,9 @@ static gl_uint compile(const glssao_effect *effect, enum glssao__shader id, unsi
                      "#extension GL_ARB_shader_image_load_store : require\n";
     /* Classic and hemisphere are estimated one way only. */
     if (gl->precise && id != SHADER_CLASSIC && id != SHADER_HEMISPHERE)
-        sources[1] = gl->is_software ? "#extension GL_ARB_gpu_shader5 : require\n"
-                                       "#define PRECISE precise\n#define FMA(a, b, c) ((a) * (b) + (c))\n"
-                                     : "#extension GL_ARB_gpu_shader5 : require\n"
-                                       "#define PRECISE precise\n#define FMA(a, b, c) fma(a, b, c)\n";
+#define KNOWN "#extension GL_ARB_gpu_shader5 : require\n#define PRECISE precise\n#define FMA(a, b, c) "
+        sources[1] = gl->is_software ? KNOWN "((a) * (b) + (c))\n" : KNOWN "fma(a, b, c)\n";
+#undef KNOWN
     gl_uint shader = gl->CreateShader(stage);
     gl->ShaderSource(shader, count, sources, NULL);
     gl->CompileShader(shader);

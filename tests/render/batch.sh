@@ -4,8 +4,11 @@
 # the rest, and shards share a list out.
 set -uo pipefail
 render=$(realpath "$1") context=$2
+here=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
+# shellcheck source=tests/render/moving_triangle.sh
+. "$here/moving_triangle.sh"
 # shellcheck source=tests/render/fail.sh
-. "$(dirname "$(realpath "${BASH_SOURCE[0]}")")/fail.sh"
+. "$here/fail.sh"
 mkdir batch each none
 
 # want CODE WORDS ARGUMENTS...: this exit code, and WORDS (fixed text) on stderr.
@@ -18,24 +21,8 @@ want() {
     [ -z "$words" ] || grep -qF -- "$words" err || fail "$*: stderr does not say \"$words\""
 }
 
-# A triangle that moves by 1 along x in the first second.
-triangle() { # file, the camera's height
-    cat >"$1" <<GLTF
-{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
- "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0.3, $2, 3]}],
- "cameras": [{"type": "perspective", "perspective": {"yfov": 0.6, "znear": 0.1}}],
- "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
- "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
-               {"bufferView": 0, "byteOffset": 8, "componentType": 5126, "count": 2, "type": "SCALAR"},
-               {"bufferView": 0, "componentType": 5126, "count": 2, "type": "VEC3"}],
- "animations": [{"channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
-                 "samplers": [{"input": 1, "output": 2}]}],
- "bufferViews": [{"buffer": 0, "byteLength": 36}],
- "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}
-GLTF
-}
-triangle "a b.gltf" 0.3
-triangle c.gltf 0.5
+moving_triangle "a b.gltf" 0.3
+moving_triangle c.gltf 0.5
 
 # Surroundings of one colour.
 {

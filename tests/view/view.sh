@@ -10,6 +10,8 @@ hands=$4
 work=${GLSSAO_VIEW_SHOTS:-$(mktemp -d)}
 server=
 viewer=
+# shellcheck source=tests/render/moving_triangle.sh
+. "$(dirname "${BASH_SOURCE[0]}")/../render/moving_triangle.sh"
 # shellcheck disable=SC2086
 finish() {
     kill $viewer $server 2>/dev/null
@@ -164,19 +166,7 @@ save
 stop
 
 # A file at a time.
-cat >moving.gltf <<'GLTF'
-{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
- "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0.3, 0.3, 3]}],
- "cameras": [{"type": "perspective", "perspective": {"yfov": 0.6, "znear": 0.1}}],
- "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
- "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
-               {"bufferView": 0, "byteOffset": 8, "componentType": 5126, "count": 2, "type": "SCALAR"},
-               {"bufferView": 0, "componentType": 5126, "count": 2, "type": "VEC3"}],
- "animations": [{"channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
-                 "samplers": [{"input": 1, "output": 2}]}],
- "bufferViews": [{"buffer": 0, "byteLength": 36}],
- "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}
-GLTF
+moving_triangle moving.gltf 0.3
 start -s 320x200 -o saved.png --time 0.5 moving.gltf
 press g
 save
