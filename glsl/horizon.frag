@@ -107,18 +107,18 @@ float value(polynomial p, float c)
     return sum;
 }
 
-// The value, rounded. The polynomial leaves 0..31 by an eighth at most, which rounding takes back; a shift by more than 31
-// would be undefined.
-uint sector(polynomial p, float c)
+// Bits of the sectors from the value on, rounded: the polynomial has half a sector added. It leaves 0..31 by an eighth at
+// most, which rounding takes back; a shift by more than 31 would be undefined.
+uint sectors_from(polynomial p, float c)
 {
-    return uint(int(value(p, c) + 0.5)) & 31u;
+    return ~0u << (uint(int(value(p, c))) & 31u);
 }
 
 // What turns a sample's offset in pixels and its view distance into x and y.
 struct slice_frame {
     vec2 center_uv;        // the point
     vec2 texel_uv;         // of the distance map
-    vec2 low, high;        // the map's first and last texel as seen from the point, pixels
+    vec2 low, high;        // how far off the map's first and last texel are, pixels
     float center_distance; // scene units
     float per_scale;       // of a step, at the point: STEP over what a pixel's size grows with
     vec2 x_per_px;
@@ -130,7 +130,6 @@ struct slice_frame {
 // What one side of a slice has to itself.
 struct slice_side {
     polynomial sectors; // numbered from the far end of the minus side
-    uint flip;          // all bits on the minus side, where numbers grow towards the eye; 0 on the plus side
     float lowest;       // cosine of the angle at which the hemisphere ends
 };
 
@@ -144,10 +143,10 @@ struct least {
 // Snapped to a texel's centre, and beyond the border to the border's; the height is corrected for the distance off the
 // slice as if the surface there were parallel to the point's own. z: the width of one step at the sample's distance.
 // `layers`: the thickness of what is seen, negative where it is not known, and how far behind it the second layer lies.
-vec3 sample_at(slice_frame f, vec2 first_px, vec2 step_px, float number, out vec2 layers)
+vec3 sample_at(slice_frame f, vec2 reach, vec2 first_px, vec2 step_px, float number, out vec2 layers)
 {
     // The point is a texel's centre itself, so that whole pixels lead to others.
-    PRECISE vec2 offset = clamp(floor(FMA(vec2(number), step_px, first_px) + 0.5), f.low, f.high);
+    PRECISE vec2 offset = min(floor(FMA(vec2(number), step_px, first_px)), reach);
     PRECISE vec2 uv = FMA(offset, f.texel_uv, f.center_uv);
 #if LAYERS
     vec3 texels = textureLod(u_distance_map, uv, 0.0).rgb;
@@ -172,9 +171,7 @@ uint hidden_between(float x2, float chord, float top, float bottom, slice_side s
     bottom = max(bottom, -chord);
     cos_top = max(top * inversesqrt(FMA(top, top, x2)), side.lowest);
     PRECISE float cos_bottom = clamp(bottom * inversesqrt(FMA(bottom, bottom, x2)), side.lowest, cos_top);
-    uint near = 1u << sector(side.sectors, cos_top);
-    uint far = 1u << sector(side.sectors, cos_bottom);
-    return (far - near + side.flip) ^ side.flip; // the difference, or with all bits to flip its negative
+    return sectors_from(side.sectors, cos_top) ^ sectors_from(side.sectors, cos_bottom);
 }
 
 // Whether a sample can hide anything: within the sphere, above the tangent plane. x is 0 on the point's own texel, and below
@@ -272,20 +269,20 @@ vec2 tile_noise()
 // Adds the sectors that the samples of the plus side (`sign` 1) or the minus side (-1) hide, and takes from `veiled` what
 // their horizon leaves open. `g`: cosine and sine of the normal's lean; the sectors' measure is multiplied by `scale`, and
 // `origin` is that of the eye's direction.
-void add_side(slice_frame f, vec2 first_px, vec2 step_px, vec2 g, float scale, float origin, float least_x, float jitter,
-              float sign, inout uint mask, inout float veiled)
+void add_side(slice_frame f, vec2 way, vec2 first_px, vec2 step_px, vec2 g, float scale, float origin, float least_x,
+              float jitter, float sign, inout uint mask, inout float veiled)
 {
-    f.x_per_px *= sign;
-    first_px *= sign;
-    step_px *= sign;
+    way *= sign;
+    f.texel_uv *= way;
+    f.y_per_px *= way;
+    vec2 reach = mix(f.low, f.high, greaterThan(way, vec2(0.0)));
     PRECISE slice_side side;
     side.sectors = measure(sign * g.x, g.y, scale);
-    side.sectors.low.x += origin;
-    side.flip = sign > 0.0 ? 0u : ~0u;
+    side.sectors.low.x += origin + 0.5;
     side.lowest = -sign * g.y;
     vec3 samples[STEPS];
     vec2 layers[STEPS];
-#define TAKE(i) samples[i] = sample_at(f, first_px, step_px, float(i), layers[i]);
+#define TAKE(i) samples[i] = sample_at(f, reach, first_px, step_px, float(i), layers[i]);
     EACH_STEP(TAKE)
     float highest;
     mask |= hidden_sectors(samples, layers, jitter, side, least(least_x, side.lowest / max(g.x, 1e-3), f.y_step), highest);
@@ -298,7 +295,9 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
     PRECISE vec2 direction = vec2(cos(PI * angle), sin(PI * angle));
     // The bound keeps pixel coordinates exact, however near the point is.
     PRECISE vec2 step_px = STEP * clamp(gOcclusionRadius * float(STEPS) * f.per_scale * direction / px, -1e5, 1e5);
-    PRECISE vec2 first_px = (1.0 - jitter) * step_px;
+    vec2 way = mix(vec2(-1.0), vec2(1.0), greaterThan(step_px, vec2(0.0)));
+    step_px = abs(step_px);
+    PRECISE vec2 first_px = (1.0 - jitter) * step_px + 0.5;
     PRECISE vec3 along = vec3(direction, 0.0);
     along = normalize(along - up * dot(along, up)); // never of length 0: up is a ray that leaves the picture's plane
     PRECISE vec3 across = cross(up, along);
@@ -307,7 +306,7 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
     PRECISE float normal_along = dot(normal_view, along);
     // Seen edge-on the tangent plane is all slope; the bounds keep a snapped sample's height of the same order as its x.
     PRECISE float slope = clamp(dot(normal_view, across) / max(normal_up, 1e-3), -40.0, 40.0);
-    f.x_per_px = px * along.xy / gOcclusionRadius;
+    f.x_per_px = way * px * along.xy / gOcclusionRadius;
     f.y_per_px = px * (up.xy + slope * across.xy) / gOcclusionRadius;
     // The normal, projected into the slice, leans by g; a normal straight across the slice projects to nothing.
     PRECISE float projected = sqrt(max(normal_along * normal_along + normal_up * normal_up, 1e-12));
@@ -323,11 +322,11 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
     PRECISE float veiled = total;
 #if LOOPS
     for (int i = 0; i < 2; ++i)
-        add_side(f, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, least_x, jitter,
+        add_side(f, way, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, least_x, jitter,
                  i == 0 ? 1.0 : -1.0, mask, veiled);
 #else
-    add_side(f, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, least_x, jitter, 1.0, mask, veiled);
-    add_side(f, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, least_x, jitter, -1.0, mask, veiled);
+    add_side(f, way, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, least_x, jitter, 1.0, mask, veiled);
+    add_side(f, way, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, least_x, jitter, -1.0, mask, veiled);
 #endif
     PRECISE float hidden = total * float(count_bits(mask)) / SECTORS;
     PRECISE float occlusion = projected * mix(hidden, veiled, VEIL);
@@ -361,7 +360,7 @@ RESULT result()
     PRECISE slice_frame f;
     f.texel_uv = 1.0 / map_size;
     f.center_uv = pixel_center() * f.texel_uv;
-    f.low = 0.5 - pixel_center();
+    f.low = pixel_center() - 0.5;
     f.high = map_size - 0.5 - pixel_center();
     f.center_distance = distance;
     f.per_scale = STEP / (orthographic() ? 1.0 : distance);
