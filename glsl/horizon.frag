@@ -174,6 +174,9 @@ uint hidden_between(float x2, float chord, float top, float bottom, slice_side s
     return sectors_from(side.sectors, cos_top) ^ sectors_from(side.sectors, cos_bottom);
 }
 
+// Of a sample that hides nothing: straight below the point.
+const vec2 NOWHERE = vec2(0.0, -1e6);
+
 // Whether a sample can hide anything: within the sphere, above the tangent plane. x is 0 on the point's own texel, and below
 // it where the border holds a sample on the other side; held right across the slice, its angle is all error. And what the
 // depth format can't tell from the tangent plane is no occluder.
@@ -184,11 +187,10 @@ bool occludes(vec3 at, least from)
 
 // Sectors that one sample hides, whose run is `width` steps wide. Raises `highest` to the sample's top where it veils what is
 // behind it.
-uint hidden_by(vec3 at, vec2 layers, float width, slice_side side, least from, inout float highest)
+uint hidden_by(vec3 at, vec2 layers, float width, slice_side side, inout float highest)
 {
     PRECISE float x2 = FMA(at.x, at.x, 1e-12);
-    bool counts = occludes(at, from); // of what does not, nothing is asked below
-    PRECISE float chord = sqrt(max(1.0 - x2, 0.0)); // beyond the sphere its root would be none
+    PRECISE float chord = sqrt(1.0 - x2); // x is below 1
     PRECISE float thickness = WIDTH * width * at.z;
     float cos_top;
     uint mask = 0u;
@@ -198,45 +200,37 @@ uint hidden_by(vec3 at, vec2 layers, float width, slice_side side, least from, i
     thickness = layers.x >= 0.0 ? layers.x : thickness;
 #endif
     mask |= hidden_between(x2, chord, at.y, at.y - thickness, side, cos_top);
-    highest = counts && thickness > VEIL_WIDTH ? max(highest, cos_top) : highest;
-    return counts ? mask : 0u;
+    highest = thickness > VEIL_WIDTH ? max(highest, cos_top) : highest;
+    return mask;
 }
 
 // Sectors that one side's samples hide. `highest` is the cosine of the horizon over occluders that veil what is behind them.
 uint hidden_sectors(vec3 samples[STEPS], vec2 layers[STEPS], float jitter, slice_side side, least from, out float highest)
 {
+    PRECISE float change[STEPS];
+#define CHANGE(i) change[i] = samples[i].y - (i > 0 ? samples[max(i - 1, 0)].y : 0.0);
+    EACH_STEP(CHANGE)
+    bool any_occludes = false;
+#define SINK(i) if (occludes(samples[i], from)) any_occludes = true; else samples[i].xy = NOWHERE;
+    EACH_STEP(SINK)
+    highest = side.lowest;
 #if LOOPS
     // Where no sample of the side does for any pixel of a warp, a GPU is spared the rest.
-    bool any_occludes = false;
-#define LOOK(i) any_occludes = any_occludes || occludes(samples[i], from);
-    EACH_STEP(LOOK)
-    highest = side.lowest;
     if (!any_occludes)
         return 0u;
 #endif
-    PRECISE float change[STEPS];
-    bool bend[STEPS + 1];
-    bool jump[STEPS];
-    float start[STEPS];
+    // In steps. A change of height leads to another surface where it is large, and goes on neither before nor after at the same
+    // slope.
     float end[STEPS];
-#define CHANGE(i) change[i] = samples[i].y - (i > 0 ? samples[max(i - 1, 0)].y : 0.0);
-    EACH_STEP(CHANGE)
-#define FIND_BEND(i) bend[i] = i == 0 || abs(change[i] - change[max(i - 1, 0)]) > ALIKE;
-    EACH_STEP(FIND_BEND)
-    bend[STEPS] = true;
-    // A change of height leads to another surface where it is large, and goes on neither before nor after at the same slope.
-#define FIND_JUMP(i) jump[i] = abs(change[i]) > JUMP && bend[i] && bend[i + 1];
-    EACH_STEP(FIND_JUMP)
-    // In steps. The run that the point itself belongs to starts so far off that it is thicker than the sphere.
-    float boundary = -100.0;
-#define FIND_START(i) boundary = jump[i] ? float(i) : boundary; start[i] = boundary;
-    EACH_STEP(FIND_START)
-    boundary = OPEN_END * float(STEPS) - 0.5 + jitter;
-#define FIND_END(i) end[i] = boundary; boundary = jump[i] ? float(i) : boundary;
+    float boundary = OPEN_END * float(STEPS) - 0.5 + jitter;
+    bool bends_before = true;
+    bool bends_after;
+#define FIND_END(i) end[i] = boundary; bends_after = bends_before; bends_before = i == 0 || abs(change[i] - change[max(i - 1, 0)]) > ALIKE; boundary = abs(change[i]) > JUMP && bends_before && bends_after ? float(i) : boundary;
     EACH_STEP_BACK(FIND_END)
+    // The run that the point itself belongs to starts so far off that it is thicker than the sphere.
+    float start = boundary == 0.0 ? 0.0 : -100.0;
     uint mask = 0u;
-    highest = side.lowest;
-#define HIDE(i) mask |= hidden_by(samples[i], layers[i], end[i] - start[i], side, from, highest);
+#define HIDE(i) start = i > 0 && end[max(i - 1, 0)] == float(i) ? float(i) : start; mask |= hidden_by(samples[i], layers[i], end[i] - start, side, highest);
     EACH_STEP(HIDE)
     return mask;
 }
