@@ -100,19 +100,13 @@ void store(ivec2 pixel, float accessibility)
 void write(int row, ivec2 texel)
 {
     int at = (ROUNDS == 0 ? FIRST : LAST_TO) + row * WIDTH + int(gl_LocalInvocationID.x);
-    vec2 a = tiles[at];
-    vec2 b = tiles[at + 1];
-    vec2 c = tiles[at + WIDTH];
-    vec2 d = tiles[at + WIDTH + 1];
     ivec2 pixel = 2 * texel;
-    vec2 full_texel = 1.0 / vec2(textureSize(u_depth_map, 0));
-    vec2 full_uv = (vec2(pixel + gRegion.xy) + 0.5 + gOrigin) * full_texel;
-    vec2 full_next = full_uv + full_texel;
-    bool sky = is_sky(depth_component(textureLod(u_depth_map, full_uv, 0.0)));
-    store(pixel, sky ? 1.0 : accessibility_of(a));
-    store(pixel + ivec2(1, 0), upsampled(a, b, a, b, vec2(1.0, 0.0), vec2(full_next.x, full_uv.y)));
-    store(pixel + ivec2(0, 1), upsampled(a, a, c, c, vec2(0.0, 1.0), vec2(full_uv.x, full_next.y)));
-    store(pixel + ivec2(1, 1), upsampled(a, b, c, d, vec2(1.0), full_next));
+    vec2 full_uv = (vec2(pixel + gRegion.xy) + 0.5 + gOrigin) / vec2(textureSize(u_depth_map, 0));
+    vec4 block = upsampled_block(tiles[at], tiles[at + 1], tiles[at + WIDTH], tiles[at + WIDTH + 1], full_uv);
+    store(pixel, block.x);
+    store(pixel + ivec2(1, 0), block.y);
+    store(pixel + ivec2(0, 1), block.z);
+    store(pixel + ivec2(1, 1), block.w);
 }
 #else
 // The last step, whose accessibility the paired map would round.

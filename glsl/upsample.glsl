@@ -3,6 +3,7 @@
 // of them that lie near it on the same surface, else from the one that is nearest in distance.
 // in  u_depth_map      stored depth, full size; point sampled
 // in  u_normal_map     view space, full size; point sampled
+// BRANCHES 1: as in horizon.frag.
 
 // How far off the plane a pixel may be (half a step of the depth format, if that is more), and how far off a neighbour on the
 // same surface, in units of the radius; found by experiment.
@@ -37,4 +38,22 @@ float upsampled(vec2 a, vec2 b, vec2 c, vec2 d, vec2 odd, vec2 full_uv)
     near = max(near, min(min(off.x, off.y), min(off.z, off.w)));
     vec4 weights = vec4(lessThanEqual(off, vec4(near)));
     return is_sky(depth) ? 1.0 : dot(weights, values) / dot(weights, vec4(1.0));
+}
+
+// Accessibility of the four full-size pixels that texel a is the lower left of: lower left, at full_uv, which is its own,
+// lower right, upper left and upper right.
+vec4 upsampled_block(vec2 a, vec2 b, vec2 c, vec2 d, vec2 full_uv)
+{
+#if BRANCHES
+    // Where nothing occludes any of them, neither depth nor normals matter. The normal's bits never reach the next number.
+    if (min(min(a.x, b.x), min(c.x, d.x)) >= 1.0)
+        return vec4(1.0);
+#endif
+    vec2 full_texel = 1.0 / vec2(textureSize(u_depth_map, 0));
+    vec2 full_next = full_uv + full_texel;
+    bool sky = is_sky(depth_component(textureLod(u_depth_map, full_uv, 0.0)));
+    return vec4(sky ? 1.0 : accessibility_of(a),
+                upsampled(a, b, a, b, vec2(1.0, 0.0), vec2(full_next.x, full_uv.y)),
+                upsampled(a, a, c, c, vec2(0.0, 1.0), vec2(full_uv.x, full_next.y)),
+                upsampled(a, b, c, d, vec2(1.0), full_next));
 }

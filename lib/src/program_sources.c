@@ -76,7 +76,7 @@ static const struct shader {
                             {shader_view_glsl, shader_paired_glsl, shader_planar_blur_glsl, shader_planar_blur_frag,
                              shader_entry_glsl}},
     [SHADER_UPSAMPLE] = {"upsample",
-                         NORMAL_FLAGS | DEPTH_FLAGS,
+                         NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_BRANCHES,
                          {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_upsample_glsl,
                           shader_upsample_frag}},
     [SHADER_SPREAD] = {"spread", 0, {shader_view_glsl, shader_spread_frag}},
