@@ -6,7 +6,6 @@
 // in  u_normal_map    view space; point sampled
 // in  u_distance_map  view distance at the estimate's size, with LAYERS 1 thickness and second layer too; point sampled,
 //                     clamped
-// in  u_depth_map     bound for its size alone
 // out result          accessibility, with PAIRED 1 what passes after this one read; with ACCUMULATE 1 the linear
 //                     accessibility, to be added to the sum of its replicate
 // STEPS_8, STEPS_12, STEPS_16 1: that many samples on each side of a slice, else 6. SLICES_2 1: two slices, else one.
@@ -120,7 +119,8 @@ struct slice_frame {
     vec2 texel_uv;         // of the distance map
     vec2 low, high;        // how far off the map's first and last texel are, pixels
     float center_distance; // scene units
-    float per_scale;       // of a step, at the point: STEP over what a pixel's size grows with
+    float scale;           // what a pixel's size grows with: in perspective the view distance, else 1
+    float per_scale;       // of a step, at the point: STEP over it
     vec2 x_per_px;
     vec2 y_per_px;
     float y_per_distance;
@@ -146,7 +146,7 @@ struct least {
 vec3 sample_at(slice_frame f, vec2 reach, vec2 first_px, vec2 step_px, float number, out vec2 layers)
 {
     // The point is a texel's centre itself, so that whole pixels lead to others.
-    PRECISE vec2 offset = min(floor(FMA(vec2(number), step_px, first_px)), reach);
+    PRECISE vec2 offset = min(ROUND(FMA(vec2(number), step_px, first_px)), reach);
     PRECISE vec2 uv = FMA(offset, f.texel_uv, f.center_uv);
 #if LAYERS
     vec3 texels = textureLod(u_distance_map, uv, 0.0).rgb;
@@ -190,7 +190,8 @@ bool occludes(vec3 at, least from)
 uint hidden_by(vec3 at, vec2 layers, float width, slice_side side, inout float highest)
 {
     PRECISE float x2 = FMA(at.x, at.x, 1e-12);
-    PRECISE float chord = sqrt(1.0 - x2); // x is below 1
+    PRECISE float chord = 1.0 - x2; // x is below 1
+    chord = ROOT(chord);
     PRECISE float thickness = WIDTH * width * at.z;
     float cos_top;
     uint mask = 0u;
@@ -263,7 +264,7 @@ vec2 tile_noise()
 // Adds the sectors that the samples of the plus side (`sign` 1) or the minus side (-1) hide, and takes from `veiled` what
 // their horizon leaves open. `g`: cosine and sine of the normal's lean; the sectors' measure is multiplied by `scale`, and
 // `origin` is that of the eye's direction.
-void add_side(slice_frame f, vec2 way, vec2 first_px, vec2 step_px, vec2 g, float scale, float origin, float least_x,
+void add_side(slice_frame f, vec2 way, vec2 first_px, vec2 step_px, vec2 g, float scale, float origin, least from,
               float jitter, float sign, inout uint mask, inout float veiled)
 {
     way *= sign;
@@ -274,24 +275,25 @@ void add_side(slice_frame f, vec2 way, vec2 first_px, vec2 step_px, vec2 g, floa
     side.sectors = measure(sign * g.x, g.y, scale);
     side.sectors.low.x += origin + 0.5;
     side.lowest = -sign * g.y;
+    from.tangent *= sign;
     vec3 samples[STEPS];
     vec2 layers[STEPS];
 #define TAKE(i) samples[i] = sample_at(f, reach, first_px, step_px, float(i), layers[i]);
     EACH_STEP(TAKE)
     float highest;
-    mask |= hidden_sectors(samples, layers, jitter, side, least(least_x, side.lowest / max(g.x, 1e-3), f.y_step), highest);
+    mask |= hidden_sectors(samples, layers, jitter, side, from, highest);
     veiled -= value(measure(g.x, sign * g.y, 1.0), highest);
 }
 
-// What the slice adds to occlusion. `px`: view xy that a pixel gains, per unit of distance in perspective.
-float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float angle, float jitter)
+// What the slice adds to occlusion.
+float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, float angle, float jitter)
 {
     PRECISE vec2 direction = vec2(cos(PI * angle), sin(PI * angle));
     // The bound keeps pixel coordinates exact, however near the point is.
-    PRECISE vec2 step_px = STEP * clamp(gOcclusionRadius * float(STEPS) * f.per_scale * direction / px, -1e5, 1e5);
+    PRECISE vec2 step_px = STEP * clamp(float(STEPS) * f.per_scale * direction * gPixel.zw, -1e5, 1e5);
     vec2 way = mix(vec2(-1.0), vec2(1.0), greaterThan(step_px, vec2(0.0)));
     step_px = abs(step_px);
-    PRECISE vec2 first_px = (1.0 - jitter) * step_px + 0.5;
+    PRECISE vec2 first_px = (1.0 - jitter) * step_px;
     PRECISE vec3 along = vec3(direction, 0.0);
     along = normalize(along - up * dot(along, up)); // never of length 0: up is a ray that leaves the picture's plane
     PRECISE vec3 across = cross(up, along);
@@ -300,39 +302,44 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, vec2 px, float a
     PRECISE float normal_along = dot(normal_view, along);
     // Seen edge-on the tangent plane is all slope; the bounds keep a snapped sample's height of the same order as its x.
     PRECISE float slope = clamp(dot(normal_view, across) / max(normal_up, 1e-3), -40.0, 40.0);
-    f.x_per_px = way * px * along.xy / gOcclusionRadius;
-    f.y_per_px = px * (up.xy + slope * across.xy) / gOcclusionRadius;
+    f.x_per_px = way * gPixel.xy * along.xy;
+    f.y_per_px = gPixel.xy * (up.xy + slope * across.xy);
     // The normal, projected into the slice, leans by g; a normal straight across the slice projects to nothing.
-    PRECISE float projected = sqrt(max(normal_along * normal_along + normal_up * normal_up, 1e-12));
-    PRECISE float cos_g = normal_up / projected;
-    PRECISE float sin_g = normal_along / projected;
+    PRECISE float projected = max(normal_along * normal_along + normal_up * normal_up, 1e-12);
+    PRECISE float per_projected = inversesqrt(projected);
+    projected *= per_projected;
+    PRECISE float cos_g = normal_up * per_projected;
+    PRECISE float sin_g = normal_along * per_projected;
     // Sectors are numbered from the far end of the minus side.
     PRECISE float total_minus = value(measure(cos_g, -sin_g, 1.0), sin_g);
     // The floor: a normal straight across the slice leaves no measure to share out among sectors.
     PRECISE float total = max(value(measure(cos_g, sin_g, 1.0), -sin_g) + total_minus, 1e-6);
     PRECISE float scale = SECTORS / total;
-    PRECISE float least_x = 0.2 * STEP * length(f.x_per_px) / f.per_scale; // a fifth of a pixel
+    // A fifth of a pixel.
+    PRECISE vec2 pixel_x = f.scale * f.x_per_px;
+    PRECISE float least_x = max(dot(pixel_x, pixel_x), 1e-30);
+    least_x = 0.2 * ROOT(least_x);
+    least from = least(least_x, -sin_g / max(cos_g, 1e-3), f.y_step);
     uint mask = 0u;
     PRECISE float veiled = total;
 #if LOOPS
     for (int i = 0; i < 2; ++i)
-        add_side(f, way, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, least_x, jitter,
+        add_side(f, way, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, from, jitter,
                  i == 0 ? 1.0 : -1.0, mask, veiled);
 #else
-    add_side(f, way, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, least_x, jitter, 1.0, mask, veiled);
-    add_side(f, way, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, least_x, jitter, -1.0, mask, veiled);
+    add_side(f, way, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, from, jitter, 1.0, mask, veiled);
+    add_side(f, way, first_px, step_px, vec2(cos_g, sin_g), scale, total_minus * scale, from, jitter, -1.0, mask, veiled);
 #endif
-    PRECISE float hidden = total * float(count_bits(mask)) / SECTORS;
+    PRECISE float hidden = total * float(count_bits(mask)) * (1.0 / SECTORS);
     PRECISE float occlusion = projected * mix(hidden, veiled, VEIL);
     return occlusion;
 }
 
 RESULT result()
 {
-    vec2 map_size = vec2(textureSize(u_distance_map, 0));
-    float distance = textureLod(u_distance_map, pixel_center() / map_size, 0.0).r;
-    vec2 full_size = vec2(textureSize(u_depth_map, 0));
-    PRECISE vec2 uv = (floor(pixel_center()) * float(gFactor) + 0.5) / full_size;
+    vec2 map_uv = pixel_center() * gTexel.zw;
+    float distance = textureLod(u_distance_map, map_uv, 0.0).r;
+    PRECISE vec2 uv = (floor(pixel_center()) * float(gFactor) + 0.5) * gTexel.xy;
     vec3 normal_view = normal_view_at_uv(uv);
 #if ACCUMULATE
     RESULT open = gAccumulation.xy;
@@ -348,28 +355,30 @@ RESULT result()
     if (distance >= FAR_AWAY || normal_view == vec3(0.0))
         return open;
     PRECISE vec3 ray = vec3(uv * gRayDirection.xy + gRayDirection.zw, -1.0);
-    PRECISE float ray_length = length(ray);
-    PRECISE vec3 up = -ray / ray_length;
-    PRECISE vec2 px = float(gFactor) / full_size * (orthographic() ? gRayOrigin.xy : gRayDirection.xy);
+    PRECISE float ray_length = dot(ray, ray);
+    PRECISE float per_length = inversesqrt(ray_length);
+    ray_length *= per_length;
+    PRECISE vec3 up = -per_length * ray;
     PRECISE slice_frame f;
-    f.texel_uv = 1.0 / map_size;
-    f.center_uv = pixel_center() * f.texel_uv;
+    f.texel_uv = gTexel.zw;
+    f.center_uv = map_uv;
     f.low = pixel_center() - 0.5;
-    f.high = map_size - 0.5 - pixel_center();
+    f.high = gSize.zw - 0.5 - pixel_center();
     f.center_distance = distance;
-    f.per_scale = STEP / (orthographic() ? 1.0 : distance);
-    f.y_per_distance = ray_length / gOcclusionRadius;
+    f.scale = orthographic() ? 1.0 : distance;
+    f.per_scale = STEP / f.scale;
+    f.y_per_distance = ray_length * gPerRadius;
     f.y_step = f.y_per_distance * depth_step(distance + gOcclusionRadius);
     vec2 noise = tile_noise();
 #if LOOPS
     PRECISE float occlusion = 0.0;
     for (int i = 0; i < SLICES; ++i)
-        occlusion += slice_occlusion(f, normal_view, up, px, (noise.x + float(i)) / float(SLICES), noise.y);
+        occlusion += slice_occlusion(f, normal_view, up, (noise.x + float(i)) / float(SLICES), noise.y);
     occlusion /= float(SLICES);
 #else
-    PRECISE float occlusion = slice_occlusion(f, normal_view, up, px, noise.x / float(SLICES), noise.y);
+    PRECISE float occlusion = slice_occlusion(f, normal_view, up, noise.x / float(SLICES), noise.y);
 #if SLICES_2
-    occlusion = 0.5 * (occlusion + slice_occlusion(f, normal_view, up, px, 0.5 * (noise.x + 1.0), noise.y));
+    occlusion = 0.5 * (occlusion + slice_occlusion(f, normal_view, up, 0.5 * (noise.x + 1.0), noise.y));
 #endif
 #endif
     // pow() is undefined below 0, which rounding can leave (as it can leave more than 1), and at 0 for a power so small that it

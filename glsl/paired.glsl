@@ -7,11 +7,12 @@
 
 const float NORMAL_STEP = 0.1; // of its two coordinates, -1.5 to 1.6
 
-// A normal of any length, projected, in steps. The bound keeps one of length 0 from a division by 0.
+// A normal of any length, projected, in steps. The bounds keep one of length 0 from a division by 0.
 vec2 projected_normal(vec3 normal)
 {
     PRECISE float length_squared = dot(normal, normal);
-    PRECISE float scale = inversesqrt(max(0.5 * (length_squared + normal.z * sqrt(length_squared)), 1e-30));
+    length_squared = max(length_squared, 1e-30);
+    PRECISE float scale = inversesqrt(max(0.5 * (length_squared + normal.z * ROOT(length_squared)), 1e-30));
     PRECISE vec2 steps = normal.xy * (scale / NORMAL_STEP);
     return steps;
 }

@@ -101,7 +101,7 @@ void write(int row, ivec2 texel)
 {
     int at = (ROUNDS == 0 ? FIRST : LAST_TO) + row * WIDTH + int(gl_LocalInvocationID.x);
     ivec2 pixel = 2 * texel;
-    vec2 full_uv = (vec2(pixel + gRegion.xy) + 0.5 + gOrigin) / vec2(textureSize(u_depth_map, 0));
+    vec2 full_uv = (vec2(pixel + gRegion.xy) + 0.5 + gOrigin) * gTexel.xy;
     vec4 block = upsampled_block(tiles[at], tiles[at + 1], tiles[at + WIDTH], tiles[at + WIDTH + 1], full_uv);
     store(pixel, block.x);
     store(pixel + ivec2(1, 0), block.y);
@@ -131,7 +131,7 @@ void main()
     ivec2 made = ivec2(gl_WorkGroupID.xy) * ivec2(MADE_X, MADE_Y); // the first texel, within the region
     ivec2 corner = made + (gRegion.xy + ivec2(gOrigin)) / FACTOR - HALO; // the tile's, in the map; margins are even
     low = -corner;
-    high = low + textureSize(u_ambient_map, 0) - 1;
+    high = low + ivec2(gSize.zw) - 1;
     for (int row = int(gl_LocalInvocationID.y); row < HEIGHT; row += GROUP_Y)
         tiles[FIRST + row * WIDTH + column] =
             texelFetch(u_ambient_map, corner + clamp(ivec2(column, row), low, high), 0).rg;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // From stored depth to view space, for any perspective or orthographic projection. Included by passes that read depth.
 
-// PRECISE stands for `precise` where the driver knows it, else for nothing, and FMA(a, b, c) for a b + c, on GPUs that know it
-// rounded once. A compiler may fuse and reorder in one shader what it leaves in another; this way fragment and compute
-// shaders have the same bits, down to what is held against thresholds.
+// PRECISE stands for `precise` where the driver knows it, else for nothing. A compiler may fuse and reorder in one shader what it
+// leaves in another; this way fragment and compute shaders have the same bits, down to what is held against thresholds.
+// Where it is known on a GPU, three things are written as takes it least: FMA(a, b, c), a b + c, rounded once; ROOT(x), the square
+// root of a variable above 0, without the reciprocal that some compilers make it with; ROUND(x), to the nearest whole number,
+// even in between, of less than 2^22, by the sum with one so large that no fraction is left.
 
 // DEPTH_IS_DISTANCE 1: the host stores view distance, not window depth. DEPTH_IN_ALPHA 1: in the alpha of its normal map.
 uniform sampler2D u_depth_map; // as the host stores it

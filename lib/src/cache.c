@@ -55,7 +55,7 @@ static uint64_t key_of(const glssao_effect *effect, enum glssao__shader shader, 
     const gl_enum stages[] = {drawn ? GL_VERTEX_SHADER : GL_COMPUTE_SHADER, GL_FRAGMENT_SHADER};
     for (size_t i = 0; i < (drawn ? 2 : 1); ++i) {
         const char *sources[GLSSAO__PROGRAM_MAX_SOURCES];
-        const int count = glssao__program_sources(shader, variant, stages[i], sources);
+        const int count = glssao__program_sources(gl, shader, variant, stages[i], sources);
         for (int k = 0; k < count; ++k)
             hash = hash_text(hash, sources[k]);
     }

@@ -48,6 +48,12 @@ SAME(block_frame, glssao__frame_constants, gAccumulation);
 SAME(block_frame, glssao__frame_constants, gProbe);
 SAME(block_frame, glssao__frame_constants, gDepthStep);
 SAME(block_frame, glssao__frame_constants, gLogDepth);
+SAME(block_frame, glssao__frame_constants, gTiles);
+SAME(block_frame, glssao__frame_constants, gSize);
+SAME(block_frame, glssao__frame_constants, gTexel);
+SAME(block_frame, glssao__frame_constants, gPixel);
+SAME(block_frame, glssao__frame_constants, gTileRings);
+SAME(block_frame, glssao__frame_constants, gPerRadius);
 SAME(block_hemisphere, glssao__hemisphere_constants, gKernel);
 SAME(block_hemisphere, glssao__hemisphere_constants, gRotations);
 _Static_assert(sizeof(struct block_ssao) == 488 && sizeof(glssao_constants) == 496, "cbSsao has another size");
@@ -151,7 +157,7 @@ void glssao__constants_fill(glssao_constants *c, const glssao_frame *frame, cons
 
 void glssao__constants_fill_frame(glssao__frame_constants *c, const glssao_frame *frame,
                                   const glssao_settings *settings, const glssao__projection *projection,
-                                  const glssao__precision *precision)
+                                  const glssao__precision *precision, const int sizes[4])
 {
     memset(c, 0, sizeof *c);
     memcpy(c->gDistanceFromDepth, projection->distance_from_depth, sizeof c->gDistanceFromDepth);
@@ -163,6 +169,18 @@ void glssao__constants_fill_frame(glssao__frame_constants *c, const glssao_frame
     c->gBlurDepthThreshold = settings->blur_depth_threshold;
     c->gSampleCount = settings->sample_count;
     c->gFactor = settings->half_resolution ? 2 : 1;
+    c->gPerRadius = 1.0f / settings->radius;
+    for (int i = 0; i < 4; ++i) {
+        c->gSize[i] = (float)sizes[i];
+        c->gTexel[i] = 1.0f / c->gSize[i];
+    }
+    const bool orthographic = projection->ray_direction[0] == 0.0f;
+    for (int i = 0; i < 2; ++i) {
+        const double pixel =
+            (double)c->gFactor / sizes[i] * (double)(orthographic ? c->gRayOrigin[i] : c->gRayDirection[i]);
+        c->gPixel[i] = (float)(pixel / (double)settings->radius);
+        c->gPixel[2 + i] = (float)((double)settings->radius / pixel);
+    }
     glssao__projection_depth_step(frame, projection, precision, c->gDepthStep);
     if (frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC) {
         const double constant = glssao__projection_log_constant(frame);

@@ -140,8 +140,12 @@ typedef struct glssao__frame_constants {
     float gDepthStep[4];
     float gLogDepth[4];
     float gTiles[4];
+    float gSize[4];
+    float gTexel[4];
+    float gPixel[4];
     float gTileRings;
-    float gPadding[3]; /* std140 rounds the block up */
+    float gPerRadius;
+    float gPadding[2]; /* std140 rounds the block up */
 } glssao__frame_constants;
 
 /* glsl/cb_hemisphere.glsl in C. */
@@ -317,7 +321,7 @@ void glssao__constants_fill(glssao_constants *c, const glssao_frame *frame, cons
                             const glssao__projection *projection, int ambient_width, int ambient_height);
 void glssao__constants_fill_frame(glssao__frame_constants *c, const glssao_frame *frame,
                                   const glssao_settings *settings, const glssao__projection *projection,
-                                  const glssao__precision *precision);
+                                  const glssao__precision *precision, const int sizes[4]);
 void glssao__constants_gauss_weights(float sigma, float out_weights[3][4]);
 
 /* random.c: PCG32 (O'Neill 2014); the same seed gives the same numbers on every machine. */
@@ -464,8 +468,9 @@ glssao_result glssao__maps_check_texture(glssao_effect *effect, gl_uint texture,
 enum {
     GLSSAO__PROGRAM_MAX_SOURCES = 3 * VARIANT_FLAGS + 16
 }; /* three a macro, ten about versions, blocks and sizes, six files */
-/* Pieces of a shader stage of a variant, in the order that the driver gets them; returns how many. */
-int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enum stage,
+/* Pieces of a shader stage of a variant, in the order that the driver gets them; returns how many. `gl` NULL: for a driver
+ * that knows GLSL 3.30, or 4.30 for compute shaders, and nothing beyond. */
+int glssao__program_sources(const glssao__gl *gl, enum glssao__shader shader, unsigned variant, gl_enum stage,
                             const char *out_sources[GLSSAO__PROGRAM_MAX_SOURCES]);
 /* What the shader tests. */
 unsigned glssao__program_flags(enum glssao__shader shader);

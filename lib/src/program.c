@@ -29,15 +29,7 @@ static gl_uint compile(const glssao_effect *effect, enum glssao__shader id, unsi
 {
     const glssao__gl *gl = &effect->gl;
     const char *sources[GLSSAO__PROGRAM_MAX_SOURCES];
-    int count = glssao__program_sources(id, variant, stage, sources);
-    if (stage == GL_COMPUTE_SHADER && gl->version < 43)
-        sources[0] = "#version 330\n#extension GL_ARB_compute_shader : require\n"
-                     "#extension GL_ARB_shader_image_load_store : require\n";
-    /* Classic and hemisphere are estimated one way only. */
-    if (gl->precise && id != SHADER_CLASSIC && id != SHADER_HEMISPHERE)
-#define KNOWN "#extension GL_ARB_gpu_shader5 : require\n#define PRECISE precise\n#define FMA(a, b, c) "
-        sources[1] = gl->is_software ? KNOWN "((a) * (b) + (c))\n" : KNOWN "fma(a, b, c)\n";
-#undef KNOWN
+    int count = glssao__program_sources(gl, id, variant, stage, sources);
     gl_uint shader = gl->CreateShader(stage);
     gl->ShaderSource(shader, count, sources, NULL);
     gl->CompileShader(shader);
@@ -97,7 +89,11 @@ static const struct member {
     FRAME(gDepthStep),
     FRAME(gLogDepth),
     FRAME(gTiles),
+    FRAME(gSize),
+    FRAME(gTexel),
+    FRAME(gPixel),
     FRAME(gTileRings),
+    FRAME(gPerRadius),
 #undef FRAME
     {BLOCK_HEMISPHERE, "gKernel", offsetof(glssao__hemisphere_constants, gKernel)},
     {BLOCK_HEMISPHERE, "gRotations", offsetof(glssao__hemisphere_constants, gRotations)},

@@ -168,13 +168,34 @@ bool glssao__program_exists(enum glssao__shader shader, unsigned variant)
            !alpha_alone && tile_known && (shader != SHADER_BLUR || edges_needed);
 }
 
-int glssao__program_sources(enum glssao__shader shader, unsigned variant, gl_enum stage,
+/* What the driver knows beyond GLSL 3.30; glsl/view.glsl says what the macros stand for. */
+static const char *arithmetic(const glssao__gl *gl, enum glssao__shader shader)
+{
+#define EXACT "#extension GL_ARB_gpu_shader5 : require\n#define PRECISE precise\n"
+#define PLAIN "#define FMA(a, b, c) ((a) * (b) + (c))\n#define ROOT(x) sqrt(x)\n#define ROUND(x) roundEven(x)\n"
+    /* Classic and hemisphere are estimated one way only. */
+    if (!gl || !gl->precise || shader == SHADER_CLASSIC || shader == SHADER_HEMISPHERE)
+        return "#define PRECISE\n" PLAIN;
+    if (gl->is_software)
+        return EXACT PLAIN;
+    return EXACT "#define FMA(a, b, c) fma(a, b, c)\n#define ROOT(x) ((x) * inversesqrt(x))\n"
+                 "#define ROUND(x) ((x) + 12582912.0 - 12582912.0)\n";
+#undef EXACT
+#undef PLAIN
+}
+
+int glssao__program_sources(const glssao__gl *gl, enum glssao__shader shader, unsigned variant, gl_enum stage,
                             const char *out_sources[GLSSAO__PROGRAM_MAX_SOURCES])
 {
     int n = 0;
-    /* The driver may be told two other first lines, see `compile`. */
-    out_sources[n++] = stage == GL_COMPUTE_SHADER ? "#version 430\n" : "#version 330\n";
-    out_sources[n++] = "#define PRECISE\n#define FMA(a, b, c) ((a) * (b) + (c))\n";
+    if (stage != GL_COMPUTE_SHADER)
+        out_sources[n++] = "#version 330\n";
+    else if (!gl || gl->version >= 43)
+        out_sources[n++] = "#version 430\n";
+    else
+        out_sources[n++] = "#version 330\n#extension GL_ARB_compute_shader : require\n"
+                           "#extension GL_ARB_shader_image_load_store : require\n";
+    out_sources[n++] = arithmetic(gl, shader);
     if (stage == GL_VERTEX_SHADER) {
         out_sources[n++] = shader_fullscreen_vert;
         return n;

@@ -20,7 +20,7 @@ static bool read_pass_constants(enum glssao__shader shader, const char *toleranc
                                 pass_constants *out)
 {
     const char *pieces[GLSSAO__PROGRAM_MAX_SOURCES];
-    const int count = glssao__program_sources(shader, 0, GL_FRAGMENT_SHADER, pieces);
+    const int count = glssao__program_sources(NULL, shader, 0, GL_FRAGMENT_SHADER, pieces);
     return shader_constant(pieces, count, tolerance, &out->tolerance) &&
            shader_constant(pieces, count, near, &out->near) && shader_constant(pieces, count, "CHORD", &out->chord) &&
            shader_constant(pieces, count, "NORMAL_STEP", &out->normal_step);
@@ -29,7 +29,7 @@ static bool read_pass_constants(enum glssao__shader shader, const char *toleranc
 bool horizon_read_pass_constants(pass_constants *out_blur, pass_constants *out_upsample)
 {
     const char *pieces[GLSSAO__PROGRAM_MAX_SOURCES];
-    const int count = glssao__program_sources(SHADER_PLANAR_BLUR, 0, GL_FRAGMENT_SHADER, pieces);
+    const int count = glssao__program_sources(NULL, SHADER_PLANAR_BLUR, 0, GL_FRAGMENT_SHADER, pieces);
     return read_pass_constants(SHADER_PLANAR_BLUR, "BLUR_TOLERANCE", "BLUR_NEAR", out_blur) &&
            shader_constant(pieces, count, "BLUR_HOLLOW", &out_blur->hollow) &&
            read_pass_constants(SHADER_UPSAMPLE, "UPSAMPLE_TOLERANCE", "UPSAMPLE_NEAR", out_upsample);
@@ -54,7 +54,7 @@ bool horizon_variant(const glssao_effect *effect, horizon_input *out)
     out->slices = variant & VARIANT_SLICES_2 ? 2 : 1;
     horizon_depth_step(effect, out->depth_step);
     const char *pieces[GLSSAO__PROGRAM_MAX_SOURCES];
-    const int count = glssao__program_sources(SHADER_HORIZON, variant, GL_FRAGMENT_SHADER, pieces);
+    const int count = glssao__program_sources(NULL, SHADER_HORIZON, variant, GL_FRAGMENT_SHADER, pieces);
     return found == 1 && horizon_read_constants(pieces, count, variant & VARIANT_LAYERS, &out->constants);
 }
 

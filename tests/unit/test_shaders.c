@@ -15,7 +15,7 @@ static bool write_stage(const char *folder, enum glssao__shader id, unsigned var
                         size_t size)
 {
     const char *sources[GLSSAO__PROGRAM_MAX_SOURCES];
-    int count = glssao__program_sources(id, variant, stage, sources);
+    int count = glssao__program_sources(NULL, id, variant, stage, sources);
     const char *const version = stage == GL_COMPUTE_SHADER ? "#version 430\n" : "#version 330\n";
     char path[1024];
     snprintf(path, sizeof path, "%s/%s-%u.%s", folder, glssao__program_shader_name(id), variant,
