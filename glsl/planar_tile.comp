@@ -39,6 +39,7 @@ const int MADE_Y = HEIGHT - 2 * HALO - FACTOR + 1;
 const int FIRST = LATER_REACH;
 const int SECOND = FIRST + WIDTH * HEIGHT;
 shared vec2 tiles[SECOND + WIDTH * HEIGHT + LATER_REACH];
+shared bool is_shaded; // anything in the tile
 
 // The steps of the blur: a round takes one along x and one along y, a later one a single step.
 const int ALONG_X = 0;
@@ -96,10 +97,10 @@ void store(ivec2 pixel, float accessibility)
         imageStore(u_target, pixel + gRegion.xy, vec4(accessibility));
 }
 
-// The four pixels that the texel is the lower left of.
-void write(int row, ivec2 texel)
+// The four pixels that the texel is the lower left of, from the tile that begins at `from`.
+void write(int from, int row, ivec2 texel)
 {
-    int at = (ROUNDS == 0 ? FIRST : LAST_TO) + row * WIDTH + int(gl_LocalInvocationID.x);
+    int at = from + row * WIDTH + int(gl_LocalInvocationID.x);
     ivec2 pixel = 2 * texel;
     vec2 full_uv = (vec2(pixel + gRegion.xy) + 0.5 + gOrigin) * gTexel.xy;
     vec4 block = upsampled_block(tiles[at], tiles[at + 1], tiles[at + WIDTH], tiles[at + WIDTH + 1], full_uv);
@@ -110,11 +111,11 @@ void write(int row, ivec2 texel)
 }
 #else
 // The last step, whose accessibility the paired map would round.
-void write(int row, ivec2 texel)
+void write(int from, int row, ivec2 texel)
 {
-    int at = place(LAST_FROM, row);
+    int at = place(from, row);
     vec2 center = tiles[at];
-    float accessibility = blurred_at(at, LAST_STEP);
+    float accessibility = is_shaded ? blurred_at(at, LAST_STEP) : 1.0;
     if (any(greaterThanEqual(texel, gRegion.zw)))
         return;
 #if PAIRED
@@ -132,22 +133,35 @@ void main()
     ivec2 corner = made + (gRegion.xy + ivec2(gOrigin)) / FACTOR - HALO; // the tile's, in the map; margins are even
     low = -corner;
     high = low + ivec2(gSize.zw) - 1;
-    for (int row = int(gl_LocalInvocationID.y); row < HEIGHT; row += GROUP_Y)
-        tiles[FIRST + row * WIDTH + column] =
-            texelFetch(u_ambient_map, corner + clamp(ivec2(column, row), low, high), 0).rg;
+    if (gl_LocalInvocationIndex == 0u)
+        is_shaded = false;
     barrier();
+    for (int row = int(gl_LocalInvocationID.y); row < HEIGHT; row += GROUP_Y) {
+        vec2 texel = texelFetch(u_ambient_map, corner + clamp(ivec2(column, row), low, high), 0).rg;
+        tiles[FIRST + row * WIDTH + column] = texel;
+        if (texel.x < 1.0)
+            is_shaded = true;
+    }
+    barrier();
+    int from = FIRST;
+    // The blur leaves a tile as it is in which nothing occludes.
+    if (is_shaded) {
 #if WIDE && ROUNDS_2
-    blur_tile(FIRST, SECOND, FIRST_REACH, AROUND);
+        blur_tile(FIRST, SECOND, FIRST_REACH, AROUND);
 #elif !WIDE && (ROUNDS_1 || ROUNDS_2)
-    blur_tile(FIRST, SECOND, 0, ALONG_X);
+        blur_tile(FIRST, SECOND, 0, ALONG_X);
 #if ROUNDS_2
-    blur_tile(SECOND, FIRST, FIRST_REACH, ALONG_Y);
+        blur_tile(SECOND, FIRST, FIRST_REACH, ALONG_Y);
 #endif
 #endif
 #if UPSAMPLE && (ROUNDS_1 || ROUNDS_2)
-    blur_tile(LAST_FROM, LAST_TO, HALO, LAST_STEP);
+        blur_tile(LAST_FROM, LAST_TO, HALO, LAST_STEP);
+        from = LAST_TO;
+#elif !UPSAMPLE
+        from = LAST_FROM;
 #endif
+    }
     if (column >= HALO && column < HALO + MADE_X)
         for (int row = HALO + int(gl_LocalInvocationID.y); row < HALO + MADE_Y; row += GROUP_Y)
-            write(row, made + ivec2(column, row) - HALO);
+            write(from, row, made + ivec2(column, row) - HALO);
 }
