@@ -64,15 +64,10 @@ void glssao__compute_dispatch(glssao_effect *effect, const glssao__target *targe
     const glssao__gl *gl = &effect->gl;
     gl->Uniform4i(effect->program.region_location, region->x, region->y, region->width, region->height);
     gl->BindImageTexture(0, target->texture, 0, 0, 0, GL_WRITE_ONLY, target->format);
-    /* A barrier is a wait. What the pass before wrote can be read; and whoever read the target before has done so, if
-     * it is one that the host sees: the last frame's end was a barrier to its own passes. */
-    const bool is_internal = target->texture == effect->distance_map.texture ||
-                             target->texture == effect->paired.texture[0] ||
-                             target->texture == effect->paired.texture[1];
-    const gl_bitfield bits = (effect->is_dispatched ? GL_TEXTURE_FETCH_BARRIER_BIT : 0u) |
-                             (is_internal ? 0u : GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-    if (bits)
-        gl->MemoryBarrier(bits);
+    /* Whoever read the target before has done so, and what the pass before this one wrote can be read. Nobody else
+     * reads the distance map, and a barrier is a wait. */
+    if (effect->is_dispatched || target->texture != effect->distance_map.texture)
+        gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     gl->DispatchCompute(groups(region->width, effect->program.group[0]),
                         groups(region->height, effect->program.group[1]), 1);
     effect->is_dispatched = true;
