@@ -468,8 +468,8 @@ glssao_result glssao__maps_check_texture(glssao_effect *effect, gl_uint texture,
 enum {
     GLSSAO__PROGRAM_MAX_SOURCES = 3 * VARIANT_FLAGS + 16
 }; /* three a macro, ten about versions, blocks and sizes, six files */
-/* Pieces of a shader stage of a variant, in the order that the driver gets them; returns how many. `gl` NULL: for a driver
- * that knows GLSL 3.30, or 4.30 for compute shaders, and nothing beyond. */
+/* Pieces of a shader stage of a variant, in the order that the driver gets them; returns how many. `gl` NULL: for a
+ * driver that knows GLSL 3.30, or 4.30 for compute shaders, and nothing beyond. */
 int glssao__program_sources(const glssao__gl *gl, enum glssao__shader shader, unsigned variant, gl_enum stage,
                             const char *out_sources[GLSSAO__PROGRAM_MAX_SOURCES]);
 /* What the shader tests. */
