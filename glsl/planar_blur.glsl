@@ -30,24 +30,24 @@ float blurred(vec2 before_2, vec2 before, vec2 center, vec2 after, vec2 after_2,
         return accessibility_of(center);
 #endif
     float tolerance = line_tolerance(center.y);
-    float near = linear_error(BLUR_NEAR * gOcclusionRadius, center.y);
     bool on_line = abs(before.y - 2.0 * center.y + after.y) < tolerance;
     bool on_before = abs(before_2.y - 2.0 * before.y + center.y) < tolerance;
     bool on_after = abs(after_2.y - 2.0 * after.y + center.y) < tolerance;
-    uint code = normal_code(center);
-    uvec4 codes = uvec4(normal_code(before_2), normal_code(before), normal_code(after), normal_code(after_2));
     bvec4 joins = bvec4(true);
     // Most pixels lie amid neighbours that all face one way: there a GPU is spared this.
-    if (any(notEqual(codes, uvec4(code)))) {
-        vec2 own = projected_normal(code);
+    if (normals_differ(center, before_2, before, after, after_2)) {
+        vec2 own = projected_normal(normal_code(center));
+        uvec4 codes = uvec4(normal_code(before_2), normal_code(before), normal_code(after), normal_code(after_2));
         joins = not(bvec4(turns_away(projected_normal(codes.x) - own, -way), turns_away(projected_normal(codes.y) - own, -way),
                           turns_away(projected_normal(codes.z) - own, way), turns_away(projected_normal(codes.w) - own, way)));
     }
     vec4 weights = vec4(on_before && joins.x ? 0.5 : 0.0, (on_before || on_line) && joins.y ? 1.0 : 0.0,
                         (on_after || on_line) && joins.z ? 1.0 : 0.0, on_after && joins.w ? 0.5 : 0.0);
-    if (weights.y + weights.z == 0.0)
+    if (weights.y + weights.z == 0.0) {
+        float near = linear_error(BLUR_NEAR * gOcclusionRadius, center.y);
         weights.yz = vec2(joins.y && abs(before.y - center.y) < near ? 1.0 : 0.0,
                           joins.z && abs(after.y - center.y) < near ? 1.0 : 0.0);
+    }
     vec4 taps = vec4(accessibility_of(before_2), accessibility_of(before), accessibility_of(after),
                      accessibility_of(after_2));
     float sum = accessibility_of(center) + dot(weights, taps);
@@ -67,10 +67,9 @@ float blurred_wide(vec2 left, vec2 below, vec2 center, vec2 above, vec2 right)
     bend = orthographic() ? -bend : bend; // above 0 in a hollow
     bvec2 counts = bvec2(bend.x > -tolerance && bend.x < hollow, bend.y > -tolerance && bend.y < hollow);
     bvec4 joins = counts.xyyx;
-    uint code = normal_code(center);
-    uvec4 codes = uvec4(normal_code(left), normal_code(below), normal_code(above), normal_code(right));
-    if (any(notEqual(codes, uvec4(code)))) {
-        vec2 own = projected_normal(code);
+    if (normals_differ(center, left, below, above, right)) {
+        vec2 own = projected_normal(normal_code(center));
+        uvec4 codes = uvec4(normal_code(left), normal_code(below), normal_code(above), normal_code(right));
         joins.x = joins.x && !turns_away(projected_normal(codes.x) - own, vec2(-1.0, 0.0));
         joins.y = joins.y && !turns_away(projected_normal(codes.y) - own, vec2(0.0, -1.0));
         joins.z = joins.z && !turns_away(projected_normal(codes.z) - own, vec2(0.0, 1.0));

@@ -57,7 +57,10 @@ glssao_result glssao__frame_programs_get(glssao_effect *effect, const glssao_fra
                                          const glssao_settings *settings, const glssao_plan *plan,
                                          glssao__frame_programs *out)
 {
-    const unsigned inputs = input_variant(frame), paired = glssao__plan_is_paired(settings, plan) ? VARIANT_PAIRED : 0u;
+    /* Where clip w depends on z. */
+    const unsigned perspective = frame->projection[11] != 0.0f ? VARIANT_PERSPECTIVE : 0u;
+    const unsigned inputs = input_variant(frame) | perspective,
+                   paired = glssao__plan_is_paired(settings, plan) ? VARIANT_PAIRED : 0u;
     const unsigned blur = inputs | (settings->blur == GLSSAO_BLUR_BILATERAL ? VARIANT_EDGE_AWARE : 0u) |
                           (settings->blur == GLSSAO_BLUR_BOX ? VARIANT_BOX : 0u);
     const bool planar = settings->blur == GLSSAO_BLUR_PLANAR, tiled = planar && plan->passes[GLSSAO_PASS_BLUR].compute;
@@ -73,8 +76,6 @@ glssao_result glssao__frame_programs_get(glssao_effect *effect, const glssao_fra
         blur | last_rounds | (calls > first_calls ? wide : 0u) | (plan->passes[GLSSAO_PASS_UPSAMPLE].run ? paired : 0u);
     const unsigned first_blur = calls > 1 ? blur | paired | all_rounds : last_blur;
     const unsigned wide_blur = calls > first_calls + 1 ? first_blur | wide : last_blur;
-    /* Where clip w depends on z; the other shaders ask the constants. */
-    const unsigned perspective = frame->projection[11] != 0.0f ? VARIANT_PERSPECTIVE : 0u;
     const unsigned tiles = inputs | glssao__tiles_variant(settings);
     const struct {
         glssao_pass pass;
@@ -89,8 +90,7 @@ glssao_result glssao__frame_programs_get(glssao_effect *effect, const glssao_fra
         {GLSSAO_PASS_TILES, SHADER_TILE_CLASS, tiles, &out->tiles.needed},
         {GLSSAO_PASS_TILES, SHADER_TILE_RINGS, 0, &out->tiles.rings},
         {GLSSAO_PASS_ESTIMATE, estimate_shader(settings),
-         inputs | estimate_variant(settings) | perspective |
-             (plan->passes[GLSSAO_PASS_RESOLVE].run ? VARIANT_ACCUMULATE : paired),
+         inputs | estimate_variant(settings) | (plan->passes[GLSSAO_PASS_RESOLVE].run ? VARIANT_ACCUMULATE : paired),
          &out->estimate},
         {GLSSAO_PASS_RESOLVE, SHADER_RESOLVE, inputs | paired, &out->resolve},
         {GLSSAO_PASS_RESOLVE, SHADER_PROBE, 0, &out->probe},

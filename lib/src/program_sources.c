@@ -72,17 +72,17 @@ static const struct shader {
                         {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_resolve_frag}},
     [SHADER_PROBE] = {"probe", 0, {shader_view_glsl, shader_probe_frag}},
     [SHADER_PLANAR_BLUR] = {"planar-blur",
-                            VARIANT_PAIRED | VARIANT_WIDE | VARIANT_BRANCHES,
+                            VARIANT_PAIRED | VARIANT_WIDE | VARIANT_PERSPECTIVE | VARIANT_BRANCHES,
                             {shader_view_glsl, shader_paired_glsl, shader_planar_blur_glsl, shader_planar_blur_frag,
                              shader_entry_glsl}},
     [SHADER_UPSAMPLE] = {"upsample",
-                         NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_BRANCHES,
+                         NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_PERSPECTIVE | VARIANT_BRANCHES,
                          {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_upsample_glsl,
                           shader_upsample_frag}},
     [SHADER_SPREAD] = {"spread", 0, {shader_view_glsl, shader_spread_frag}},
     [SHADER_PLANAR_TILE] = {"planar-tile",
                             NORMAL_FLAGS | DEPTH_FLAGS | VARIANT_PAIRED | VARIANT_COMPUTE | VARIANT_UPSAMPLE |
-                                ROUND_FLAGS | VARIANT_WIDE | VARIANT_BRANCHES,
+                                ROUND_FLAGS | VARIANT_WIDE | VARIANT_PERSPECTIVE | VARIANT_BRANCHES,
                             {shader_view_glsl, shader_normal_map_glsl, shader_paired_glsl, shader_planar_blur_glsl,
                              shader_upsample_glsl, shader_planar_tile_comp}},
     [SHADER_BLUR] = {"blur",
@@ -232,6 +232,7 @@ unsigned glssao__program_variant(enum glssao__shader shader, unsigned variant, b
     if (shader == SHADER_BLUR && !(variant & VARIANT_EDGE_AWARE))
         variant &= VARIANT_BOX | VARIANT_PAIRED | VARIANT_COMPUTE; /* it reads neither normals nor depth */
     if (shader == SHADER_PLANAR_TILE && !(variant & VARIANT_UPSAMPLE))
-        variant &= VARIANT_PAIRED | VARIANT_COMPUTE | VARIANT_BRANCHES | ROUND_FLAGS | VARIANT_WIDE;
+        variant &=
+            VARIANT_PAIRED | VARIANT_COMPUTE | VARIANT_PERSPECTIVE | VARIANT_BRANCHES | ROUND_FLAGS | VARIANT_WIDE;
     return variant;
 }
