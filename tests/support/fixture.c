@@ -81,9 +81,9 @@ bool fixture_hides_newer(void)
     return wanted && strcmp(wanted, "3.3") == 0;
 }
 
-void *fixture_load(const char *name, void *context)
+void *fixture_load(const char *name, void *user)
 {
-    return fixture_hides_newer() && !fixture_is_of_3_3(name) ? NULL : context_load(name, context);
+    return fixture_hides_newer() && !fixture_is_of_3_3(name) ? NULL : context_load(name, user);
 }
 
 glssao_config fixture_config(fixture *f, int width, int height)

@@ -38,8 +38,8 @@ void fixture_log(glssao_log_level level, const char *message, void *user);
 bool fixture_is_of_3_3(const char *name);
 /* GLSSAO_TEST_LOADER=3.3: fixture_load finds no newer function, so no effect dispatches. */
 bool fixture_hides_newer(void);
-/* What code under test loads through; `context` is the fixture's, or another. */
-void *fixture_load(const char *name, void *context);
+/* What code under test loads through; `user` is the context. */
+void *fixture_load(const char *name, void *user);
 
 /* A config for the fixture's context, log kept. */
 glssao_config fixture_config(fixture *f, int width, int height);
