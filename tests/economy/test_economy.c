@@ -21,7 +21,7 @@ static glssao_effect *counted_effect(fixture *f, glssao_path path)
 {
     fixture_clear_log(f);
     glssao_config config = fixture_config(f, W, H);
-    gl_counter_start(context_load, f->context);
+    gl_counter_start(fixture_load, f->context);
     config.load = gl_counter_load;
     config.path = path;
     glssao_effect *effect = NULL;
@@ -210,6 +210,10 @@ static void each_setting_causes_these_calls(void **state)
 
 static void each_setting_causes_these_dispatches(void **state)
 {
+    if (fixture_hides_newer()) {
+        print_message("the loader hides compute shaders\n");
+        skip();
+    }
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)
         check_row(*state, &rows[i], GLSSAO_PATH_COMPUTE);
 }
@@ -223,7 +227,7 @@ static const GLubyte *gpu_get_string(GLenum name)
 
 static void *gpu_load(const char *name, void *user)
 {
-    void *found = context_load(name, user);
+    void *found = fixture_load(name, user);
     if (strcmp(name, "glGetString") != 0)
         return found;
     memcpy(&real_get_string, &found, sizeof found);
@@ -251,8 +255,8 @@ static void tiles_and_path_depend_on_the_driver(void **state)
             const bool on_gpu = gpu || !context_is_software(f->context);
             assert_true(plan.passes[GLSSAO_PASS_TILES].run ==
                         (tiles == GLSSAO_TILES_ON || (tiles == GLSSAO_TILES_AUTO && !on_gpu)));
-            assert_int_equal(plan.path,
-                             on_gpu && tiles != GLSSAO_TILES_ON ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT);
+            const bool dispatches = on_gpu && tiles != GLSSAO_TILES_ON && !fixture_hides_newer();
+            assert_int_equal(plan.path, dispatches ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT);
             glssao_destroy(effect);
         }
     fixture_delete_frame(&frame);
@@ -344,7 +348,7 @@ static void each_scene_causes_these_calls(void **state)
 {
     fixture *f = *state;
     char error[1024] = "";
-    gl_counter_start(context_load, f->context);
+    gl_counter_start(fixture_load, f->context);
     assert_true(gl_load(gl_counter_load, NULL, error, sizeof error)); /* the scene's calls, too */
     for (size_t i = 0; i < sizeof scene_rows / sizeof *scene_rows; ++i) {
         const struct scene_row *row = &scene_rows[i];
@@ -360,7 +364,7 @@ static void each_scene_causes_these_calls(void **state)
                      row->programs, row->textures);
         scene_destroy(s);
     }
-    assert_true(gl_load(context_load, f->context, error, sizeof error));
+    assert_true(gl_load(fixture_load, f->context, error, sizeof error));
 }
 
 /* How many pixels of the normal map the pre-pass of a frame has drawn; the floor's normals don't face the eye. */
@@ -375,7 +379,7 @@ static int drawn_normals(fixture *f, const scene *s, bool wanted)
     const camera c = camera_frame_scene(s, (float)W / H);
     const scene_view view = camera_view(&c, W, H);
     stopwatch times = {.finish = false};
-    if (!pipeline_create(&p, s, context_load, f->context, &o, wants, error, sizeof error) ||
+    if (!pipeline_create(&p, s, fixture_load, f->context, &o, wants, error, sizeof error) ||
         !pipeline_draw(&p, &view, &times, error, sizeof error))
         fail_msg("%s", error);
     float *normals = fixture_read_texture(glssao_map(p.effect, GLSSAO_MAP_NORMAL, NULL, NULL), W, H, 4);

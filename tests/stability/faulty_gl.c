@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "faulty_gl.h"
 
-#include "context.h"
+#include "fixture.h"
 #include "gl.h"
 
 #include <stdbool.h>
@@ -176,7 +176,7 @@ static GLenum APIENTRY check_framebuffer(GLenum target)
 
 void *faulty_load(const char *name, void *user)
 {
-    void *real = context_load(name, user), *wrapper = NULL;
+    void *real = fixture_load(name, user), *wrapper = NULL;
     const struct {
         const char *name;
         void *to_real,

@@ -18,7 +18,7 @@ typedef enum fault {
     FAULT_MEMORY
 } fault;
 
-/* As context_load, whose `user` it takes. */
+/* As fixture_load, whose context it takes. */
 void *faulty_load(const char *name, void *user);
 
 /* The `number`-th (0: the first) chance to fail from now on is taken; negative: none. */

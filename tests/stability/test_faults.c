@@ -194,6 +194,10 @@ static void each_call_survives_each_fault(void **state)
     static const int least[] = {12, 20, 19, 6, 6, 15, 15, 15, 1, 6, 1}; /* what applies is compiled with the effect */
     for (size_t i = 0; i < sizeof acts / sizeof *acts; ++i) {
         int faults = 0;
+        if (acts[i].dispatches && fixture_hides_newer()) {
+            print_message("%s: skipped, for the loader hides them\n", acts[i].name);
+            continue;
+        }
         path = acts[i].dispatches ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT;
         while (fail_once(*state, &acts[i], faults))
             faults += stride;

@@ -14,7 +14,7 @@ int fixture_setup(void **state)
     context_options options = {.kind = wanted && strcmp(wanted, "osmesa") == 0 ? CONTEXT_OSMESA : CONTEXT_EGL};
     char error[512] = "";
     f->context = context_create(&options, error, sizeof error);
-    if (!f->context || !gl_load(context_load, f->context, error, sizeof error)) {
+    if (!f->context || !gl_load(fixture_load, f->context, error, sizeof error)) {
         fprintf(stderr, "no GL context: %s\n", error);
         context_destroy(f->context);
         free(f);
@@ -75,18 +75,21 @@ bool fixture_is_of_3_3(const char *name)
     return false;
 }
 
-/* The library's: with GLSSAO_TEST_LOADER=3.3 it finds no newer function. */
-static void *load(const char *name, void *user)
+bool fixture_hides_newer(void)
 {
     const char *wanted = getenv("GLSSAO_TEST_LOADER");
-    const bool hides = wanted && strcmp(wanted, "3.3") == 0;
-    return hides && !fixture_is_of_3_3(name) ? NULL : context_load(name, user);
+    return wanted && strcmp(wanted, "3.3") == 0;
+}
+
+void *fixture_load(const char *name, void *user)
+{
+    return fixture_hides_newer() && !fixture_is_of_3_3(name) ? NULL : context_load(name, user);
 }
 
 glssao_config fixture_config(fixture *f, int width, int height)
 {
     return (glssao_config){
-        .load = load,
+        .load = fixture_load,
         .load_user = f->context,
         .log = fixture_log,
         .log_user = f,

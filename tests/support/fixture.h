@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * What the GL tests share: a context of the kind that GLSSAO_TEST_CONTEXT names, effects whose log is kept, textures
- * from arrays and arrays from textures. Arrays hold rows bottom to top.
+ * What the GL tests share: a context of the kind that GLSSAO_TEST_CONTEXT names, a loader that knows what
+ * GLSSAO_TEST_LOADER says, effects whose log is kept, textures from arrays and arrays from textures. Arrays hold rows
+ * bottom to top.
  */
 #ifndef GLSSAO_TESTS_FIXTURE_H
 #define GLSSAO_TESTS_FIXTURE_H
@@ -35,6 +36,10 @@ void fixture_log(glssao_log_level level, const char *message, void *user);
 
 /* Whether OpenGL 3.3 has a function of that name. */
 bool fixture_is_of_3_3(const char *name);
+/* GLSSAO_TEST_LOADER=3.3: fixture_load finds no newer function, so no effect dispatches. */
+bool fixture_hides_newer(void);
+/* What code under test loads through; `user` is the context. */
+void *fixture_load(const char *name, void *user);
 
 /* A config for the fixture's context, log kept. */
 glssao_config fixture_config(fixture *f, int width, int height);

@@ -50,7 +50,7 @@ static void *lying_load(const char *name, void *user)
     if (l->missing && strcmp(name, l->missing) == 0)
         return NULL;
     if (l->version && strcmp(name, "glGetIntegerv") == 0) {
-        void *real = context_load(name, l->f->context);
+        void *real = fixture_load(name, l->f->context);
         memcpy(&real_get_integerv, &real, sizeof real);
         sscanf(l->version, "%d.%d", &claimed_major, &claimed_minor);
         PFNGLGETINTEGERVPROC claiming = claiming_get_integerv;
@@ -59,14 +59,14 @@ static void *lying_load(const char *name, void *user)
         return address;
     }
     if (l->wrong_offsets && strcmp(name, "glGetActiveUniformsiv") == 0) {
-        void *real = context_load(name, l->f->context);
+        void *real = fixture_load(name, l->f->context);
         memcpy(&real_get_active_uniformsiv, &real, sizeof real);
         PFNGLGETACTIVEUNIFORMSIVPROC wrong = wrong_get_active_uniformsiv;
         void *address;
         memcpy(&address, &wrong, sizeof address);
         return address;
     }
-    return context_load(name, l->f->context);
+    return fixture_load(name, l->f->context);
 }
 
 static glssao_result create_with(fixture *f, liar *l)

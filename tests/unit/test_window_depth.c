@@ -60,7 +60,7 @@ static void check_depth(GLuint texture, const char *name)
 static void every_depth_format_arrives(void **state)
 {
     fixture *f = *state;
-    window_depth *copy = window_depth_create(context_load, f->context);
+    window_depth *copy = window_depth_create(fixture_load, f->context);
     assert_non_null(copy);
     for (size_t i = 0; i < sizeof formats / sizeof *formats; ++i)
         for (int samples = 0; samples <= 4; samples += 4) {
@@ -88,7 +88,7 @@ static GLint get(GLenum name)
 static void host_state_neither_harms_nor_is_harmed(void **state)
 {
     fixture *f = *state;
-    window_depth *copy = window_depth_create(context_load, f->context);
+    window_depth *copy = window_depth_create(fixture_load, f->context);
     GLuint renderbuffer, framebuffer = make_framebuffer(&formats[2], 0, &renderbuffer), texture, buffer, other;
     gl.GenTextures(1, &texture);
     gl.BindTexture(GL_TEXTURE_2D, texture);
@@ -128,7 +128,7 @@ static void host_state_neither_harms_nor_is_harmed(void **state)
 static void a_framebuffer_without_depth_is_told(void **state)
 {
     fixture *f = *state;
-    window_depth *copy = window_depth_create(context_load, f->context);
+    window_depth *copy = window_depth_create(fixture_load, f->context);
     GLuint color, framebuffer;
     gl.GenRenderbuffers(1, &color);
     gl.BindRenderbuffer(GL_RENDERBUFFER, color);
