@@ -74,7 +74,7 @@ float depth_step(float distance)
 }
 
 // A quantity that is linear across the picture of a plane: 1 / distance in perspective, distance itself where the
-// projection is orthographic. PERSPECTIVE 1: it is known not to be, which spares a GPU registers.
+// projection is orthographic. PERSPECTIVE 1: it is known not to be, which spares choices and registers.
 bool orthographic()
 {
 #if PERSPECTIVE

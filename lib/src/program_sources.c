@@ -160,12 +160,10 @@ bool glssao__program_exists(enum glssao__shader shader, unsigned variant)
          ((variant & ROUND_FLAGS) || !(variant & VARIANT_WIDE)) &&
          (variant & VARIANT_UPSAMPLE ? !(variant & VARIANT_PAIRED)
                                      : (variant & ROUND_FLAGS) && !(variant & (NORMAL_FLAGS | DEPTH_FLAGS))));
-    /* The others ask the constants, since a branch that all pixels take alike costs them nothing to speak of. */
-    bool projection_known = (variant & VARIANT_PERSPECTIVE) && !(variant & VARIANT_BRANCHES);
     bool branches =
         (shaders[shader].flags & VARIANT_BRANCHES) && (variant & VARIANT_COMPUTE) && !(variant & VARIANT_BRANCHES);
-    return !both_encodings && !projection_known && !branches && !is_sum && !drawn_alone && (steps & (steps - 1)) == 0 &&
-           !alpha_alone && tile_known && (shader != SHADER_BLUR || edges_needed);
+    return !both_encodings && !branches && !is_sum && !drawn_alone && (steps & (steps - 1)) == 0 && !alpha_alone &&
+           tile_known && (shader != SHADER_BLUR || edges_needed);
 }
 
 /* What the driver knows beyond GLSL 3.30; glsl/view.glsl says what the macros stand for. */
@@ -226,8 +224,6 @@ unsigned glssao__program_variant(enum glssao__shader shader, unsigned variant, b
     /* A software rasteriser takes both sides of a branch. */
     if (!is_software || (variant & VARIANT_COMPUTE))
         variant |= VARIANT_BRANCHES;
-    else
-        variant &= ~(unsigned)VARIANT_PERSPECTIVE;
     variant &= shaders[shader].flags;
     if (shader == SHADER_BLUR && !(variant & VARIANT_EDGE_AWARE))
         variant &= VARIANT_BOX | VARIANT_PAIRED | VARIANT_COMPUTE; /* it reads neither normals nor depth */
