@@ -21,9 +21,9 @@ float upsampled(vec2 a, vec2 b, vec2 c, vec2 d, vec2 odd, vec2 full_uv)
     vec4 values = vec4(accessibility_of(a), accessibility_of(b), accessibility_of(c), accessibility_of(d));
     vec4 apart = vec4(a.y, b.y, c.y, d.y) - own;
     vec4 off = abs(apart);
+    uvec4 codes = uvec4(normal_code(a), normal_code(b), normal_code(c), normal_code(d));
     // Most pixels lie amid neighbours that all face one way: there a GPU is spared this.
-    if (normals_differ(a, b, c, d, d)) {
-        uvec4 codes = uvec4(normal_code(a), normal_code(b), normal_code(c), normal_code(d));
+    if (any(notEqual(codes.xxx, codes.yzw))) {
         vec2 projected = projected_normal(decoded_normal(textureLod(u_normal_map, full_uv, 0.0).xyz));
         bvec4 turned = bvec4(turns_away(projected_normal(codes.x) - projected, -odd),
                              turns_away(projected_normal(codes.y) - projected, vec2(odd.x, -odd.y)),
