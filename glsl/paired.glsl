@@ -28,13 +28,6 @@ uint normal_code(vec2 paired)
     return floatBitsToUint(paired.x) & 1023u;
 }
 
-// Whether any of four has another code.
-bool normals_differ(vec2 paired, vec2 a, vec2 b, vec2 c, vec2 d)
-{
-    uvec4 bits = floatBitsToUint(vec4(a.x, b.x, c.x, d.x)) ^ floatBitsToUint(paired.x);
-    return ((bits.x | bits.y | bits.z | bits.w) & 1023u) != 0u;
-}
-
 // The middle of the code's step.
 vec2 projected_normal(uint code)
 {

@@ -33,11 +33,12 @@ float blurred(vec2 before_2, vec2 before, vec2 center, vec2 after, vec2 after_2,
     bool on_line = abs(before.y - 2.0 * center.y + after.y) < tolerance;
     bool on_before = abs(before_2.y - 2.0 * before.y + center.y) < tolerance;
     bool on_after = abs(after_2.y - 2.0 * after.y + center.y) < tolerance;
+    uint code = normal_code(center);
+    uvec4 codes = uvec4(normal_code(before_2), normal_code(before), normal_code(after), normal_code(after_2));
     bvec4 joins = bvec4(true);
     // Most pixels lie amid neighbours that all face one way: there a GPU is spared this.
-    if (normals_differ(center, before_2, before, after, after_2)) {
-        vec2 own = projected_normal(normal_code(center));
-        uvec4 codes = uvec4(normal_code(before_2), normal_code(before), normal_code(after), normal_code(after_2));
+    if (any(notEqual(codes, uvec4(code)))) {
+        vec2 own = projected_normal(code);
         joins = not(bvec4(turns_away(projected_normal(codes.x) - own, -way), turns_away(projected_normal(codes.y) - own, -way),
                           turns_away(projected_normal(codes.z) - own, way), turns_away(projected_normal(codes.w) - own, way)));
     }
@@ -67,9 +68,10 @@ float blurred_wide(vec2 left, vec2 below, vec2 center, vec2 above, vec2 right)
     bend = orthographic() ? -bend : bend; // above 0 in a hollow
     bvec2 counts = bvec2(bend.x > -tolerance && bend.x < hollow, bend.y > -tolerance && bend.y < hollow);
     bvec4 joins = counts.xyyx;
-    if (normals_differ(center, left, below, above, right)) {
-        vec2 own = projected_normal(normal_code(center));
-        uvec4 codes = uvec4(normal_code(left), normal_code(below), normal_code(above), normal_code(right));
+    uint code = normal_code(center);
+    uvec4 codes = uvec4(normal_code(left), normal_code(below), normal_code(above), normal_code(right));
+    if (any(notEqual(codes, uvec4(code)))) {
+        vec2 own = projected_normal(code);
         joins.x = joins.x && !turns_away(projected_normal(codes.x) - own, vec2(-1.0, 0.0));
         joins.y = joins.y && !turns_away(projected_normal(codes.y) - own, vec2(0.0, -1.0));
         joins.z = joins.z && !turns_away(projected_normal(codes.z) - own, vec2(0.0, 1.0));
