@@ -30,7 +30,7 @@ static void print_head(FILE *f, const results *r, bool has_chart)
         fprintf(
             f,
             " **Time** is that of `glssao_compute` at %dx%d on the scene `%s`, %s; all configurations take turns, %d "
-            "frames each.",
+            "frames each, each after one that makes what it needs.",
             o->time_size[0], o->time_size[1], r->time_scene,
             r->software ? "wall clock around `glFinish`, since the rasteriser is software" : "by timer queries",
             o->frames);

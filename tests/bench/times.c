@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WARM_UP_FRAMES = 2, ROWS = 2 + GLSSAO_PASS_COUNT }; /* frame, CPU, passes */
+enum { WARM_UP_FRAMES = 1, FRAMES_AHEAD = 3, ROWS = 2 + GLSSAO_PASS_COUNT }; /* frame, CPU, passes */
 
 /* What the GPU takes for a frame whose passes are not timed one by one, which holds it up between them; negative: not
  * known. */
@@ -27,8 +27,13 @@ static double untimed_frame_ms(effects *plain, const gbuffer *g, const glssao_fr
         return -1;
     gl.GenQueries(2, queries);
     gl.Finish();
-    gl.QueryCounter(queries[0], GL_TIMESTAMP);
-    const glssao_result result = glssao_compute(effect, frame, scaled);
+    /* Those before keep the GPU from waiting for what the processor has yet to send. */
+    glssao_result result = GLSSAO_OK;
+    for (int i = 0; i <= FRAMES_AHEAD && result == GLSSAO_OK; i++) {
+        if (i == FRAMES_AHEAD)
+            gl.QueryCounter(queries[0], GL_TIMESTAMP);
+        result = glssao_compute(effect, frame, scaled);
+    }
     gl.QueryCounter(queries[1], GL_TIMESTAMP);
     gl.Finish();
     for (int i = 0; i < 2; i++)
@@ -46,9 +51,11 @@ static bool time_frame(bool software, effects *e, effects *plain, const gbuffer 
         return false;
     const glssao_settings scaled = bench_scale_settings(settings, radius);
     const glssao_frame frame = gbuffer_frame(g);
+    /* Configurations that take turns find the maps of another; a host's frames find their own. */
+    glssao_result result = glssao_compute(effect, &frame, &scaled);
     gl.Finish();
     const double wall = clock_wall_ms(), cpu = clock_cpu_ms();
-    const glssao_result result = glssao_compute(effect, &frame, &scaled);
+    result = result == GLSSAO_OK ? glssao_compute(effect, &frame, &scaled) : result;
     gl.Finish();
     values[0] = clock_wall_ms() - wall;
     values[1] = clock_cpu_ms() - cpu;
