@@ -74,10 +74,10 @@ press() {
     xdotool key --delay 20 "$@"
     sleep 0.05
 }
-# Waits until the command is true, for up to 10 seconds.
+# Waits until the command is true, for up to a minute: a line of typed text takes two frames a letter, and sanitizers draw slowly.
 await() {
     local try
-    for try in $(seq 100); do
+    for try in $(seq 600); do
         "$@" && return
         sleep 0.1
     done
