@@ -14,8 +14,8 @@
 
 /* Side of a work group: smaller ones are bound by how fast they are launched, larger ones gain nothing. */
 #define GROUP 16
-#define QUOTED(x) #x
-#define TEXT_OF(x) QUOTED(x)
+#define LAYOUT(side) "layout(local_size_x = " #side ", local_size_y = " #side ") in;\n"
+#define LAYOUT_OF(side) LAYOUT(side)
 enum { TURNS = 7, WIDTH = 1920, HEIGHT = 1080 };
 
 static const char vertex_source[] = "#version 330\n"
@@ -31,17 +31,15 @@ static const char fragment_source[] = "#version 330\n"
                                       "{\n"
                                       "    o_texel = texelFetch(u_from, ivec2(gl_FragCoord.xy), 0);\n"
                                       "}\n";
-static const char compute_source[] = "#version 430\n"
-                                     "layout(local_size_x = " TEXT_OF(GROUP) ", local_size_y = " TEXT_OF(
-                                         GROUP) ") in;\n"
-                                                "uniform sampler2D u_from;\n"
-                                                "writeonly uniform image2D u_to;\n"
-                                                "void main()\n"
-                                                "{\n"
-                                                "    ivec2 at = ivec2(gl_GlobalInvocationID.xy);\n"
-                                                "    if (all(lessThan(at, textureSize(u_from, 0))))\n"
-                                                "        imageStore(u_to, at, texelFetch(u_from, at, 0));\n"
-                                                "}\n";
+static const char compute_source[] =
+    "#version 430\n" LAYOUT_OF(GROUP) "uniform sampler2D u_from;\n"
+                                      "writeonly uniform image2D u_to;\n"
+                                      "void main()\n"
+                                      "{\n"
+                                      "    ivec2 at = ivec2(gl_GlobalInvocationID.xy);\n"
+                                      "    if (all(lessThan(at, textureSize(u_from, 0))))\n"
+                                      "        imageStore(u_to, at, texelFetch(u_from, at, 0));\n"
+                                      "}\n";
 
 /* What is newer than 3.3; NULL where the context has it not. */
 static PFNGLDISPATCHCOMPUTEPROC dispatch_compute;
