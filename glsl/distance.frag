@@ -26,7 +26,7 @@ float distance_at(sampler2D map, vec2 uv)
 
 RESULT result()
 {
-    vec2 uv = (floor(target_center()) * float(gFactor) + 0.5) * gTexel.xy;
+    vec2 uv = (floor(target_center()) * float(gFactor) + 0.5) * gFullTexel;
     float depth = depth_component(textureLod(u_depth_map, uv, 0.0));
     float distance = is_sky(depth) ? FAR_AWAY : distance_from_depth(depth);
 #if LAYERS

@@ -9,7 +9,7 @@
 // out result          accessibility, with PAIRED 1 what passes after this one read; with ACCUMULATE 1 the linear
 //                     accessibility, to be added to the sum of its replicate
 // STEPS_8, STEPS_12, STEPS_16 1: that many samples on each side of a slice, else 6. SLICES_2 1: two slices, else one.
-// OPEN 1: nothing occludes. BRANCHES 1: a branch that all pixels of a warp take alike spares work. PRECISE, FMA: view.glsl.
+// OPEN 1: nothing occludes. BRANCHES 1: a branch that all pixels of a warp take alike spares work. PRECISE, FMA, ROOT, ROUND: view.glsl.
 //
 // In a slice, x is the distance along it from the point, outwards on either side, and y the height towards the eye, both
 // in units of the radius; angles are measured from y. Loops are written out by macros: Mesa's software rasteriser does
@@ -174,7 +174,7 @@ uint hidden_between(float x2, float chord, float top, float bottom, slice_side s
     return sectors_from(side.sectors, cos_top) ^ sectors_from(side.sectors, cos_bottom);
 }
 
-// Of a sample that hides nothing: straight below the point.
+// Where a sample that hides nothing is put, so that no step after asks again: straight below the point.
 const vec2 NOWHERE = vec2(0.0, -1e6);
 
 // Whether a sample can hide anything: within the sphere, above the tangent plane. x is 0 on the point's own texel, and below
@@ -337,9 +337,9 @@ float slice_occlusion(slice_frame f, vec3 normal_view, vec3 up, float angle, flo
 
 RESULT result()
 {
-    vec2 map_uv = pixel_center() * gTexel.zw;
+    vec2 map_uv = pixel_uv();
     float distance = textureLod(u_distance_map, map_uv, 0.0).r;
-    PRECISE vec2 uv = (floor(pixel_center()) * float(gFactor) + 0.5) * gTexel.xy;
+    PRECISE vec2 uv = (floor(pixel_center()) * float(gFactor) + 0.5) * gFullTexel;
     vec3 normal_view = normal_view_at_uv(uv);
 #if ACCUMULATE
     RESULT open = gAccumulation.xy;
@@ -360,10 +360,10 @@ RESULT result()
     ray_length *= per_length;
     PRECISE vec3 up = -per_length * ray;
     PRECISE slice_frame f;
-    f.texel_uv = gTexel.zw;
+    f.texel_uv = gInvRenderTargetSize;
     f.center_uv = map_uv;
     f.low = pixel_center() - 0.5;
-    f.high = gSize.zw - 0.5 - pixel_center();
+    f.high = gEstimateSize - 0.5 - pixel_center();
     f.center_distance = distance;
     f.scale = orthographic() ? 1.0 : distance;
     f.per_scale = STEP / f.scale;

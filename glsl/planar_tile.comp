@@ -102,7 +102,7 @@ void write(int from, int row, ivec2 texel)
 {
     int at = from + row * WIDTH + int(gl_LocalInvocationID.x);
     ivec2 pixel = 2 * texel;
-    vec2 full_uv = (vec2(pixel + gRegion.xy) + 0.5 + gOrigin) * gTexel.xy;
+    vec2 full_uv = (vec2(pixel + gRegion.xy) + 0.5 + gOrigin) * gFullTexel;
     vec4 block = upsampled_block(tiles[at], tiles[at + 1], tiles[at + WIDTH], tiles[at + WIDTH + 1], full_uv);
     store(pixel, block.x);
     store(pixel + ivec2(1, 0), block.y);
@@ -132,7 +132,7 @@ void main()
     ivec2 made = ivec2(gl_WorkGroupID.xy) * ivec2(MADE_X, MADE_Y); // the first texel, within the region
     ivec2 corner = made + (gRegion.xy + ivec2(gOrigin)) / FACTOR - HALO; // the tile's, in the map; margins are even
     low = -corner;
-    high = low + ivec2(gSize.zw) - 1;
+    high = low + ivec2(gEstimateSize) - 1;
     if (gl_LocalInvocationIndex == 0u)
         is_shaded = false;
     barrier();

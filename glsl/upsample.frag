@@ -20,6 +20,6 @@ void main()
     vec2 b = paired_at(vec2(next.x, uv.y));
     vec2 c = paired_at(vec2(uv.x, next.y));
     vec2 d = paired_at(next);
-    vec2 full_uv = (2.0 * pixel_center() - 0.5) * gTexel.xy;
+    vec2 full_uv = (2.0 * pixel_center() - 0.5) * gFullTexel;
     o_accessibility = upsampled_block(a, b, c, d, full_uv);
 }

@@ -49,7 +49,7 @@ vec4 upsampled_block(vec2 a, vec2 b, vec2 c, vec2 d, vec2 full_uv)
     if (min(min(a.x, b.x), min(c.x, d.x)) >= 1.0)
         return vec4(1.0);
 #endif
-    vec2 full_next = full_uv + gTexel.xy;
+    vec2 full_next = full_uv + gFullTexel;
     bool sky = is_sky(depth_component(textureLod(u_depth_map, full_uv, 0.0)));
     return vec4(sky ? 1.0 : accessibility_of(a),
                 upsampled(a, b, a, b, vec2(1.0, 0.0), vec2(full_next.x, full_uv.y)),

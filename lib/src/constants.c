@@ -49,9 +49,9 @@ SAME(block_frame, glssao__frame_constants, gProbe);
 SAME(block_frame, glssao__frame_constants, gDepthStep);
 SAME(block_frame, glssao__frame_constants, gLogDepth);
 SAME(block_frame, glssao__frame_constants, gTiles);
-SAME(block_frame, glssao__frame_constants, gSize);
-SAME(block_frame, glssao__frame_constants, gTexel);
 SAME(block_frame, glssao__frame_constants, gPixel);
+SAME(block_frame, glssao__frame_constants, gEstimateSize);
+SAME(block_frame, glssao__frame_constants, gFullTexel);
 SAME(block_frame, glssao__frame_constants, gTileRings);
 SAME(block_frame, glssao__frame_constants, gPerRadius);
 SAME(block_hemisphere, glssao__hemisphere_constants, gKernel);
@@ -157,7 +157,8 @@ void glssao__constants_fill(glssao_constants *c, const glssao_frame *frame, cons
 
 void glssao__constants_fill_frame(glssao__frame_constants *c, const glssao_frame *frame,
                                   const glssao_settings *settings, const glssao__projection *projection,
-                                  const glssao__precision *precision, const int sizes[4])
+                                  const glssao__precision *precision, const int full_size[2],
+                                  const int estimate_size[2])
 {
     memset(c, 0, sizeof *c);
     memcpy(c->gDistanceFromDepth, projection->distance_from_depth, sizeof c->gDistanceFromDepth);
@@ -170,16 +171,14 @@ void glssao__constants_fill_frame(glssao__frame_constants *c, const glssao_frame
     c->gSampleCount = settings->sample_count;
     c->gFactor = settings->half_resolution ? 2 : 1;
     c->gPerRadius = 1.0f / settings->radius;
-    for (int i = 0; i < 4; ++i) {
-        c->gSize[i] = (float)sizes[i];
-        c->gTexel[i] = 1.0f / c->gSize[i];
-    }
     const bool orthographic = projection->ray_direction[0] == 0.0f;
     for (int i = 0; i < 2; ++i) {
         const double pixel =
-            (double)c->gFactor / sizes[i] * (double)(orthographic ? c->gRayOrigin[i] : c->gRayDirection[i]);
+            (double)c->gFactor / full_size[i] * (double)(orthographic ? c->gRayOrigin[i] : c->gRayDirection[i]);
         c->gPixel[i] = (float)(pixel / (double)settings->radius);
         c->gPixel[2 + i] = (float)((double)settings->radius / pixel);
+        c->gEstimateSize[i] = (float)estimate_size[i];
+        c->gFullTexel[i] = 1.0f / (float)full_size[i];
     }
     glssao__projection_depth_step(frame, projection, precision, c->gDepthStep);
     if (frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC) {

@@ -140,9 +140,9 @@ typedef struct glssao__frame_constants {
     float gDepthStep[4];
     float gLogDepth[4];
     float gTiles[4];
-    float gSize[4];
-    float gTexel[4];
     float gPixel[4];
+    float gEstimateSize[2];
+    float gFullTexel[2];
     float gTileRings;
     float gPerRadius;
     float gPadding[2]; /* std140 rounds the block up */
@@ -321,7 +321,8 @@ void glssao__constants_fill(glssao_constants *c, const glssao_frame *frame, cons
                             const glssao__projection *projection, int ambient_width, int ambient_height);
 void glssao__constants_fill_frame(glssao__frame_constants *c, const glssao_frame *frame,
                                   const glssao_settings *settings, const glssao__projection *projection,
-                                  const glssao__precision *precision, const int sizes[4]);
+                                  const glssao__precision *precision, const int full_size[2],
+                                  const int estimate_size[2]);
 void glssao__constants_gauss_weights(float sigma, float out_weights[3][4]);
 
 /* random.c: PCG32 (O'Neill 2014); the same seed gives the same numbers on every machine. */

@@ -273,8 +273,9 @@ static glssao_result run(glssao_effect *effect, const glssao_frame *host, const 
     effect->margin = frame->margin;
     glssao__constants_fill(&effect->constants, frame, settings, projection, effect->ambient.width,
                            effect->ambient.height);
-    const int sizes[4] = {effect->width, effect->height, effect->ambient.width, effect->ambient.height};
-    glssao__constants_fill_frame(&effect->frame_constants, host, settings, projection, &precision, sizes);
+    glssao__constants_fill_frame(&effect->frame_constants, host, settings, projection, &precision,
+                                 (const int[2]){effect->width, effect->height},
+                                 (const int[2]){effect->ambient.width, effect->ambient.height});
     glssao__tiles_fill_constants(&effect->frame_constants, settings, r.rings);
     if (settings->technique == GLSSAO_HEMISPHERE)
         glssao__constants_fill_kernel(&effect->hemisphere_constants, effect->seed, settings->sample_count);

@@ -89,9 +89,9 @@ static const struct member {
     FRAME(gDepthStep),
     FRAME(gLogDepth),
     FRAME(gTiles),
-    FRAME(gSize),
-    FRAME(gTexel),
     FRAME(gPixel),
+    FRAME(gEstimateSize),
+    FRAME(gFullTexel),
     FRAME(gTileRings),
     FRAME(gPerRadius),
 #undef FRAME

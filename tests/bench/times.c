@@ -29,11 +29,10 @@ static double untimed_frame_ms(effects *plain, const gbuffer *g, const glssao_fr
     gl.Finish();
     /* Those before keep the GPU from waiting for what the processor has yet to send. */
     glssao_result result = GLSSAO_OK;
-    for (int i = 0; i <= FRAMES_AHEAD && result == GLSSAO_OK; i++) {
-        if (i == FRAMES_AHEAD)
-            gl.QueryCounter(queries[0], GL_TIMESTAMP);
+    for (int i = 0; i < FRAMES_AHEAD && result == GLSSAO_OK; i++)
         result = glssao_compute(effect, frame, scaled);
-    }
+    gl.QueryCounter(queries[0], GL_TIMESTAMP);
+    result = result == GLSSAO_OK ? glssao_compute(effect, frame, scaled) : result;
     gl.QueryCounter(queries[1], GL_TIMESTAMP);
     gl.Finish();
     for (int i = 0; i < 2; i++)
