@@ -102,7 +102,9 @@ int main(int argc, char **argv)
     /* end */
 
     while (!o.ended && !glfwWindowShouldClose(window)) {
+        /* snippet: bind */
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+        /* end */
         if (dropin_take_size(window, &width, &height)) {
             /* snippet: storage */
             attach(GL_COLOR_ATTACHMENT0, color, GL_RGBA8, GL_RGBA, width, height);
