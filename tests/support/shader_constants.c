@@ -13,7 +13,7 @@ typedef struct scanner {
         bool value;
     } macros[MAX_MACROS];
     int macro_count;
-    /* Of each open #if: whether its lines count now, and whether a branch was taken. */
+    /* For each open #if: whether its lines count now, and whether a branch was taken. */
     bool active[MAX_DEPTH], taken[MAX_DEPTH];
     int depth;
     const char *name;
@@ -43,7 +43,7 @@ static const char *skip_space(const char *at)
     return at + strspn(at, " \t");
 }
 
-/* A macro, perhaps negated. */
+/* A macro, possibly negated. */
 static bool operand(scanner *s, const char **at)
 {
     *at = skip_space(*at);
