@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Every shader variant of the library, all stages, is written to a file and judged by glslangValidator, because
- * drivers that report 4.5 take what 3.3, or 4.3 for compute shaders, does not have. Arguments: the validator, a folder
- * for the files.
+ * Writes every shader variant of the library, all stages, to a file and has glslangValidator check it: drivers that
+ * report 4.5 accept code that 3.3 (4.3 for compute shaders) lacks. Arguments: the validator, a folder for the files.
  */
 #include "effect.h"
 
@@ -45,7 +44,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: test_shaders VALIDATOR FOLDER\n");
         return 2;
     }
-    /* One process for a batch: starting it takes longer than judging a shader. It prints names, and errors. */
+    /* One process for a batch, because starting it takes longer than checking a shader. It prints names and errors. */
     enum { BATCH = 64, COMMAND_SIZE = 96 * 1024 };
     static char command[COMMAND_SIZE];
     int bad = 0, programs = 0, pending = 0;
