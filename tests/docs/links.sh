@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# links.sh ROOT: every relative link and picture of every page exists, and so does the heading that its #fragment names.
-# Web addresses are not fetched.
+# links.sh ROOT: every relative link and picture of every page exists, and so does the heading that its #fragment names;
+# and so does every page that a source file mentions as docs/NAME.md. Web addresses are not fetched.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 . "$here/pages.sh"
@@ -31,5 +31,9 @@ for page in "${pages[@]}"; do
         [ -z "$fragment" ] || fragments "$path" | grep -qxF -- "$fragment" || complain "$page" "$target" "no such heading"
     done < <(grep -oE '\]\([^) ]+\)' "$page" | sed 's/^](//; s/)$//' | grep -vE '^[a-z]+:')
 done
+while IFS=: read -r source target; do
+    count=$((count + 1))
+    [ -e "$target" ] || complain "$source" "$target" "no such page"
+done < <(grep -roE '\bdocs/[a-z0-9_/-]+\.md' docs examples tests third_party --exclude='*.md')
 echo "${#pages[@]} pages, $count links, $dead dead"
 [ "$dead" = 0 ] && [ "$count" -gt 50 ]
