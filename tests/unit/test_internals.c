@@ -53,7 +53,7 @@ static void offset_vectors_are_corners_then_faces_in_opposite_pairs(void **state
             float cosine = (o[0] * p[0] + o[1] * p[1] + o[2] * p[2]) / (length * other);
             assert_near(cosine, -1.0f, 1e-6);
         }
-        for (int k = 0; k < i; ++k) { /* no direction twice */
+        for (int k = 0; k < i; ++k) { /* all directions differ */
             const float *p = c.gOffsetVectors[k];
             float other = sqrtf(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
             assert_true((o[0] * p[0] + o[1] * p[1] + o[2] * p[2]) / (length * other) < 0.99f);
@@ -175,7 +175,7 @@ static void depth_ends_are_the_planes(void **state)
     assert_true(p.sky_depth == 0.0f);
 }
 
-/* Near : far of 1 : 10^7. The float matrix can't tell the far plane, but every depth in between must be right. */
+/* Near : far of 1 : 10^7. The float matrix cannot resolve the far plane, but every depth in between must be right. */
 static void distance_survives_a_range_of_ten_million(void **state)
 {
     (void)state;
@@ -264,7 +264,7 @@ static double distance_of(const float p[16], bool zero_to_one, double depth)
     return ((double)p[14] - ndc * (double)p[15]) / ((double)p[10] - ndc * (double)p[11]);
 }
 
-/* The step that the coefficients give at a view distance is how far a stored value's neighbour lies. */
+/* The depth step at a view distance must equal the distance between neighbouring stored values. */
 static void depth_steps_are_differences(void **state)
 {
     (void)state;
@@ -294,7 +294,7 @@ static void depth_steps_are_differences(void **state)
             glssao__projection_depth_step(&frame, &projection, &formats[k], c);
             for (double depth = 0.05; depth < 1.0; depth += 0.09) {
                 const double t = distance_of(frame.projection, frame.clip_zero_to_one, depth);
-                /* Floats near a sky of 1 are 2^-24 apart; else a step is relative. */
+                /* Floats near a sky of 1 are 2^-24 apart; otherwise a step is relative. */
                 const double step = !formats[k].relative           ? formats[k].step
                                     : projection.sky_depth == 1.0f ? 0x1p-24
                                                                    : formats[k].step * depth;
