@@ -13,8 +13,7 @@ typedef enum seen { SEE_PLANE, SEE_SPHERE, SEE_ROOM, SEE_WALL, SEE_NOTHING } see
 typedef struct hard_case { /* zero means default */
     const char *name;
     seen shape;
-    double degrees,
-        distance; /* of a plane: angle between its normal and the view axis; distance in scene units, default 3 */
+    double degrees, distance; /* of a plane: angle between normal and view axis; scene units, default 3 */
     analytic_projection projection;
     double flip;                  /* y is mirrored if this is not 0 */
     double near_plane, far_plane; /* default 0.1 and 1000 */

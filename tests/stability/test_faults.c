@@ -20,8 +20,7 @@ static GLuint color, framebuffer;
 typedef struct act {
     const char *name;
     glssao_result (*run)(glssao_effect **effect, fixture *f);
-    glssao_result (*before)(glssao_effect **effect,
-                            fixture *f); /* computes the last result first; NULL: at full size */
+    glssao_result (*before)(glssao_effect **effect, fixture *f); /* computes the last result; NULL: full size */
     bool dispatches;
 } act;
 
@@ -192,8 +191,7 @@ static void each_call_survives_each_fault(void **state)
         {"resize", resize, NULL, false},
         {"begin normals", begin_normals, NULL, false},
     };
-    static const int least[] = {12, 20, 19, 6, 6, 15,
-                                15, 15, 1,  6, 1}; /* the program of glssao_apply compiles with the effect */
+    static const int least[] = {12, 20, 19, 6, 6, 15, 15, 15, 1, 6, 1}; /* apply's program compiles with the effect */
     for (size_t i = 0; i < sizeof acts / sizeof *acts; ++i) {
         int faults = 0;
         if (acts[i].dispatches && fixture_hides_newer()) {
