@@ -158,12 +158,12 @@ uint hidden_by(slice_side side, vec3 at, vec2 layers, float width, inout float h
     PRECISE float x2 = FMA(at.x, at.x, 1e-12);
     PRECISE float chord = 1.0 - x2; // x is below 1
     chord = ROOT(chord);
-    PRECISE float thickness = WIDTH * width * at.z;
+    PRECISE float thickness = RUN_WIDTH * width * at.z;
     float cos_top;
     uint mask = 0u;
 #if LAYERS
     PRECISE float second = min(at.y - layers.y, chord); // its thickness counts from where it is within the sphere
-    mask = hidden_between(side, x2, chord, second, FMA(-SECOND, thickness, second), cos_top);
+    mask = hidden_between(side, x2, chord, second, FMA(-SECOND_WIDTH, thickness, second), cos_top);
     thickness = layers.x >= 0.0 ? layers.x : thickness;
 #endif
     mask |= hidden_between(side, x2, chord, at.y, at.y - thickness, cos_top);

@@ -4,9 +4,6 @@
 
 uniform sampler2D u_depth_map; // as the host stores it
 
-// Farther than any surface: stands for sky and for depths that are not numbers. Its square still fits a float.
-const float FAR_AWAY = 1e15;
-
 float depth_component(vec4 texel)
 {
 #if DEPTH == DEPTH_ALPHA

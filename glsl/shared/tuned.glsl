@@ -6,11 +6,11 @@
 #define JUMP 0.3              // a step in height of more than this ends a run of samples ...
 #define ALIKE 0.4             // ... unless the step before or after it differs by less than this: a steep surface
 #define OPEN_END 1.25         // where a run ends that is not seen to end
-#define WIDTH 1.0             // thickness of a run that a jump separates from the point, in units of its width
+#define RUN_WIDTH 1.0         // thickness of a run that a jump separates from the point, in units of its width
 #define VEIL_ONE_LAYER 0.15   // share of what lies hidden behind occluders that counts as occluded, however deep
 #define VEIL_TWO_LAYERS 0.03  // the same where a second layer is known
 #define VEIL_WIDTH 0.2        // occluders thinner than this hide nothing behind them
-#define SECOND 0.3            // thickness of the second layer's surfaces, in units of what is guessed for the first's
+#define SECOND_WIDTH 0.3      // thickness of the second layer's surfaces, in units of what is guessed for the first's
 #define CALIBRATION_6 1.1     // exponent that makes up for what 6 samples a side miss
 #define CALIBRATION_8 1.05    // the same for 8 samples
 #define CALIBRATION_12 1.0    // the same for 12 and 16 samples

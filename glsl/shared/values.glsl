@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Values of the variant macros that are neither 0/1 nor numbers of something. GLSL and C read this file.
+// Values of the variant macros that are neither 0/1 nor a number of something. GLSL and C read this file.
+
+// Farther than any surface: stands for sky and for depths that are not numbers. Its square still fits a float.
+#define FAR_AWAY 1e15
 
 // How the host stores normals.
 #define NORMALS_SIGNED 0

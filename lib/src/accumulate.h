@@ -25,8 +25,8 @@ int glssao__accumulate_next(const glssao__accumulation *a, const glssao_frame *f
 void glssao__accumulate_begin(glssao__accumulation *a, const glssao__gl *gl, const glssao_frame *frame,
                               const glssao_settings *settings);
 
-/* The members of cbFrame that the estimate, its mean and the probe read. The probe covers the given pixels: x, y, width,
- * height. */
+/* The members of cbFrame that the estimate, its mean and the probe read. The probe covers the given pixels: x, y,
+ * width, height. */
 void glssao__accumulate_fill(const glssao__accumulation *a, uint32_t seed, const int probed[4],
                              glssao__frame_block *block);
 

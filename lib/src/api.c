@@ -33,11 +33,11 @@ static bool check_loops(const glssao_effect *effect, const glssao_frame *frame, 
     glssao__host_names(frame, names);
     for (int map = MAP_FIRST_TARGET; map < MAP_COUNT; ++map)
         for (int i = 0; i < HOST_TEXTURES; ++i) {
-            const gl_uint own = effect->executor.targets[map].texture;
+            const gl_uint own = effect->resources.targets[map].texture;
             const bool is_output = map == MAP_NORMAL ? schedule->maps[map].format != 0 : own != 0;
             if (is_output && names[i] == own) {
-                glssao__log_write(log, GLSSAO_LOG_ERROR,
-                                  "frame texture = %u: the effect's own map can't be its input", own);
+                glssao__log_write(log, GLSSAO_LOG_ERROR, "frame texture = %u: the effect's own map can't be its input",
+                                  own);
                 return false;
             }
         }
@@ -64,7 +64,7 @@ typedef struct call {
     const char *function;
     const glssao_frame *frame;
     const glssao_settings *settings;
-    int estimates;     /* as in glssao__request */
+    int estimates; /* as in glssao__request */
     bool only_prepares;
     glssao__projection projection;
 } call;
@@ -106,11 +106,11 @@ static void run(glssao_effect *effect, const call *c, const glssao__schedule *sc
         last->draw_calls[i] = schedule->plan.passes[i].draw_calls;
 
     const bool is_window = c->frame->depth_kind == GLSSAO_DEPTH_WINDOW;
-    glssao__timers_frame(&effect->executor.timers, last->number);
-    glssao__executor_run(&effect->executor, schedule, host, &effect->uniforms,
-                         is_window ? c->projection.sky_depth : SKY_DISTANCE);
+    glssao__timers_frame(&effect->resources.timers, last->number);
+    glssao__execute(&effect->resources, schedule, host, &effect->uniforms,
+                    is_window ? c->projection.sky_depth : SKY_DISTANCE);
     if (c->estimates > 1 && is_sampled)
-        glssao__accumulate_read_probe(accumulation, &effect->gl, &effect->executor.targets[MAP_PROBE]);
+        glssao__accumulate_read_probe(accumulation, &effect->gl, &effect->resources.targets[MAP_PROBE]);
     else if (c->estimates > 0 && !is_sampled)
         accumulation->sampling_error = 0.0;
 }
@@ -119,7 +119,7 @@ static void run(glssao_effect *effect, const call *c, const glssao__schedule *sc
 static glssao_result run_guarded(glssao_effect *effect, const call *c, const glssao__schedule *schedule)
 {
     const glssao__gl *gl = &effect->gl;
-    const glssao__state_need need = glssao__executor_need(&effect->executor, schedule);
+    const glssao__state_need need = glssao__execute_need(&effect->resources, schedule);
     glssao__host_textures *known = effect->host_restores_state ? &effect->known : NULL;
     glssao__host_inputs host;
     glssao__state state;
@@ -127,13 +127,13 @@ static glssao_result run_guarded(glssao_effect *effect, const call *c, const gls
     glssao_result result =
         glssao__host_textures_check(gl, &effect->log, c->frame, effect->size, UNIT_DEPTH, known, &host);
     if (result == GLSSAO_OK) {
-        result = glssao__executor_prepare(&effect->executor, schedule);
+        result = glssao__resources_prepare(&effect->resources, schedule);
         if (result == GLSSAO_OK && !c->only_prepares)
             run(effect, c, schedule, &host);
         glssao__host_textures_restore(gl, &host, UNIT_DEPTH);
     }
     glssao__state_restore(gl, &state);
-    glssao__executor_collect(&effect->executor);
+    glssao__resources_collect(&effect->resources);
     return result;
 }
 
@@ -144,9 +144,8 @@ static glssao_result run_call(glssao_effect *effect, call *c)
     if (!is_closed(effect, c->function) ||
         !glssao__check_frame(c->frame, c->settings, effect->size, &effect->log, &c->projection))
         return GLSSAO_INVALID_ARGUMENT;
-    glssao_result result = effect->host_restores_state
-                               ? GLSSAO_OK
-                               : glssao__state_check(&effect->gl, &effect->log, c->function);
+    glssao_result result =
+        effect->host_restores_state ? GLSSAO_OK : glssao__state_check(&effect->gl, &effect->log, c->function);
     glssao__schedule schedule;
     for (bool again = result == GLSSAO_OK; again;) {
         const glssao__request request = request_of(effect, c->frame, c->settings, c->estimates);
@@ -161,7 +160,7 @@ static glssao_result run_call(glssao_effect *effect, call *c)
             effect->can.compute_failed = true;
         }
     }
-    glssao__executor_check(&effect->executor, c->function);
+    glssao__resources_check(&effect->resources, c->function);
     return result;
 }
 
@@ -232,7 +231,7 @@ static glssao_result check_framebuffer(const glssao_effect *effect, gl_uint fram
                           status);
         return GLSSAO_FRAMEBUFFER_ERROR;
     }
-    if (is_attached(gl, framebuffer, effect->executor.targets[effect->last.result].texture))
+    if (is_attached(gl, framebuffer, effect->resources.targets[effect->last.result].texture))
         return glssao__log_refuse(
             &effect->log, "framebuffer = %u: the accessibility map itself is attached, which would be read and written",
             framebuffer);
@@ -258,12 +257,12 @@ glssao_result glssao_apply(glssao_effect *effect, uint32_t framebuffer)
     glssao__state_save(gl, &need, effect->host_restores_state, &state);
     glssao_result result = effect->host_restores_state ? GLSSAO_OK : check_framebuffer(effect, framebuffer);
     if (result == GLSSAO_OK) {
-        glssao__executor_apply(&effect->executor, framebuffer, effect->last.result,
-                               effect->size[0] - 2 * effect->last.margin, effect->size[1] - 2 * effect->last.margin);
+        glssao__execute_apply(&effect->resources, framebuffer, effect->last.result,
+                              effect->size[0] - 2 * effect->last.margin, effect->size[1] - 2 * effect->last.margin);
         effect->last.draw_calls[GLSSAO_PASS_APPLY] = 1;
     }
     glssao__state_restore(gl, &state);
-    glssao__executor_check(&effect->executor, "glssao_apply");
+    glssao__resources_check(&effect->resources, "glssao_apply");
     return result;
 }
 
@@ -274,7 +273,7 @@ glssao_result glssao_begin_normals(glssao_effect *effect, uint32_t depth_texture
     if (!effect || !is_closed(effect, "glssao_begin_normals"))
         return GLSSAO_INVALID_ARGUMENT;
     const glssao__gl *gl = &effect->gl;
-    glssao__target *normal_map = &effect->executor.targets[MAP_NORMAL];
+    glssao__target *normal_map = &effect->resources.targets[MAP_NORMAL];
     const glssao__state_need need = glssao__normals_need();
     glssao__state state;
     glssao_result result = glssao__state_check(gl, &effect->log, "glssao_begin_normals");
@@ -287,7 +286,7 @@ glssao_result glssao_begin_normals(glssao_effect *effect, uint32_t depth_texture
         glssao__normals_open(&effect->normals, gl, normal_map);
         effect->last.depth_texture = depth_texture;
     }
-    glssao__executor_check(&effect->executor, "glssao_begin_normals");
+    glssao__resources_check(&effect->resources, "glssao_begin_normals");
     return result;
 }
 
@@ -297,8 +296,8 @@ glssao_result glssao_end_normals(glssao_effect *effect)
         return GLSSAO_INVALID_ARGUMENT;
     if (!effect->normals.is_open)
         return glssao__log_refuse(&effect->log, "glssao_end_normals called without glssao_begin_normals");
-    glssao__normals_close(&effect->normals, &effect->gl, &effect->executor.targets[MAP_NORMAL]);
-    glssao__executor_check(&effect->executor, "glssao_end_normals");
+    glssao__normals_close(&effect->normals, &effect->gl, &effect->resources.targets[MAP_NORMAL]);
+    glssao__resources_check(&effect->resources, "glssao_end_normals");
     return GLSSAO_OK;
 }
 
@@ -313,7 +312,7 @@ glssao_stats glssao_get_stats(glssao_effect *effect)
     }
     if (!effect)
         return stats;
-    glssao__timers *timers = &effect->executor.timers;
+    glssao__timers *timers = &effect->resources.timers;
     stats.frame = effect->last.number;
     stats.estimates = effect->accumulation.count[0] + effect->accumulation.count[1];
     stats.sampling_error = glssao__accumulate_error(&effect->accumulation, &effect->gl);

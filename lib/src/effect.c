@@ -38,9 +38,9 @@ static char *copy_cache_folder(const char *folder, const glssao__log *log)
     if (!folder)
         return NULL;
     if (!glssao__program_cache_trusts(folder)) {
-        glssao__log_write(log, GLSSAO_LOG_WARNING,
-                          "config.program_cache = %s: no folder of this user that only he can write to; nothing is kept",
-                          folder);
+        glssao__log_write(
+            log, GLSSAO_LOG_WARNING,
+            "config.program_cache = %s: no folder of this user that only he can write to; nothing is kept", folder);
         return NULL;
     }
     char *copy = malloc(strlen(folder) + 1);
@@ -71,10 +71,10 @@ static glssao_result init(glssao_effect *effect, const glssao_config *config)
     effect->accumulation.sampling_error = -1.0;
     effect->last.result = MAP_AMBIENT_0;
     effect->last.other = MAP_AMBIENT_1;
-    effect->executor.gl = gl;
-    effect->executor.log = &effect->log;
-    effect->executor.dialect = (glssao__dialect){gl->version, gl->precise, gl->is_software};
-    effect->executor.programs.cache_folder = copy_cache_folder(config->program_cache, &effect->log);
+    effect->resources.gl = gl;
+    effect->resources.log = &effect->log;
+    effect->resources.dialect = (glssao__dialect){gl->version, gl->precise, gl->is_software};
+    effect->resources.programs.cache_folder = copy_cache_folder(config->program_cache, &effect->log);
     glssao__uniforms_init(&effect->uniforms, effect->seed);
     return glssao__state_check(gl, &effect->log, "glssao_create");
 }
@@ -98,16 +98,16 @@ glssao_result glssao_create(const glssao_config *config, glssao_effect **out_eff
     effect->log = log;
     glssao_result result = init(effect, config);
     if (result != GLSSAO_OK) {
-        free(effect->executor.programs.cache_folder);
+        free(effect->resources.programs.cache_folder);
         free(effect);
         return result;
     }
     const glssao__state_need need = {STATE_DRAW | STATE_UNIFORMS | STATE_TRANSFER, .units = 1u};
     glssao__state host;
     glssao__state_save(&effect->gl, &need, effect->host_restores_state, &host);
-    result = glssao__executor_init(&effect->executor, effect->size, effect->seed, !config->no_timers);
+    result = glssao__resources_init(&effect->resources, effect->size, effect->seed, !config->no_timers);
     glssao__state_restore(&effect->gl, &host);
-    glssao__executor_check(&effect->executor, "glssao_create");
+    glssao__resources_check(&effect->resources, "glssao_create");
     if (result != GLSSAO_OK) {
         glssao_destroy(effect);
         return result;
@@ -123,7 +123,7 @@ void glssao_destroy(glssao_effect *effect)
     if (effect->normals.is_open) /* the host's framebuffer comes back; deleting a bound one would bind 0 */
         (void)glssao_end_normals(effect);
     glssao__accumulate_destroy(&effect->accumulation, &effect->gl);
-    glssao__executor_destroy(&effect->executor);
+    glssao__resources_destroy(&effect->resources);
     free(effect);
 }
 
@@ -144,10 +144,10 @@ glssao_result glssao_resize(glssao_effect *effect, int width, int height)
     const glssao__state_need need = {STATE_DRAW | STATE_TRANSFER, .units = 1u};
     glssao__state host;
     glssao__state_save(&effect->gl, &need, effect->host_restores_state, &host);
-    result = glssao__executor_resize(&effect->executor, size);
+    result = glssao__resources_resize(&effect->resources, size);
     glssao__state_restore(&effect->gl, &host);
-    glssao__executor_collect(&effect->executor);
-    glssao__executor_check(&effect->executor, "glssao_resize");
+    glssao__resources_collect(&effect->resources);
+    glssao__resources_check(&effect->resources, "glssao_resize");
     if (result != GLSSAO_OK)
         return result;
     glssao__accumulate_stop(&effect->accumulation, &effect->gl);
@@ -180,7 +180,7 @@ uint32_t glssao_map(const glssao_effect *effect, glssao_map_id id, int *out_widt
             map = effect->last.has_tiles ? MAP_TILE_RINGS : MAP_NONE;
             break;
         case GLSSAO_MAP_RANDOM_VECTOR:
-            texture = effect->executor.random_vector_map;
+            texture = effect->resources.random_vector_map;
             width = height = RANDOM_VECTOR_MAP_SIZE;
             break;
         case GLSSAO_MAP_DEPTH:
@@ -190,9 +190,9 @@ uint32_t glssao_map(const glssao_effect *effect, glssao_map_id id, int *out_widt
             break;
         }
     if (map != MAP_NONE) {
-        texture = effect->executor.targets[map].texture;
-        width = effect->executor.targets[map].width;
-        height = effect->executor.targets[map].height;
+        texture = effect->resources.targets[map].texture;
+        width = effect->resources.targets[map].width;
+        height = effect->resources.targets[map].height;
     }
     if (out_width)
         *out_width = width;

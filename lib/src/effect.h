@@ -13,11 +13,11 @@
 
 /* What the last frame left behind. */
 typedef struct glssao__last_frame {
-    uint64_t number;             /* of frames that succeeded; 0: none yet */
+    uint64_t number; /* of frames that succeeded; 0: none yet */
     enum glssao__map result, other;
     bool has_tiles;
     int margin;
-    gl_uint depth_texture;       /* the host's, as last handed over */
+    gl_uint depth_texture; /* the host's, as last handed over */
     int draw_calls[GLSSAO_PASS_COUNT];
 } glssao__last_frame;
 
@@ -28,7 +28,7 @@ struct glssao_effect {
     bool host_restores_state;
     uint32_t seed;
     int size[2]; /* full size, pixels */
-    glssao__executor executor;
+    glssao__resources resources;
     glssao__uniforms uniforms;
     glssao__host_textures known; /* with host_restores_state */
     glssao__accumulation accumulation;

@@ -67,8 +67,8 @@ void glssao__normals_open(glssao__normals *normals, const glssao__gl *gl, const 
     gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &normals->host_framebuffer);
     gl->GetFloatv(GL_VIEWPORT, normals->host_viewport);
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, normal_map->framebuffer);
-    glssao__state_viewport(
-        gl, (const gl_float[4]){0.0f, 0.0f, (gl_float)normal_map->width, (gl_float)normal_map->height});
+    glssao__state_viewport(gl,
+                           (const gl_float[4]){0.0f, 0.0f, (gl_float)normal_map->width, (gl_float)normal_map->height});
 }
 
 void glssao__normals_close(glssao__normals *normals, const glssao__gl *gl, const glssao__target *normal_map)

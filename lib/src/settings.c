@@ -17,8 +17,8 @@ static glssao_settings hemisphere_settings(glssao_settings s, glssao_quality qua
     return s;
 }
 
-/* MEDIUM and HIGH estimate at half size and upsample along surfaces. LOW leaves its result at half size, since upsampling
- * would double its time. ULTRA estimates at full size. */
+/* MEDIUM and HIGH estimate at half size and upsample along surfaces. LOW leaves its result at half size, since
+ * upsampling would double its time. ULTRA estimates at full size. */
 static glssao_settings horizon_settings(glssao_settings s, glssao_quality quality)
 {
     s.technique = GLSSAO_HORIZON;

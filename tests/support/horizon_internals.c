@@ -6,7 +6,7 @@
 
 static const glssao__target *map_of(const glssao_effect *effect, enum glssao__map map)
 {
-    return &effect->executor.targets[map];
+    return &effect->resources.targets[map];
 }
 
 uint32_t horizon_distance_map(const glssao_effect *effect, int *out_width, int *out_height)
@@ -45,7 +45,7 @@ void horizon_depth_step(const glssao_effect *effect, double out_step[3])
 
 bool horizon_variant(const glssao_effect *effect, horizon_input *out)
 {
-    const glssao__programs *programs = &effect->executor.programs;
+    const glssao__programs *programs = &effect->resources.programs;
     glssao__variant variant = {{0}};
     int found = 0;
     for (int i = 0; i < programs->count; ++i)
@@ -60,10 +60,10 @@ bool horizon_variant(const glssao_effect *effect, horizon_input *out)
         .jump = JUMP,
         .alike = ALIKE,
         .open_end = OPEN_END,
-        .width = WIDTH,
+        .width = RUN_WIDTH,
         .veil = variant.values[MACRO_LAYERS] ? VEIL_TWO_LAYERS : VEIL_ONE_LAYER,
         .veil_width = VEIL_WIDTH,
-        .second = SECOND,
+        .second = SECOND_WIDTH,
         .calibration = out->steps >= 12  ? CALIBRATION_12
                        : out->steps == 8 ? CALIBRATION_8
                                          : CALIBRATION_6,

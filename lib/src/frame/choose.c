@@ -9,8 +9,8 @@
 #include <string.h>
 
 enum {
-    TILE_ESTIMATES = 16,      /* pixels of the tile of noise: a mean of as many estimates is smooth */
-    LEAST_TILES = 300         /* fewer tiles cost more in passes than they can save */
+    TILE_ESTIMATES = 16, /* pixels of the tile of noise: a mean of as many estimates is smooth */
+    LEAST_TILES = 300    /* fewer tiles cost more in passes than they can save */
 };
 
 static const char *const pass_names[GLSSAO_PASS_COUNT] = {
@@ -111,14 +111,13 @@ static void choose_blur(glssao__choice *c, const glssao__request *q)
     const bool asked = settings->blur != GLSSAO_BLUR_NONE && settings->blur_rounds > 0;
     const bool is_smooth = c->accumulates && q->estimates >= TILE_ESTIMATES;
     if (c->compute && c->upsamples && c->is_planar && asked)
-        c->inner_rounds =
-            settings->blur_rounds < ROUNDS_OF_A_DISPATCH ? settings->blur_rounds : ROUNDS_OF_A_DISPATCH;
+        c->inner_rounds = settings->blur_rounds < ROUNDS_OF_A_DISPATCH ? settings->blur_rounds : ROUNDS_OF_A_DISPATCH;
     c->blurs = asked && !is_smooth && settings->blur_rounds > c->inner_rounds;
     choose_pass(c, GLSSAO_PASS_BLUR, c->blurs,
-                !asked       ? "no blur is asked for"
-                : is_smooth  ? "a mean of as many estimates as the tile of noise has pixels is smooth"
-                : c->blurs   ? "removes the estimate's noise"
-                             : "runs within the dispatch that upsamples");
+                !asked      ? "no blur is asked for"
+                : is_smooth ? "a mean of as many estimates as the tile of noise has pixels is smooth"
+                : c->blurs  ? "removes the estimate's noise"
+                            : "runs within the dispatch that upsamples");
 }
 
 /* Which passes run, and why. */
@@ -137,7 +136,7 @@ static void choose_passes(glssao__choice *c, const glssao__request *q)
                 c->accumulates ? "the mean of the estimates" : "runs when glssao_accumulate is called");
     choose_blur(c, q);
     choose_pass(c, GLSSAO_PASS_UPSAMPLE, c->upsamples,
-                c->upsamples       ? "from half size to full size along surfaces"
+                c->upsamples     ? "from half size to full size along surfaces"
                 : c->factor == 2 ? "the host takes the half-size map"
                                  : "the estimate is at full size");
     const char *refusal = tiles_refusal(c, q);

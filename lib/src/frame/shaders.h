@@ -35,33 +35,32 @@ enum glssao__shader {
 
 /* X(macro, its largest value). Every macro is defined in every shader, as 0 where the shader does not test it. */
 #define GLSSAO__MACROS(X)                                                                                              \
-    X(COMPUTE, 1)          /* the pass is dispatched, not drawn */                                                     \
-    X(NORMALS, 2)          /* how the host stores normals: signed, unsigned, octahedral */                             \
-    X(DEPTH, 2)            /* how it stores depth: window depth, view distance, view distance in alpha */              \
-    X(PERSPECTIVE, 1)      /* the projection is known not to be orthographic */                                        \
-    X(BRANCHES, 1)         /* branches that spare a GPU work are taken */                                              \
-    X(UNROLLED, 1)         /* loops marked UNROLL are written out when the source is assembled */                      \
-    X(OUTPUT, 2)           /* accessibility, paired value, sum of estimates */                                         \
-    X(SLICES, 2)           /* horizon: slices of a pixel */                                                            \
-    X(STEPS, 16)           /* horizon: samples on each side of a slice */                                              \
-    X(LAYERS, 1)           /* horizon: there is a second layer */                                                      \
-    X(NO_ANGLE_WEIGHT, 1)  /* classic */                                                                               \
-    X(FILTER, 2)           /* blur: Gaussian, bilateral, box */                                                        \
-    X(WIDE, 1)             /* planar blur: the first round is not the blur's first */                                  \
-    X(ROUNDS, 2)           /* planar blur: rounds of one dispatch */                                                   \
-    X(UPSAMPLE, 1)         /* planar tile: brings the result to full size */                                           \
-    X(MULTISAMPLE, 1)      /* input: of several samples */                                                             \
-    X(LOGARITHMIC, 1)      /* input: logarithmic depth */                                                              \
-    X(PLANES, 1)           /* tiles: those that lie in a plane are open too */                                         \
-    X(FROM_DEPTH, 1)       /* tiles, open: occluders are looked up in the depth map, not in the distance map */
+    X(COMPUTE, 1)         /* the pass is dispatched, not drawn */                                                      \
+    X(NORMALS, 2)         /* how the host stores normals: signed, unsigned, octahedral */                              \
+    X(DEPTH, 2)           /* how it stores depth: window depth, view distance, view distance in alpha */               \
+    X(PERSPECTIVE, 1)     /* the projection is known not to be orthographic */                                         \
+    X(BRANCHES, 1)        /* branches that spare a GPU work are taken */                                               \
+    X(UNROLLED, 1)        /* loops marked UNROLL are written out when the source is assembled */                       \
+    X(OUTPUT, 2)          /* accessibility, paired value, sum of estimates */                                          \
+    X(SLICES, 2)          /* horizon: slices of a pixel */                                                             \
+    X(STEPS, 16)          /* horizon: samples on each side of a slice */                                               \
+    X(LAYERS, 1)          /* horizon: there is a second layer */                                                       \
+    X(NO_ANGLE_WEIGHT, 1) /* classic */                                                                                \
+    X(FILTER, 2)          /* blur: Gaussian, bilateral, box */                                                         \
+    X(WIDE, 1)            /* planar blur: the first round is not the blur's first */                                   \
+    X(ROUNDS, 2)          /* planar blur: rounds of one dispatch */                                                    \
+    X(UPSAMPLE, 1)        /* planar tile: brings the result to full size */                                            \
+    X(MULTISAMPLE, 1)     /* input: of several samples */                                                              \
+    X(LOGARITHMIC, 1)     /* input: logarithmic depth */                                                               \
+    X(PLANES, 1)          /* tiles: those that lie in a plane are open too */                                          \
+    X(FROM_DEPTH, 1)      /* tiles, open: occluders are looked up in the depth map, not in the distance map */
 
 enum glssao__macro {
 #define GLSSAO__ENUMERATE(name, most) MACRO_##name,
     GLSSAO__MACROS(GLSSAO__ENUMERATE)
 #undef GLSSAO__ENUMERATE
-    MACRO_COUNT
+        MACRO_COUNT
 };
-
 
 typedef struct glssao__variant {
     uint8_t values[MACRO_COUNT];
@@ -88,8 +87,7 @@ void glssao__shader_group(enum glssao__shader shader, const glssao__variant *var
 
 /* The source of a stage: fragment or compute, whichever the variant asks for, or the vertex stage that all draws share.
  * NULL where there is no memory; the caller frees. */
-char *glssao__shader_source(enum glssao__shader shader, const glssao__variant *variant,
-                            const glssao__dialect *dialect);
+char *glssao__shader_source(enum glssao__shader shader, const glssao__variant *variant, const glssao__dialect *dialect);
 char *glssao__shader_vertex_source(const glssao__dialect *dialect);
 
 #endif

@@ -37,19 +37,19 @@ enum glssao__map {
     MAP_BACK_COPY,
     MAP_SECOND_COPY,
     MAP_NORMAL,
-    MAP_DISTANCE,    /* view distance; with layers also thickness and second layer (distance.frag) */
-    MAP_TILE_ROWS,   /* bounds, as tile_rows.frag writes them */
+    MAP_DISTANCE,  /* view distance; with layers also thickness and second layer (distance.frag) */
+    MAP_TILE_ROWS, /* bounds, as tile_rows.frag writes them */
     MAP_TILE_BOUNDS,
-    MAP_TILE_CLASS,  /* 1: needs an estimate */
-    MAP_TILE_RINGS,  /* as tile_rings.frag writes them */
-    MAP_AMBIENT_0,   /* accessibility */
+    MAP_TILE_CLASS, /* 1: needs an estimate */
+    MAP_TILE_RINGS, /* as tile_rings.frag writes them */
+    MAP_AMBIENT_0,  /* accessibility */
     MAP_AMBIENT_1,
-    MAP_PAIRED_0,    /* paired values (paired.glsl) */
+    MAP_PAIRED_0, /* paired values (paired.glsl) */
     MAP_PAIRED_1,
-    MAP_BLOCKS,      /* blocks of four pixels (upsample.frag) */
-    MAP_RESULT,      /* the result, where it has another size than the estimate */
-    MAP_SUM,         /* sums of accumulated estimates, one channel for each of two replicates */
-    MAP_PROBE,       /* samples of their difference */
+    MAP_BLOCKS, /* blocks of four pixels (upsample.frag) */
+    MAP_RESULT, /* the result, where it has another size than the estimate */
+    MAP_SUM,    /* sums of accumulated estimates, one channel for each of two replicates */
+    MAP_PROBE,  /* samples of their difference */
     MAP_COUNT,
     MAP_FIRST_TARGET = MAP_DEPTH_COPY
 };
@@ -121,16 +121,16 @@ typedef struct glssao__request {
 typedef struct glssao__schedule {
     glssao__step steps[SCHEDULE_STEPS];
     int count;
-    enum glssao__barrier last_barrier; /* after the last step */
+    enum glssao__barrier last_barrier;   /* after the last step */
     glssao__target_spec maps[MAP_COUNT]; /* those that must be there; format 0: not used */
     int estimate_size[2];
-    enum glssao__map result; /* holds the result afterwards */
-    enum glssao__map other;  /* the other of the maps that the passes draw into by turns */
+    enum glssao__map result;  /* holds the result afterwards */
+    enum glssao__map other;   /* the other of the maps that the passes draw into by turns */
     glssao__region delivered; /* the part of the last pass's map that is the result */
     bool has_tiles;
-    int tile_rings; /* tiles around one that needs an estimate in which later passes may change something */
+    int tile_rings;       /* tiles around one that needs an estimate in which later passes may change something */
     bool may_use_compute; /* a dispatch was chosen by default, so draws may replace it */
-    glssao_plan plan; /* what glssao_plan_frame returns */
+    glssao_plan plan;     /* what glssao_plan_frame returns */
 } glssao__schedule;
 
 #endif

@@ -155,7 +155,7 @@ static void fill_frame(glssao__frame_block *c, const glssao__uniforms_source *so
     memcpy(c->gDistanceFromDepth, projection->distance_from_depth, sizeof c->gDistanceFromDepth);
     memcpy(c->gRayOrigin, projection->ray_origin, sizeof c->gRayOrigin);
     memcpy(c->gRayDirection, projection->ray_direction, sizeof c->gRayDirection);
-    c->gSkyDepth = frame->depth_kind == GLSSAO_DEPTH_WINDOW ? projection->sky_depth : FAR_AWAY;
+    c->gSkyDepth = frame->depth_kind == GLSSAO_DEPTH_WINDOW ? projection->sky_depth : (float)FAR_AWAY;
     c->gPower = settings->power;
     c->gBlurNormalThreshold = settings->blur_normal_threshold;
     c->gBlurDepthThreshold = settings->blur_depth_threshold;
@@ -164,8 +164,8 @@ static void fill_frame(glssao__frame_block *c, const glssao__uniforms_source *so
     c->gPerRadius = 1.0f / settings->radius;
     const bool orthographic = projection->ray_direction[0] == 0.0f;
     for (int i = 0; i < 2; ++i) {
-        const double pixel = (double)c->gFactor / source->size[i] *
-                             (double)(orthographic ? c->gRayOrigin[i] : c->gRayDirection[i]);
+        const double pixel =
+            (double)c->gFactor / source->size[i] * (double)(orthographic ? c->gRayOrigin[i] : c->gRayDirection[i]);
         c->gPixel[i] = (float)(pixel / (double)settings->radius);
         c->gPixel[2 + i] = (float)((double)settings->radius / pixel);
         c->gEstimateSize[i] = (float)source->estimate_size[i];

@@ -13,7 +13,6 @@ enum { BLOCK_SSAO = 0, BLOCK_FRAME, BLOCK_HEMISPHERE, BLOCK_COUNT }; /* also the
 
 /* Border of maps that hold view distance, as the D3D11 demo has it: beyond it nothing occludes. */
 #define SKY_DISTANCE 1e5f
-#define FAR_AWAY 1e15f /* as in glsl/shared/depth.glsl */
 
 /* GLSL's types for the files that both compilers read. */
 typedef float glssao__mat4[16];

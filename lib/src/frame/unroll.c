@@ -87,7 +87,8 @@ static bool read_loop(const char *source, const char *at, loop *out)
     return out->after != NULL;
 }
 
-/* Copies the text up to `end` to `out`, NULL: only counts; returns its length. Loops within loops are written out too. */
+/* Copies the text up to `end` to `out`, NULL: only counts; returns its length. Loops within loops are written out too.
+ */
 static size_t copy(const char *source, const char *at, const char *end, char *out)
 {
     size_t length = 0;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * Linked programs on disk. A file's name tells the driver, the library's version and the program's source; a file that
- * does not fit, or is damaged, counts as absent. A linked program is code that the driver runs, so a file is trusted only
- * where nobody but the user could have put it there. No call fails for want of a file.
+ * does not fit, or is damaged, counts as absent. A linked program is code that the driver runs, so a file is trusted
+ * only where nobody but the user could have put it there. No call fails for want of a file.
  */
 #if !defined(_WIN32) && !defined(_POSIX_C_SOURCE)
 #define _POSIX_C_SOURCE 200809L /* mkstemp, O_NOFOLLOW */
@@ -68,9 +68,9 @@ static uint64_t key_of(const glssao__gl *gl, const glssao__program_source *sourc
 /* "/folder/glssao-horizon-0123456789abcdef.bin", from the name up to its first space. */
 static bool find_path(const char *folder, const glssao__program_source *source, uint64_t key, char out[PATH_LENGTH])
 {
-    const int length = snprintf(out, PATH_LENGTH, "%s/glssao-%.*s-%08lx%08lx.bin", folder,
-                                (int)strcspn(source->name, " "), source->name, (unsigned long)(key >> 32),
-                                (unsigned long)(key & 0xFFFFFFFFu));
+    const int length =
+        snprintf(out, PATH_LENGTH, "%s/glssao-%.*s-%08lx%08lx.bin", folder, (int)strcspn(source->name, " "),
+                 source->name, (unsigned long)(key >> 32), (unsigned long)(key & 0xFFFFFFFFu));
     return length > 0 && length < PATH_LENGTH;
 }
 

@@ -107,8 +107,7 @@ static bool check_members(const glssao__gl *gl, const glssao__log *log, const gl
 }
 
 /* Ties the blocks that the program uses to their binding points; false where the driver lays one out otherwise. */
-static bool bind_blocks(const glssao__gl *gl, const glssao__log *log, const glssao__program_ties *ties,
-                        gl_uint program)
+static bool bind_blocks(const glssao__gl *gl, const glssao__log *log, const glssao__program_ties *ties, gl_uint program)
 {
     for (int i = 0; i < ties->block_count; ++i) {
         const glssao__block *block = &ties->blocks[i];

@@ -17,7 +17,7 @@ typedef struct glssao__program_key {
 
 /* What a program is compiled from. A compute program has no vertex stage. */
 typedef struct glssao__program_source {
-    const char *name;                       /* for messages and file names */
+    const char *name;                        /* for messages and file names */
     const char *vertex, *fragment, *compute; /* whole texts; NULL: no such stage */
 } glssao__program_source;
 

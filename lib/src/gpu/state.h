@@ -65,14 +65,14 @@ typedef struct glssao__state {
  * the host has deleted, which would be lost. Changes nothing. */
 glssao_result glssao__state_check(const glssao__gl *gl, const glssao__log *log, const char *function);
 
-/* Saves what `need` names and sets what the passes want. With `host_restores` nothing is asked: the wanted state is set,
- * and glssao__state_restore does nothing. */
+/* Saves what `need` names and sets what the passes want. With `host_restores` nothing is asked: the wanted state is
+ * set, and glssao__state_restore does nothing. */
 void glssao__state_save(const glssao__gl *gl, const glssao__state_need *need, bool host_restores, glssao__state *out);
 void glssao__state_restore(const glssao__gl *gl, const glssao__state *state);
 
 /* For draws between save and restore, where the part is saved. */
 void glssao__state_blend(const glssao__gl *gl, gl_enum source, gl_enum destination); /* colour; alpha stays */
-void glssao__state_scissor(const glssao__gl *gl, const gl_int box[4]);              /* NULL: off */
+void glssao__state_scissor(const glssao__gl *gl, const gl_int box[4]);               /* NULL: off */
 void glssao__state_viewport(const glssao__gl *gl, const gl_float viewport[4]);
 
 #endif

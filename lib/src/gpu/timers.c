@@ -72,8 +72,7 @@ void glssao__timers_poll(glssao__timers *timers, const glssao__gl *gl)
         if (frame->frame == 0 || !is_finished(gl, frame))
             continue;
         for (int section = 0; section < TIMER_SECTIONS && frame->frame >= timers->known_frame; ++section)
-            timers->known_ms[section] =
-                frame->used & 1u << section ? milliseconds(gl, frame->queries[section]) : -1.0;
+            timers->known_ms[section] = frame->used & 1u << section ? milliseconds(gl, frame->queries[section]) : -1.0;
         if (frame->frame > timers->known_frame)
             timers->known_frame = frame->frame;
         /* The newest frame may still be applied, which is one more section of it. */

@@ -20,8 +20,8 @@ typedef struct glssao__timer_frame {
 typedef struct glssao__timers {
     bool enabled;
     glssao__timer_frame frames[TIMER_FRAMES];
-    glssao__timer_frame *current; /* NULL: the frame goes untimed */
-    uint64_t known_frame;         /* the newest frame whose times are known; 0: none yet */
+    glssao__timer_frame *current;    /* NULL: the frame goes untimed */
+    uint64_t known_frame;            /* the newest frame whose times are known; 0: none yet */
     double known_ms[TIMER_SECTIONS]; /* its times; negative: not timed */
 } glssao__timers;
 

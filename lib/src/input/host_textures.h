@@ -22,8 +22,8 @@ typedef struct glssao__host_texture {
     int width, height;
     bool is_integer;
     glssao__precision precision;
-    bool reads_alpha;  /* precision is that of alpha */
-    bool has_changes;  /* one of the parameters below was not what the passes want */
+    bool reads_alpha;                      /* precision is that of alpha */
+    bool has_changes;                      /* one of the parameters below was not what the passes want */
     gl_int parameters[HOST_PARAMETERS][4]; /* as the host has them */
 } glssao__host_texture;
 
