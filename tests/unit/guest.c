@@ -51,11 +51,12 @@ bool guest_is_compatibility(void)
     return (mask & GL_CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0;
 }
 
-bool guest_find(const fixture *f, const char *name, void *out_function)
+void guest_load(const fixture *f, const char *name, void *out_function)
 {
-    void *address = context_load(name, f->context);
+    void *const address = context_load(name, f->context);
+    if (!address)
+        fail_msg("the context has no %s", name);
     memcpy(out_function, &address, sizeof address);
-    return address != NULL;
 }
 
 float *guest_picture(guest *g, const glssao_frame *frame, const glssao_settings *settings)

@@ -25,8 +25,8 @@ void guest_close(guest *g);
 int guest_setup_compatibility(void **state);
 bool guest_is_compatibility(void);
 
-/* The function `name` of the current context, through the loader under test; false where it is hidden or missing. */
-bool guest_find(const fixture *f, const char *name, void *out_function);
+/* Fills the pointer to a GL function of any version; fails where the context has none of that name. */
+void guest_load(const fixture *f, const char *name, void *out_function);
 
 /* Computes and reads the map back. The caller frees. */
 float *guest_picture(guest *g, const glssao_frame *frame, const glssao_settings *settings);

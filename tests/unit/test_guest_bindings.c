@@ -242,8 +242,9 @@ static GLuint make_of_target(const fixture *f, GLenum kind)
     PFNGLTEXIMAGE1DPROC image_1d;
     PFNGLTEXIMAGE3DPROC image_3d;
     PFNGLTEXBUFFERPROC tex_buffer;
-    assert_true(guest_find(f, "glTexImage1D", &image_1d) && guest_find(f, "glTexImage3D", &image_3d) &&
-                guest_find(f, "glTexBuffer", &tex_buffer));
+    guest_load(f, "glTexImage1D", &image_1d);
+    guest_load(f, "glTexImage3D", &image_3d);
+    guest_load(f, "glTexBuffer", &tex_buffer);
     GLuint name;
     gl.GenTextures(1, &name);
     gl.BindTexture(kind, name);
