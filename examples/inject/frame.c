@@ -20,7 +20,7 @@ static const double SECONDS_TO_FIND = 3.0, SECONDS_PER_RADIUS = 1.0, SECONDS_PER
                     SECONDS_PER_LINE = 2.0;
 
 static volatile sig_atomic_t is_on = 1;
-static double drawn_time = -1e9; /* of the last effect in any context */
+static bool has_drawn; /* the effect, in any context */
 
 static void toggle(int signal_number)
 {
@@ -182,7 +182,8 @@ bool inject_draw_effect(inject_context *c, unsigned framebuffer, int width, int 
         inject_clear_to_white(framebuffer);
     if (glssao_apply(c->effect, framebuffer) != GLSSAO_OK)
         return false;
-    drawn_time = c->drawn_time = inject_seconds();
+    has_drawn = true;
+    c->drawn_time = inject_seconds();
     c->drawn_frame = c->frame;
     say_on(c, &projection);
     return true;
@@ -199,6 +200,6 @@ void inject_end_of_frame(inject_context *c, bool has_effect)
     }
     inject_projection unused;
     /* A program may draw its scene in one context and show it by another. */
-    if (now - drawn_time > SECONDS_WITHOUT && is_long_enough(c) && !get_projection(c, 0, 1, 1, &unused))
+    if (!has_drawn && is_long_enough(c) && !get_projection(c, 0, 1, 1, &unused))
         inject_say_once("no projection was seen; GLSSAO_INJECT_FOV, _NEAR and _FAR can tell a perspective one");
 }

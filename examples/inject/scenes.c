@@ -4,8 +4,8 @@
  *   - the window is swapped;
  *   - depth alone is cleared (games do so before a weapon or an interface): the picture stays, its depth goes;
  *   - a framebuffer is blitted, left for the window, left by its context, or drawn from into another one.
- * Where there are several such moments in a frame, the one is taken that had most depth written before it in the last
- * frame. The effect is drawn once a frame in each context.
+ * Where a framebuffer has several such moments in a frame, the earliest is taken that had as much depth written before
+ * it as any in the last frame. The effect is drawn once a frame in each context.
  */
 #include "inject.h"
 
@@ -16,15 +16,15 @@
 
 enum { SCENES = 64, LEAST_SIZE = 64, FRAMES_KEPT = 120 };
 
-/* What is drawn into one framebuffer between two clears of its depth is a layer. */
 typedef struct scene {
     inject_place place;
     int width, height; /* what the viewports covered, from the lower left corner */
-    float weight;      /* depth written in this layer: share of the framebuffer, times the logarithm of vertices */
-    int layer;         /* in this frame, from 0 */
-    float best_weight, last_weight; /* the heaviest layer of this frame so far, and of the last frame */
-    int best_layer, last_layer;     /* last_layer -1: there was none */
+    float weight; /* depth written since it was cleared: share of the framebuffer, times the logarithm of vertices */
+    int moment;   /* number of the next one, in this frame, from 0 */
+    float best_weight, last_weight; /* at the heaviest moment of this frame so far, and of the last frame */
+    int best_moment, last_moment;   /* last_moment -1: there was none */
     bool is_left;                   /* another framebuffer was bound since */
+    bool lasts;                     /* its context was left with it complete once: it is complete then alone */
     int idle;                       /* frames without a draw */
 } scene;
 
@@ -52,7 +52,7 @@ static scene *find_or_add(inject_place place)
         for (int i = 1; i < SCENES; ++i)
             s = scenes[i].idle > s->idle ? &scenes[i] : s;
     }
-    *s = (scene){.place = place, .last_layer = -1};
+    *s = (scene){.place = place, .last_moment = -1};
     return s;
 }
 
@@ -82,15 +82,15 @@ static bool holds_picture(unsigned framebuffer)
 static bool is_main(const scene *s)
 {
     for (int i = 0; i < scene_count; ++i)
-        if (scenes[i].place.context == s->place.context && scenes[i].last_layer >= 0 && scenes[i].idle <= 1 &&
-            scenes[i].last_weight > (s->last_layer >= 0 ? s->last_weight : 0.0f))
+        if (scenes[i].place.context == s->place.context && scenes[i].last_moment >= 0 && scenes[i].idle <= 1 &&
+            scenes[i].last_weight > (s->last_moment >= 0 ? s->last_weight : 0.0f))
             return false;
     return true;
 }
 
 static bool has_history(const scene *s)
 {
-    return s->last_layer >= 0;
+    return s->last_moment >= 0;
 }
 
 static bool is_pending(const scene *s)
@@ -113,14 +113,16 @@ static void draw(scene *s)
         draw_in(c, s->place.framebuffer, s->width, s->height);
 }
 
-static void close_layer(scene *s)
+/* A moment has come. `is_last`: there is none after it. */
+static void at_moment(scene *s, bool is_last)
 {
+    if (is_pending(s) && is_main(s) && (is_last || (!s->lasts && s->moment == s->last_moment)))
+        draw(s);
     if (s->weight > s->best_weight) {
         s->best_weight = s->weight;
-        s->best_layer = s->layer;
+        s->best_moment = s->moment;
     }
-    s->weight = 0.0f;
-    ++s->layer;
+    ++s->moment;
     s->is_left = false;
 }
 
@@ -154,9 +156,8 @@ void inject_before_draw(void *context, int count)
     GLboolean mask = GL_FALSE;
     GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
     for (int i = 0; i < scene_count; ++i) /* drawn from, most likely */
-        if (scenes[i].place.context == context && scenes[i].is_left && scenes[i].place.framebuffer != (unsigned)bound &&
-            is_pending(&scenes[i]) && has_history(&scenes[i]) && is_main(&scenes[i]))
-            draw(&scenes[i]);
+        if (scenes[i].place.context == context && scenes[i].is_left && scenes[i].place.framebuffer != (unsigned)bound)
+            at_moment(&scenes[i], false);
     GetBooleanv(GL_DEPTH_WRITEMASK, &mask);
     if (mask && IsEnabled(GL_DEPTH_TEST)) {
         const inject_place place = {context, (unsigned)bound};
@@ -185,13 +186,12 @@ void inject_before_clear(inject_place place, bool color, bool depth)
     if (s && color) { /* what was drawn so far is not shown: to find what is under the pointer, for example */
         s->weight = depth ? 0.0f : s->weight;
         s->best_weight = 0.0f;
-        s->best_layer = s->layer = 0;
+        s->best_moment = s->moment = 0;
         if (c->drawn_framebuffer == place.framebuffer)
             c->is_drawn = false;
     } else if (s && depth && s->weight > 0.0f) {
-        if (is_pending(s) && is_main(s) && (!has_history(s) || s->layer == s->last_layer))
-            draw(s);
-        close_layer(s);
+        at_moment(s, !has_history(s));
+        s->weight = 0.0f;
     }
     leave();
 }
@@ -203,8 +203,8 @@ void inject_before_bind(inject_place place, unsigned next)
     scene *const s = find(place);
     if (s && s->weight > 0.0f) {
         s->is_left = true;
-        if (next == 0 && is_pending(s) && is_main(s))
-            draw(s);
+        if (next == 0)
+            at_moment(s, true);
     }
     leave();
 }
@@ -242,8 +242,10 @@ void inject_before_switch(void *context)
         if (scenes[i].place.context == context && scenes[i].place.framebuffer != 0 && is_pending(&scenes[i]) &&
             (!heaviest || scenes[i].weight > heaviest->weight))
             heaviest = &scenes[i];
-    if (heaviest)
+    if (heaviest) {
+        heaviest->lasts = true;
         draw(heaviest);
+    }
     leave();
 }
 
@@ -268,11 +270,15 @@ static void end_frame(const inject_context *swapped)
         scene s = scenes[i];
         inject_context *const c = inject_context_of(s.place.context);
         if (c && (c == swapped || c->frame == 0)) {
-            close_layer(&s);
+            if (s.weight > s.best_weight) { /* the swap is the last moment */
+                s.best_weight = s.weight;
+                s.best_moment = s.moment;
+            }
             s.last_weight = s.best_weight;
-            s.last_layer = s.best_weight > 0.0f ? s.best_layer : s.last_layer;
-            s.best_weight = 0.0f;
-            s.best_layer = s.layer = s.width = s.height = 0;
+            s.last_moment = s.best_weight > 0.0f ? s.best_moment : s.last_moment;
+            s.best_weight = s.weight = 0.0f;
+            s.is_left = false;
+            s.best_moment = s.moment = s.width = s.height = 0;
             ++s.idle;
         }
         if (s.idle < FRAMES_KEPT)
