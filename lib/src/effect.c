@@ -38,9 +38,10 @@ static char *copy_cache_folder(const char *folder, const glssao__log *log)
     if (!folder)
         return NULL;
     if (!glssao__program_cache_trusts(folder)) {
-        glssao__log_write(
-            log, GLSSAO_LOG_WARNING,
-            "config.program_cache = %s: no folder of this user that only he can write to; nothing is kept", folder);
+        glssao__log_write(log, GLSSAO_LOG_WARNING,
+                          "config.program_cache = %s: not a folder that this user owns and nobody else can write to; "
+                          "programs are not kept",
+                          folder);
         return NULL;
     }
     char *copy = malloc(strlen(folder) + 1);
@@ -121,7 +122,8 @@ void glssao_destroy(glssao_effect *effect)
     if (!effect)
         return;
     if (effect->normals.is_open) /* the host's framebuffer comes back; deleting a bound one would bind 0 */
-        (void)glssao_end_normals(effect);
+        glssao__normals_close(&effect->normals, &effect->gl, &effect->resources.targets[MAP_NORMAL],
+                              effect->host_restores_state);
     glssao__accumulate_destroy(&effect->accumulation, &effect->gl);
     glssao__resources_destroy(&effect->resources);
     free(effect);
@@ -153,6 +155,7 @@ glssao_result glssao_resize(glssao_effect *effect, int width, int height)
     glssao__accumulate_stop(&effect->accumulation, &effect->gl);
     memcpy(effect->size, size, sizeof effect->size);
     effect->known = (glssao__host_textures){0};
+    effect->normals.known_depth = 0;
     effect->last.result = MAP_AMBIENT_0;
     effect->last.other = MAP_AMBIENT_1;
     effect->last.has_tiles = false;

@@ -94,7 +94,7 @@ static void clear_new(const glssao__resources *r, enum glssao__map map, glssao__
     if (map == MAP_NORMAL)
         glssao__target_clear(r->gl, target, (const gl_float[4]){0.0f, 0.0f, 1.0f, 0.0f});
     else if (map == MAP_AMBIENT_0 || map == MAP_AMBIENT_1 || map == MAP_RESULT)
-        glssao__target_clear_to_one(r->gl, target);
+        glssao__target_clear_to(r->gl, target, 1.0f);
 }
 
 /* Makes the maps that differ from what is asked for, all or none. */
