@@ -98,10 +98,10 @@ static void set_estimate(const glssao__builder *b, glssao__step *step)
     glssao__build_set(step, MACRO_LAYERS, b->frame->back_texture != 0);
     glssao__build_set(step, MACRO_NO_ANGLE_WEIGHT, b->settings->no_angle_weight);
     glssao__build_finish(b, step);
-    /* Loops keep the program small enough for a GPU's caches; in fragment shaders they pay from two slices on. */
-    glssao__build_set(step, MACRO_UNROLLED,
-                      b->c.is_horizon && step->kind == STEP_DRAW &&
-                          !(step->variant.values[MACRO_BRANCHES] && slices == 2));
+    /* Loops over slices keep the program small enough for a GPU's caches; in fragment shaders they pay from two on. */
+    glssao__build_set(step, MACRO_LOOPS,
+                      b->c.is_horizon &&
+                          (step->kind == STEP_DISPATCH || (step->variant.values[MACRO_BRANCHES] && slices == 2)));
 }
 
 static void add_estimate(glssao__builder *b)
