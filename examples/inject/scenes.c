@@ -233,18 +233,18 @@ void inject_before_read(inject_place place)
     leave();
 }
 
+/* What is bound now will be shown by another context; what was left before was drawn from already. */
 void inject_before_switch(void *context)
 {
+    INJECT_REAL(PFNGLGETINTEGERVPROC, GetIntegerv);
     if (!enter(context))
         return;
-    scene *heaviest = NULL;
-    for (int i = 0; i < scene_count; ++i)
-        if (scenes[i].place.context == context && scenes[i].place.framebuffer != 0 && is_pending(&scenes[i]) &&
-            (!heaviest || scenes[i].weight > heaviest->weight))
-            heaviest = &scenes[i];
-    if (heaviest) {
-        heaviest->lasts = true;
-        draw(heaviest);
+    GLint bound = 0;
+    GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
+    scene *const s = bound ? find((inject_place){context, (unsigned)bound}) : NULL;
+    if (s && is_pending(s)) {
+        s->lasts = true;
+        draw(s);
     }
     leave();
 }
