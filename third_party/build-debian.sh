@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # build-debian.sh [FOLDER]: stages the committed tree with third_party/debian as its debian folder in FOLDER (a new one
-# under /tmp), builds libglssao0, libglssao-dev and glssao-tools there, and runs lintian if it is installed. Needs
+# under /tmp), builds libglssao0.2, libglssao-dev and glssao-tools there, and runs lintian if it is installed. Needs
 # dpkg-dev, debhelper and the build group of packages.txt.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

@@ -67,6 +67,11 @@ bool inject_prepare_context(inject_context *c, int width, int height)
 {
     if (c->given_up)
         return false;
+    if (c->is_embedded) {
+        inject_say("no effect in this context (%s): OpenGL ES is not supported", version_text());
+        c->given_up = true;
+        return false;
+    }
     if (!c->effect)
         return make(c, width, height);
     if (c->width == width && c->height == height)

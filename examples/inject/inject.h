@@ -154,6 +154,7 @@ typedef struct inject_context {
     double first;      /* seconds, of the first swap */
     bool is_drawn;     /* the effect, in this frame, in drawn_framebuffer */
     unsigned drawn_framebuffer;
+    double largest; /* viewport, in pixels, that was drawn with lately */
     /* When the radius was looked for last, as a frame and as a time; and what was found, 0: nothing yet. */
     int radius_frame;
     double radius_time;

@@ -93,9 +93,10 @@ static bool has_history(const scene *s)
     return s->last_moment >= 0;
 }
 
-static bool is_pending(const scene *s)
+/* An icon or a picture by which to pick is much smaller than what the context draws besides. */
+static bool is_large(const inject_context *c, double width, double height)
 {
-    return s->weight > 0.0f && s->width >= LEAST_SIZE && s->height >= LEAST_SIZE;
+    return width >= LEAST_SIZE && height >= LEAST_SIZE && 3.0 * width * height >= c->largest;
 }
 
 static void draw_in(inject_context *c, unsigned framebuffer, int width, int height)
@@ -104,20 +105,19 @@ static void draw_in(inject_context *c, unsigned framebuffer, int width, int heig
     c->drawn_framebuffer = framebuffer;
 }
 
-static void draw(scene *s)
+static void draw(inject_context *c, const scene *s)
 {
-    inject_context *const c = inject_context_of(s->place.context);
-    if (!c || c->is_drawn || c->is_embedded || c->given_up)
+    if (c->is_drawn || !(s->weight > 0.0f) || !is_large(c, s->width, s->height))
         return;
     if (s->place.framebuffer == 0 || holds_picture(s->place.framebuffer))
         draw_in(c, s->place.framebuffer, s->width, s->height);
 }
 
 /* A moment has come. `is_last`: there is none after it. */
-static void at_moment(scene *s, bool is_last)
+static void at_moment(inject_context *c, scene *s, bool is_last)
 {
-    if (is_pending(s) && is_main(s) && (is_last || (!s->lasts && s->moment == s->last_moment)))
-        draw(s);
+    if (is_main(s) && (is_last || (!s->lasts && s->moment == s->last_moment)))
+        draw(c, s);
     if (s->weight > s->best_weight) {
         s->best_weight = s->weight;
         s->best_moment = s->moment;
@@ -150,19 +150,21 @@ void inject_before_draw(void *context, int count)
     INJECT_REAL(PFNGLGETBOOLEANVPROC, GetBooleanv);
     INJECT_REAL(PFNGLISENABLEDPROC, IsEnabled);
     enum { UNKNOWN = 64 };
-    if (!enter(context))
+    inject_context *const c = enter(context);
+    if (!c)
         return;
     GLint bound = 0, viewport[4] = {0};
     GLboolean mask = GL_FALSE;
     GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
+    GetIntegerv(GL_VIEWPORT, viewport);
+    c->largest = fmax(c->largest, (double)viewport[2] * (double)viewport[3]);
     for (int i = 0; i < scene_count; ++i) /* drawn from, most likely */
         if (scenes[i].place.context == context && scenes[i].is_left && scenes[i].place.framebuffer != (unsigned)bound)
-            at_moment(&scenes[i], false);
+            at_moment(c, &scenes[i], false);
     GetBooleanv(GL_DEPTH_WRITEMASK, &mask);
     if (mask && IsEnabled(GL_DEPTH_TEST)) {
         const inject_place place = {context, (unsigned)bound};
         scene *const s = find_or_add(place);
-        GetIntegerv(GL_VIEWPORT, viewport);
         const int right = viewport[0] + viewport[2], top = viewport[1] + viewport[3];
         s->width = right > s->width ? right : s->width;
         s->height = top > s->height ? top : s->height;
@@ -190,7 +192,7 @@ void inject_before_clear(inject_place place, bool color, bool depth)
         if (c->drawn_framebuffer == place.framebuffer)
             c->is_drawn = false;
     } else if (s && depth && s->weight > 0.0f) {
-        at_moment(s, !has_history(s));
+        at_moment(c, s, !has_history(s));
         s->weight = 0.0f;
     }
     leave();
@@ -198,13 +200,14 @@ void inject_before_clear(inject_place place, bool color, bool depth)
 
 void inject_before_bind(inject_place place, unsigned next)
 {
-    if (place.framebuffer == 0 || place.framebuffer == next || !enter(place.context))
+    inject_context *const c = place.framebuffer != 0 && place.framebuffer != next ? enter(place.context) : NULL;
+    if (!c)
         return;
     scene *const s = find(place);
     if (s && s->weight > 0.0f) {
         s->is_left = true;
         if (next == 0)
-            at_moment(s, true);
+            at_moment(c, s, true);
     }
     leave();
 }
@@ -215,7 +218,7 @@ void inject_before_blit(inject_place place, int width, int height)
     if (!c)
         return;
     inject_projection unused; /* a framebuffer that was not drawn anew must not be darkened once more */
-    if (!c->is_drawn && inject_get_projection(place, &unused))
+    if (!c->is_drawn && is_large(c, width, height) && inject_get_projection(place, &unused))
         draw_in(c, place.framebuffer, width, height);
     leave();
 }
@@ -233,18 +236,19 @@ void inject_before_read(inject_place place)
     leave();
 }
 
+/* What is bound now will be shown by another context; what was left before was drawn from already. */
 void inject_before_switch(void *context)
 {
-    if (!enter(context))
+    INJECT_REAL(PFNGLGETINTEGERVPROC, GetIntegerv);
+    inject_context *const c = enter(context);
+    if (!c)
         return;
-    scene *heaviest = NULL;
-    for (int i = 0; i < scene_count; ++i)
-        if (scenes[i].place.context == context && scenes[i].place.framebuffer != 0 && is_pending(&scenes[i]) &&
-            (!heaviest || scenes[i].weight > heaviest->weight))
-            heaviest = &scenes[i];
-    if (heaviest) {
-        heaviest->lasts = true;
-        draw(heaviest);
+    GLint bound = 0;
+    GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
+    scene *const s = bound ? find((inject_place){context, (unsigned)bound}) : NULL;
+    if (s && s->weight > 0.0f) {
+        s->lasts = true;
+        draw(c, s);
     }
     leave();
 }
@@ -286,8 +290,10 @@ static void end_frame(const inject_context *swapped)
     }
     scene_count = kept;
     for (inject_context *c = inject_next_context(NULL); c; c = inject_next_context(c))
-        if (c == swapped || c->frame == 0)
+        if (c == swapped || c->frame == 0) {
             c->is_drawn = false;
+            c->largest *= 0.95; /* forgets a larger window in time */
+        }
     inject_end_frame();
 }
 

@@ -9,6 +9,7 @@
  *   icon      a small picture in a corner, which sets more matrices than the scene
  *   pick      the scene is drawn twice, first to read a pixel back
  *   post      the scene in a framebuffer of its own, drawn into the window as a texture
+ *   shared    as post, with the scene drawn in another context that shares the texture
  *   resolve   the scene in a multisampled framebuffer, blitted to another, and that one into the window
  *   zoom      from the 4th frame with another field of view
  *   several   from the 4th frame in a framebuffer with two pictures, which is not followed
@@ -224,7 +225,8 @@ int main(int argc, char **argv)
     const bool mapped = has(argc, argv, "mapped"), buffer = mapped || has(argc, argv, "ubo");
     const bool reversed = has(argc, argv, "reversed"), range = has(argc, argv, "range");
     const bool own = has(argc, argv, "own"), weapon = has(argc, argv, "weapon"), icon = has(argc, argv, "icon");
-    const bool pick = has(argc, argv, "pick"), post = has(argc, argv, "post"), resolve = has(argc, argv, "resolve");
+    const bool pick = has(argc, argv, "pick"), resolve = has(argc, argv, "resolve"), shared = has(argc, argv, "shared");
+    const bool post = shared || has(argc, argv, "post");
     if (has(argc, argv, "german") && !setlocale(LC_ALL, "de_DE.UTF-8")) {
         fprintf(stderr, "there is no locale de_DE.UTF-8\n");
         return 77;
@@ -232,7 +234,19 @@ int main(int argc, char **argv)
     if (has(argc, argv, "contexts"))
         open_and_close_windows(&o);
     GLFWwindow *window = dropin_open_window("foreign", &o);
-    GLuint vertex_array, block, program = make_program(buffer);
+    GLFWwindow *other = NULL;
+    GLuint vertex_array, block;
+    if (shared) {
+        glGenVertexArrays(1, &vertex_array);
+        glBindVertexArray(vertex_array);
+        glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+        other = glfwCreateWindow(64, 64, "scene", NULL, window);
+        if (!other)
+            return 3;
+        glfwMakeContextCurrent(other);
+        glViewport(0, 0, WIDTH, HEIGHT);
+    }
+    const GLuint program = make_program(buffer);
     mat4 projection, view, clip_from_world;
     make_projection(has(argc, argv, "ortho"), reversed, 0.8f, projection);
     glm_lookat((vec3){2.2f, 2.4f, 3.6f}, (vec3){0.0f, 0.4f, 0.0f}, (vec3){0.0f, 1.0f, 0.0f}, view);
@@ -319,8 +333,15 @@ int main(int argc, char **argv)
             draw_more(program, 0.5f, 5);
             glViewport(0, 0, WIDTH, HEIGHT);
         }
+        if (other) {
+            glFinish();
+            glfwMakeContextCurrent(window);
+            glBindTexture(GL_TEXTURE_2D, b.texture);
+        }
         show(&b, show_program);
-        dropin_show(window, &o, 640, 480);
+        dropin_show(window, &o, WIDTH, HEIGHT);
+        if (other)
+            glfwMakeContextCurrent(other);
     }
     glssao_destroy(effect);
     window_depth_destroy(depth);

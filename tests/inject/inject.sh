@@ -68,7 +68,7 @@ for modes in "ubo ortho" "mapped reversed" range; do
     "$check" --alike modes-after.ppm modes-before.ppm modes-own.ppm || fail "$modes: wrong picture"
 done
 # The effect is drawn before the frame ends, so the picture without it comes from a run that is switched off.
-for mode in weapon icon pick post resolve contexts; do
+for mode in weapon icon pick post shared resolve contexts; do
     inject on "$foreign" $mode --frames 5
     GLSSAO_INJECT_OFF=1 inject off "$foreign" $mode --frames 5
     "$foreign" $mode own --frames 3 --picture own.ppm
@@ -98,7 +98,8 @@ for gears in glxgears eglgears_x11; do
 done
 if command -v es2gears_x11 >/dev/null; then
     inject es2gears es2gears_x11
-    [ "$(grep -c 'glssao-inject: no effect in this context' log)" = 1 ] || fail "es2gears: not told once why nothing happens"
+    [ "$(grep -c 'glssao-inject: ' log)" = 1 ] && grep -q 'no effect in this context (OpenGL ES' log ||
+        fail "es2gears: not told in one line why nothing happens"
     cmp es2gears-before.ppm es2gears-after.ppm || fail "es2gears: the picture changes"
 fi
 echo "inject: good"

@@ -1,33 +1,32 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# abi.sh SOURCE CC: the shared library against the last release's (the newest tag v*, built from its own sources): what
-# changed in functions, structures and enumerations. Fails where a program that was linked with the release would break
-# and the version does not say so; before 1.0 a new minor version may. Skips where there is no release yet.
+# abi.sh [--record] SOURCE CC: compares the shared library's interface with the one recorded in abi.xml: functions, structures,
+# enumerations and the soname. Any difference fails, so that none is made by accident. --record records the interface as it is
+# now. Until 1.0 the soname holds major and minor version: raise the minor version if programs built with a release would break.
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
-source=$1
-export CC=$2
-release=$(git -C "$source" tag --list 'v[0-9]*' --sort=-version:refname 2>/dev/null | head -n 1) || true
-[ -n "$release" ] || skip "no tag v* here, so no release to compare with"
-command -v abidiff >/dev/null || skip "no abidiff (Debian and Ubuntu: apt install abigail-tools)"
-version() { sed -n "s/^#define GLSSAO_VERSION_$2 //p" "$1/lib/include/glssao/glssao.h"; }
-mkdir "$scratch/old"
-git -C "$source" archive "$release" | tar -x -C "$scratch/old"
-for which in old new; do
-    tree=$([ $which = old ] && echo "$scratch/old" || echo "$source")
-    quietly cmake -S "$tree" -B "$scratch/build-$which" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DBUILD_SHARED_LIBS=ON \
-        -DGLSSAO_BUILD_EXAMPLES=OFF -DGLSSAO_BUILD_TESTS=OFF
-    quietly cmake --build "$scratch/build-$which"
-done
-old=$scratch/old/lib/include new=$source/lib/include
-status=0
-abidiff --headers-dir1 "$old" --headers-dir2 "$new" "$scratch/build-old/lib/libglssao.so" "$scratch/build-new/lib/libglssao.so" ||
-    status=$?
-echo "$release against the tree: abidiff says $status"
-[ $((status & 3)) = 0 ] || fail "abidiff failed"
-# Bit 4: something changed; bit 8: what programs rely on is gone. A changed structure is both here: hosts hold them.
-changed=$(abidiff --no-added-syms --headers-dir1 "$old" --headers-dir2 "$new" "$scratch/build-old/lib/libglssao.so" \
-    "$scratch/build-new/lib/libglssao.so" >/dev/null && echo 0 || echo 1)
-major=$(version "$scratch/old" MAJOR) minor=$(version "$scratch/old" MINOR)
-if [ "$changed" = 1 ] && [ "$(version "$source" MAJOR)" = "$major" ] && { [ "$major" -gt 0 ] || [ "$(version "$source" MINOR)" = "$minor" ]; }; then
-    fail "the interface changed since $release: raise the version"
+record=
+if [ "$1" = --record ]; then
+    record=1
+    shift
 fi
+source=$1 recorded=$1/tests/packaging/abi.xml
+export CC=$2
+command -v abidw >/dev/null || skip "no abidw (Debian and Ubuntu: apt install abigail-tools)"
+quietly cmake -S "$source" -B "$scratch/build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DBUILD_SHARED_LIBS=ON \
+    -DGLSSAO_BUILD_EXAMPLES=OFF -DGLSSAO_BUILD_TESTS=OFF
+quietly cmake --build "$scratch/build" -j2
+library=$scratch/build/lib/libglssao.so
+if [ -n "$record" ]; then
+    abidw --headers-dir "$source/lib/include" --drop-private-types --no-show-locs --no-comp-dir-path --no-corpus-path \
+        --type-id-style hash --out-file "$scratch/abi.xml" "$library"
+    sed "s|path='$(realpath "$source")/|path='|" "$scratch/abi.xml" >"$recorded"
+    exit
+fi
+status=0
+abidiff "$recorded" "$library" >"$scratch/difference" || status=$?
+[ $status = 0 ] && exit
+cat "$scratch/difference"
+# Bit 8: what programs rely on is gone or has changed; bits 1 and 2: abidiff itself failed.
+[ $((status & 3)) = 0 ] || fail "abidiff failed"
+[ $((status & 8)) = 0 ] || echo "programs that were built with the recorded interface would break"
+fail "the interface differs from tests/packaging/abi.xml; if that is meant, run: tests/packaging/abi.sh --record . ${CC##*/}"

@@ -23,3 +23,8 @@ quietly() {
 names_of_header() {
     grep -oP '^GLSSAO_API [^;(]*\bglssao_\w+(?=\()' "$1" | grep -oP 'glssao_\w+$' | sort
 }
+
+# version_of SOURCE: major.minor, as the header has it; until 1.0 the soname holds both.
+version_of() {
+    sed -n 's/^#define GLSSAO_VERSION_M[A-Z]* //p' "$1/lib/include/glssao/glssao.h" | paste -sd.
+}

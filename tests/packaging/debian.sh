@@ -7,7 +7,8 @@ source=$1 version=$2 build=$3 debian=$1/third_party/debian
 command -v dpkg-parsechangelog >/dev/null || skip "no dpkg-parsechangelog"
 packaged=$(dpkg-parsechangelog -l "$debian/changelog" -S Version)
 [ "${packaged%-*}" = "$version" ] || fail "changelog says $packaged, the header $version"
-grep -q "^Package: libglssao${version%%.*}\$" "$debian/control" || fail "no package libglssao${version%%.*} for this soname"
+package=libglssao$(version_of "$source")
+grep -q "^Package: $package\$" "$debian/control" && [ -e "$debian/$package.install" ] || fail "no package $package for this soname"
 unset DESTDIR
 quietly cmake --install "$build" --prefix "$scratch/usr"
 # Whatever is installed lies in some package; the shared library comes from another build.

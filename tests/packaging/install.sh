@@ -4,7 +4,7 @@
 # pkg-config from a scratch folder; what the shared library exports; the static library inside a shared one.
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 . "$here/common.sh"
-source=$1 build=$2 cc=$3
+source=$1 build=$2 cc=$3 wanted=$(version_of "$1")
 cp -r "$here/cmake/." "$here"/*.c "$scratch"
 cd "$scratch"
 export CC=$cc
@@ -17,7 +17,7 @@ quietly cmake --install shared-build --prefix "$scratch/shared"
 
 for kind in static shared; do
     prefix=$scratch/$kind
-    quietly cmake -S . -B "use-$kind" -G Ninja -DWAY=find_package -DWANTED=0.1 "-DCMAKE_PREFIX_PATH=$prefix"
+    quietly cmake -S . -B "use-$kind" -G Ninja -DWAY=find_package -DWANTED=$wanted "-DCMAKE_PREFIX_PATH=$prefix"
     quietly cmake --build "use-$kind"
     quietly "use-$kind/consumer"
     pc=$(dirname "$(find "$prefix" -name glssao.pc)")
@@ -28,12 +28,12 @@ for kind in static shared; do
 done
 
 if cmake -S . -B refuse -G Ninja -DWAY=find_package -DWANTED=99 "-DCMAKE_PREFIX_PATH=$scratch/shared" >/dev/null 2>&1; then
-    fail "find_package(glssao 99) found version 0.1"
+    fail "find_package(glssao 99) found version $wanted"
 fi
 
 library=$(find shared -name 'libglssao.so')
 soname=$(readelf -d "$library" | grep -oP 'SONAME.*\[\K[^]]+')
-[[ $soname == libglssao.so.* ]] || fail "soname is '$soname'"
+[ "$soname" = "libglssao.so.$wanted" ] || fail "soname is '$soname', not that of version $wanted"
 [ -e "$(dirname "$library")/$soname" ] || fail "$soname is not installed"
 names_of_header shared/include/glssao/glssao.h >wanted
 [ "$(wc -l <wanted)" -ge 15 ] || fail "only $(wc -l <wanted) functions found in the header"

@@ -121,54 +121,7 @@ static void maps_may_stay_bound_when_a_setting_changes(void **state)
     gl.ActiveTexture(GL_TEXTURE0);
 }
 
-/* ---- every unit ---- */
-
-static void every_unit_is_restored(void **state)
-{
-    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
-    GLuint textures[UNITS], samplers[UNITS], multisample;
-    gl.GenTextures(UNITS, textures);
-    gl.GenSamplers(UNITS, samplers);
-    gl.GenTextures(1, &multisample);
-    for (GLuint unit = 0; unit < UNITS; ++unit) {
-        gl.ActiveTexture(GL_TEXTURE0 + unit);
-        gl.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, multisample);
-    }
-    gl.TexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, 4, GL_DEPTH_COMPONENT24, GUEST_W, GUEST_H, GL_TRUE);
-    for (int i = 0; i <= CHANGES; ++i) {
-        for (GLuint unit = 0; unit < UNITS; ++unit) {
-            gl.ActiveTexture(GL_TEXTURE0 + unit);
-            gl.BindTexture(GL_TEXTURE_2D, textures[unit]);
-            gl.BindSampler(unit, samplers[unit]);
-        }
-        const char *name = "apply";
-        if (i < CHANGES) {
-            name = changes[i].name;
-            run_change(&g, &changes[i]);
-        } else {
-            assert_int_equal(glssao_apply(g.effect, 0), GLSSAO_FRAMEBUFFER_ERROR); /* there is no window */
-        }
-        GLint active = 0;
-        gl.GetIntegerv(GL_ACTIVE_TEXTURE, &active);
-        assert_int_equal(active, GL_TEXTURE0 + UNITS - 1);
-        for (GLuint unit = 0; unit < UNITS; ++unit) {
-            GLint sampler = 0, other = 0;
-            const GLuint bound = bound_on(unit);
-            gl.GetIntegerv(GL_SAMPLER_BINDING, &sampler);
-            gl.GetIntegerv(GL_TEXTURE_BINDING_2D_MULTISAMPLE, &other);
-            if (bound != textures[unit] || (GLuint)sampler != samplers[unit] || (GLuint)other != multisample)
-                fail_msg("after %s, unit %u holds texture %u, sampler %d, multisample texture %d", name, unit, bound,
-                         sampler, other);
-        }
-    }
-    gl.ActiveTexture(GL_TEXTURE0);
-    gl.DeleteTextures(UNITS, textures);
-    gl.DeleteSamplers(UNITS, samplers);
-    gl.DeleteTextures(1, &multisample);
-    guest_close(&g);
-}
-
-/* ---- framebuffer names ---- */
+/* ---- a picture to apply to ---- */
 
 typedef struct target {
     GLuint texture, framebuffer;
@@ -205,6 +158,57 @@ static void delete_white(target *t)
     gl.DeleteFramebuffers(1, &t->framebuffer);
     gl.DeleteTextures(1, &t->texture);
 }
+
+/* ---- every unit ---- */
+
+static void every_unit_is_restored(void **state)
+{
+    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    GLuint textures[UNITS], samplers[UNITS], multisample;
+    target white = make_white();
+    gl.GenTextures(UNITS, textures);
+    gl.GenSamplers(UNITS, samplers);
+    gl.GenTextures(1, &multisample);
+    for (GLuint unit = 0; unit < UNITS; ++unit) {
+        gl.ActiveTexture(GL_TEXTURE0 + unit);
+        gl.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, multisample);
+    }
+    gl.TexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, 4, GL_DEPTH_COMPONENT24, GUEST_W, GUEST_H, GL_TRUE);
+    for (int i = 0; i <= CHANGES; ++i) {
+        for (GLuint unit = 0; unit < UNITS; ++unit) {
+            gl.ActiveTexture(GL_TEXTURE0 + unit);
+            gl.BindTexture(GL_TEXTURE_2D, textures[unit]);
+            gl.BindSampler(unit, samplers[unit]);
+        }
+        const char *name = "apply";
+        if (i < CHANGES) {
+            name = changes[i].name;
+            run_change(&g, &changes[i]);
+        } else {
+            assert_int_equal(glssao_apply(g.effect, white.framebuffer), GLSSAO_OK);
+        }
+        GLint active = 0;
+        gl.GetIntegerv(GL_ACTIVE_TEXTURE, &active);
+        assert_int_equal(active, GL_TEXTURE0 + UNITS - 1);
+        for (GLuint unit = 0; unit < UNITS; ++unit) {
+            GLint sampler = 0, other = 0;
+            const GLuint bound = bound_on(unit);
+            gl.GetIntegerv(GL_SAMPLER_BINDING, &sampler);
+            gl.GetIntegerv(GL_TEXTURE_BINDING_2D_MULTISAMPLE, &other);
+            if (bound != textures[unit] || (GLuint)sampler != samplers[unit] || (GLuint)other != multisample)
+                fail_msg("after %s, unit %u holds texture %u, sampler %d, multisample texture %d", name, unit, bound,
+                         sampler, other);
+        }
+    }
+    gl.ActiveTexture(GL_TEXTURE0);
+    gl.DeleteTextures(UNITS, textures);
+    gl.DeleteSamplers(UNITS, samplers);
+    gl.DeleteTextures(1, &multisample);
+    delete_white(&white);
+    guest_close(&g);
+}
+
+/* ---- framebuffer names ---- */
 
 static void apply_refuses_a_name_that_is_no_framebuffer(void **state)
 {

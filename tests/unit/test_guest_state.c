@@ -73,7 +73,7 @@ static void pixel_transfer_changes_nothing(void **state)
 {
     void(APIENTRY * pixel_transfer)(GLenum, GLfloat);
     void(APIENTRY * pixel_map)(GLenum, GLsizei, const GLfloat *);
-    if (!guest_is_compatibility())
+    if (!guest_is_compatibility() || fixture_hides_newer()) /* the core profile's functions alone can't set it */
         return;
     guest calm = guest_open(*state, GLSSAO_PATH_AUTO);
     guest_load(calm.f, "glPixelTransferf", &pixel_transfer);
