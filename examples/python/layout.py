@@ -78,7 +78,7 @@ def write_struct(name, body):
     for field, kind in fields:
         print(f'        ("{field}", {kind}),')
     print("    ]")
-    print(f"    enums = {{{', '.join(of_enums)}}}")
+    print(f"    enums: dict[str, type[IntEnum]] = {{{', '.join(of_enums)}}}")
     types[name] = name
 
 
@@ -89,7 +89,7 @@ def main(paths):
     text = re.sub(r"^\s*#.*$", "", text, flags=re.MULTILINE).replace('extern "C" {', "").replace("GLSSAO_API", "")
     text = re.sub(r"\s+", " ", text)
 
-    print('"""Generated from the C headers by layout.py."""')
+    print('"""Generated from the C headers by layout.py."""\nfrom __future__ import annotations\n')
     print("from ctypes import (CFUNCTYPE, POINTER, Structure, c_bool, c_char_p, c_double, c_float, c_int, c_size_t,")
     print("                    c_uint32, c_uint64, c_void_p)")
     print("from enum import IntEnum")

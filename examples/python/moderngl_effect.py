@@ -31,7 +31,7 @@ void main()
 }"""
 
 context = moderngl.create_context(standalone=True, backend="egl")
-projection = glssao.perspective(50.0, width, height, near=0.1, far=50.0)
+projection = glssao.pinhole(600.0, 600.0, width / 2, 60.0, width, height, near=0.1, far=50.0)  # the horizon lies at row 60
 depth = context.depth_texture(SIZE)
 color = context.texture(SIZE, 4)
 framebuffer = context.framebuffer(color, depth)

@@ -33,8 +33,12 @@ class Effect(Case):
 
     def read(self, texture):
         """A texture of the effect's, rows from the top."""
-        pixels = self.context.external_texture(texture, SIZE, 1, 0, "f4").read()
-        return np.frombuffer(pixels, "f4").reshape(height, width)[::-1]
+        context = self.context
+        # snippet: read
+        result = context.external_texture(texture, (width, height), components=1, samples=0, dtype="f4")
+        accessibility = np.frombuffer(result.read(), "f4").reshape(height, width)  # row 0 is the bottom
+        # end
+        return accessibility[::-1]
 
     def test_result_is_that_of_occlusion(self):
         window = step_depth()

@@ -46,12 +46,15 @@ def _pointer(array: Floats) -> Any:
     return array.ctypes.data_as(ctypes.POINTER(ctypes.c_float))
 
 
+def _unmask(values: Any, dtype: Any) -> Any:
+    """Masked values become NaN, which is no surface."""
+    return values.astype(dtype).filled(np.nan) if hasattr(values, "filled") else values
+
+
 def _map(values: ArrayLike, name: str, channels: int = 1) -> Floats:
-    """A packed array of floats; masked values become NaN, which is no surface."""
-    if isinstance(values, np.ma.MaskedArray):
-        values = values.astype(np.float32).filled(np.nan)
+    """A packed array of floats, checked for its shape."""
     with np.errstate(over="ignore"):  # beyond float32: infinite
-        array = np.ascontiguousarray(values, np.float32)
+        array = np.ascontiguousarray(_unmask(values, np.float32), np.float32)
     wanted = (2,) if channels == 1 else (3, channels)
     if array.ndim != wanted[0] or array.shape[2:] != wanted[1:] or array.size == 0:
         raise ValueError(f"{name} has the shape {array.shape}: want (height, width{f', {channels}' if channels > 1 else ''})")
@@ -105,9 +108,7 @@ def heightmap(heights: ArrayLike, spacing: float, radius: float, quality: str = 
 
     Returns (rows, columns) float32, as occlusion does.
     """
-    if isinstance(heights, np.ma.MaskedArray):
-        heights = heights.astype(np.float64).filled(np.nan)
-    exact = np.asarray(heights, np.float64)
+    exact = np.asarray(_unmask(heights, np.float64), np.float64)
     finite = exact[np.isfinite(exact)]
     relative = _map(exact - (finite.max() if finite.size else 0.0), "heights")  # keeps millimetres at 8000 metres
     depth = np.empty_like(relative)
@@ -143,4 +144,5 @@ def read_normals(path: str | os.PathLike[str]) -> Floats:
 
 def device() -> str:
     """Which driver computes on this thread, for a person."""
-    return library.occlude_description(_session()).decode(errors="replace")
+    text: bytes = library.occlude_description(_session())
+    return text.decode(errors="replace")

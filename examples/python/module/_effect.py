@@ -14,11 +14,11 @@ from ._library import Error, choose, fill, library, refuse_rest, settings_from
 from ._projection import column_major
 
 _logger = logging.getLogger("glssao")
-_levels = {_layout.glssao_log_level.ERROR: logging.ERROR, _layout.glssao_log_level.WARNING: logging.WARNING,
-           _layout.glssao_log_level.INFO: logging.INFO}
+_levels: dict[int, int] = {_layout.glssao_log_level.ERROR: logging.ERROR, _layout.glssao_log_level.WARNING: logging.WARNING,
+                           _layout.glssao_log_level.INFO: logging.INFO}
 
 
-def _default_load() -> Callable[[str], int | None]:
+def _default_load() -> Callable[[str], int]:
     """A loader for contexts of EGL and GLX, whose functions libglvnd shares."""
     for library_name, function_name in (("libEGL.so.1", "eglGetProcAddress"), ("libGL.so.1", "glXGetProcAddressARB")):
         try:
@@ -26,7 +26,7 @@ def _default_load() -> Callable[[str], int | None]:
         except (OSError, AttributeError):
             continue
         find.restype, find.argtypes = ctypes.c_void_p, [ctypes.c_char_p]
-        return lambda name: find(name.encode())
+        return lambda name: int(find(name.encode()) or 0)
     raise Error("neither libEGL.so.1 nor libGL.so.1 is there: pass load, which finds an OpenGL function's address by name")
 
 

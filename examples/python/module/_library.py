@@ -60,7 +60,7 @@ def fill(struct: ctypes.Structure, values: dict[str, Any]) -> dict[str, Any]:
 def choose(enum: Any, name: str, value: str) -> int:
     """The number of an enum's member, by its name in lower case."""
     try:
-        return enum[value.upper()]
+        return int(enum[value.upper()])
     except KeyError:
         raise ValueError(f"{name} = {value!r}: want {', '.join(member.name.lower() for member in enum)}") from None
 

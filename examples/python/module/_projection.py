@@ -44,4 +44,5 @@ def column_major(projection: Any) -> list[float]:
         matrix = matrix.T
     if matrix.size != 16:
         raise ValueError(f"projection has the shape {matrix.shape}: want 4 x 4, or 16 numbers in columns")
-    return matrix.ravel().tolist()
+    numbers: list[float] = matrix.ravel().tolist()
+    return numbers
