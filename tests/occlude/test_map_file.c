@@ -27,6 +27,7 @@ static map_file map;
 
 static void write_file(const void *bytes, size_t size)
 {
+    remove(path); /* ext4 writes a file to disk when it is cut and closed */
     FILE *file = fopen(path, "wb");
     assert_non_null(file);
     assert_int_equal(fwrite(bytes, 1, size, file), size);
