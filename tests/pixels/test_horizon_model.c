@@ -11,7 +11,6 @@
 #include "fixture.h"
 #include "horizon_internals.h"
 #include "horizon_model.h"
-#include "shader_constants.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -453,25 +452,11 @@ static void measure_is_near_the_integral(void **state)
     assert_true(worst > 1e-4);   /* a polynomial approximation */
 }
 
-static void constants_are_read_where_they_count(void **state)
-{
-    (void)state;
-    static const char *const pieces[] = {"#define A ", "1\n", "#define B 0\nconst float X = 2.5; // a\n#if B || !A\n",
-                                         "const float Y = 1.0;\n#elif A && !B\nconst float Y = -3.0;\n#else\n",
-                                         "const float Y = 4.0;\n#endif\nconst float Z = 1.0 / X;\n"};
-    double value;
-    assert_true(shader_constant(pieces, 5, "X", &value) && value == 2.5);
-    assert_true(shader_constant(pieces, 5, "Y", &value) && value == -3.0);
-    assert_false(shader_constant(pieces, 5, "Z", &value)); /* no number */
-    assert_false(shader_constant(pieces, 5, "W", &value));
-}
-
 int main(void)
 {
 #define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(measure_is_near_the_integral),
-        cmocka_unit_test(constants_are_read_where_they_count),
         GL_TEST(agrees_for_every_sample_count_and_size),
         GL_TEST(agrees_for_every_projection),
         GL_TEST(agrees_at_other_settings),

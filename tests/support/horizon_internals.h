@@ -23,8 +23,8 @@ uint32_t horizon_sum_map(const glssao_effect *effect);
 /* The noise of the estimate added last. */
 void horizon_read_noise(const glssao_effect *effect, horizon_input *out);
 
-/* Constants of the planar blur and of upsampling, lengths in units of the radius; false where one is missing. */
-bool horizon_read_pass_constants(pass_constants *out_blur, pass_constants *out_upsample);
+/* Constants of the planar blur and of upsampling; lengths in units of the radius. */
+void horizon_read_pass_constants(pass_constants *out_blur, pass_constants *out_upsample);
 
 /* Of the last frame: the step of its depth format at view distance t, as coefficients of 1, t and t^2. */
 void horizon_depth_step(const struct glssao_effect *effect, double out_step[3]);

@@ -1,30 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "horizon_slice.h"
-#include "shader_constants.h"
 
 #include <stddef.h>
 
 static const double SKY = (double)1e15f; /* the view distance that stands for sky */
 static const double TRIGONOMETRY = 4e-7; /* error of a driver's sine and cosine, which GLSL leaves open */
-
-bool horizon_read_constants(const char *const *pieces, int count, bool layers, horizon_constants *out)
-{
-    const struct {
-        const char *name;
-        double *out;
-    } wanted[] = {{"JUMP", &out->jump},
-                  {"ALIKE", &out->alike},
-                  {"OPEN_END", &out->open_end},
-                  {"WIDTH", &out->width},
-                  {"VEIL", &out->veil},
-                  {"VEIL_WIDTH", &out->veil_width},
-                  {"CALIBRATION", &out->calibration},
-                  {"SECOND", &out->second}};
-    for (size_t i = 0; i < sizeof wanted / sizeof *wanted - !layers; ++i)
-        if (!shader_constant(pieces, count, wanted[i].name, wanted[i].out))
-            return false;
-    return true;
-}
 
 static rounded dot(vector a, vector b)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * The horizon estimate in double precision, written from its formulas and not from the shader, to compare pixel by
- * pixel. Its tuned constants are the shader's own (see shader_constants.h).
+ * pixel. Its tuned constants are the shader's own (glsl/shared/tuned.glsl).
  *
  * The estimate makes discrete decisions: a sample snaps to a texel, a change of height is a jump or not, a horizon
  * rounds to one of 31 sectors. The model makes each with a bound on the float program's rounding (rounded.h). Where
@@ -17,9 +17,6 @@ typedef struct horizon_constants {
     double jump, alike, open_end, width, veil, veil_width, calibration;
     double second; /* used with a second layer only */
 } horizon_constants;
-
-/* False where a constant is not found in the pieces of the fragment shader's source. */
-bool horizon_read_constants(const char *const *pieces, int count, bool layers, horizon_constants *out);
 
 typedef struct horizon_input {
     int full_width, full_height, factor; /* factor: full-size texels per texel of the estimate */

@@ -2,7 +2,9 @@
  *
  * The library's own arithmetic, without a context: projections, constants, random inputs, default settings.
  */
-#include "effect.h"
+#include "frame/uniforms.h"
+#include "input/check.h"
+#include "random.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -13,7 +15,7 @@
 
 #include <cmocka.h>
 
-static const glssao__log_sink silent;
+static const glssao__log silent;
 
 #define assert_near(a, b, tolerance) assert_true(fabs((double)(a) - (double)(b)) <= (tolerance))
 
@@ -38,23 +40,23 @@ static void block_has_the_offsets_of_the_design(void **state)
 static void offset_vectors_are_corners_then_faces_in_opposite_pairs(void **state)
 {
     (void)state;
-    glssao_constants c;
-    glssao__constants_init(&c, 42);
+    glssao__uniforms u;
+    glssao__uniforms_init(&u, 42);
     for (int i = 0; i < 14; ++i) {
-        const float *o = c.gOffsetVectors[i];
+        const float *o = u.ssao.gOffsetVectors[i];
         float length = sqrtf(o[0] * o[0] + o[1] * o[1] + o[2] * o[2]);
         assert_true(length >= 0.25f && length <= 1.0f);
         assert_true(o[3] == 0.0f);
         int zeros = (o[0] == 0.0f) + (o[1] == 0.0f) + (o[2] == 0.0f);
         assert_int_equal(zeros, i < 8 ? 0 : 2);
         if (i % 2 == 1) {
-            const float *p = c.gOffsetVectors[i - 1];
+            const float *p = u.ssao.gOffsetVectors[i - 1];
             float other = sqrtf(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
             float cosine = (o[0] * p[0] + o[1] * p[1] + o[2] * p[2]) / (length * other);
             assert_near(cosine, -1.0f, 1e-6);
         }
         for (int k = 0; k < i; ++k) { /* all directions differ */
-            const float *p = c.gOffsetVectors[k];
+            const float *p = u.ssao.gOffsetVectors[k];
             float other = sqrtf(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
             assert_true((o[0] * p[0] + o[1] * p[1] + o[2] * p[2]) / (length * other) < 0.99f);
         }
@@ -67,7 +69,7 @@ static void gauss_weights_match_the_closed_form(void **state)
     static const float sigmas[] = {0.1f, 0.5f, 1.0f, 1.7f, 2.5f};
     for (int s = 0; s < 5; ++s) {
         float w[3][4];
-        glssao__constants_gauss_weights(sigmas[s], w);
+        glssao__uniforms_gauss_weights(sigmas[s], w);
         double sum = 0.0;
         int radius = (int)ceil(2.0 * (double)sigmas[s]);
         for (int i = 0; i < 12; ++i) {
@@ -249,7 +251,7 @@ static void default_settings_pass_the_checks(void **state)
     for (int quality = -1; quality < 6; ++quality) {
         for (int technique = 0; technique < 3; ++technique) {
             glssao_settings s = glssao_default_settings((glssao_technique)technique, (glssao_quality)quality);
-            assert_true(glssao__settings_check(&s, &silent));
+            assert_true(glssao__check_settings(&s, &silent));
             assert_int_equal(s.technique, technique);
         }
     }
