@@ -19,7 +19,7 @@ def hills(random: numpy.random.Generator) -> numpy.ndarray:
 
 heights = hills(numpy.random.default_rng(3))
 # snippet: terrain
-accessibility = glssao.heightmap(heights, spacing=SPACING, radius=500.0, quality="ultra", estimates=32)
+accessibility = glssao.heightmap(heights, spacing=SPACING, radius=500.0, quality="ultra", estimates=16)
 # end
 
 south, east = numpy.gradient(heights, SPACING)
