@@ -73,6 +73,20 @@ class Effect(Case):
             got = self.read(effect.compute(texture, PROJECTION, 1.5, depth_kind="view_distance", viewport=(0, 0, *SIZE)))
         np.testing.assert_allclose(got, wanted, atol=2e-3)
 
+    def test_times_are_those_of_the_passes_that_ran(self):
+        texture = self.context.depth_texture(SIZE, step_depth().tobytes())
+        with glssao.Effect(*SIZE) as effect:
+            self.assertEqual(effect.times(), {})
+            effect.compute(texture, PROJECTION, 1.5)
+            self.context.finish()
+            times = effect.times()
+            self.assertGreater(times["estimate"], 0.0)
+            self.assertNotIn("apply", times)
+        with glssao.Effect(*SIZE, no_timers=True) as effect:
+            effect.compute(texture, PROJECTION, 1.5)
+            self.context.finish()
+            self.assertEqual(effect.times(), {})
+
     def test_errors_are_the_librarys_lines(self):
         texture = self.context.depth_texture((8, 8))
         with self.assertRaisesRegex(glssao.Error, "want 1 to"):
