@@ -55,9 +55,10 @@ def _map(values: ArrayLike, name: str, channels: int = 1) -> Floats:
     """A packed array of floats, checked for its shape."""
     with np.errstate(over="ignore"):  # beyond float32: infinite
         array = np.ascontiguousarray(_unmask(values, np.float32), np.float32)
-    wanted = (2,) if channels == 1 else (3, channels)
-    if array.ndim != wanted[0] or array.shape[2:] != wanted[1:] or array.size == 0:
-        raise ValueError(f"{name} has the shape {array.shape}: want (height, width{f', {channels}' if channels > 1 else ''})")
+    last = (channels,) if channels > 1 else ()
+    if array.ndim != 2 + len(last) or array.shape[2:] != last or array.size == 0:
+        wanted = ", ".join(["height", "width", *map(str, last)])
+        raise ValueError(f"{name} has the shape {array.shape}: want ({wanted})")
     return array
 
 
