@@ -74,7 +74,6 @@ static glssao_result init(glssao_effect *effect, const glssao_config *config)
     effect->last.other = MAP_AMBIENT_1;
     effect->resources.gl = gl;
     effect->resources.log = &effect->log;
-    effect->resources.dialect = (glssao__dialect){gl->version, gl->precise, gl->is_software};
     effect->resources.programs.cache_folder = copy_cache_folder(config->program_cache, &effect->log);
     glssao__uniforms_init(&effect->uniforms, effect->seed);
     return glssao__state_check(gl, &effect->log, "glssao_create");

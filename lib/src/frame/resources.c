@@ -60,8 +60,8 @@ static glssao_result prepare_program(glssao__resources *r, enum glssao__shader s
     const bool compute = variant->values[MACRO_COMPUTE];
     char name[128];
     glssao__shader_describe(shader, variant, name, sizeof name);
-    char *own = glssao__shader_source(shader, variant, &r->dialect);
-    char *vertex = compute ? NULL : glssao__shader_vertex_source(&r->dialect);
+    char *own = glssao__shader_source(shader, variant, r->gl->version);
+    char *vertex = compute ? NULL : glssao__shader_vertex_source();
     const glssao__program_source source = {
         .name = name, .vertex = vertex, .fragment = compute ? NULL : own, .compute = compute ? own : NULL};
     glssao_result result = GLSSAO_OUT_OF_MEMORY;

@@ -104,7 +104,6 @@ bool glssao__gl_load(glssao__gl *gl, const glssao__gl_loader *loader, const char
         gl->GetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
     gl->program_binaries = formats > 0;
     gl->is_software = names_software((const char *)gl->GetString(GL_RENDERER));
-    gl->precise = has_extension(gl, "GL_ARB_gpu_shader5");
     gl->depth_bounds_test = has_extension(gl, "GL_EXT_depth_bounds_test");
     gl->stencil_texturing = gl->version >= 43 || has_extension(gl, "GL_ARB_stencil_texturing");
     gl->feedback_query = gl->version >= 40 || has_extension(gl, "GL_ARB_transform_feedback2");

@@ -361,7 +361,6 @@ typedef struct glssao__gl {
     bool program_binaries;  /* linked programs can be read back */
     bool depth_bounds_test; /* GL_EXT_depth_bounds_test */
     bool is_software;       /* the processor rasterises */
-    bool precise;           /* shaders know `precise` and fma() */
     bool feedback_query;    /* the driver can be asked whether transform feedback is active */
     bool stencil_texturing; /* a depth-stencil texture may be set to give its stencil values */
     int max_size;           /* largest texture and viewport side, pixels */
