@@ -268,6 +268,7 @@ static void hosts_that_restore_state_are_asked_nothing(void **state)
     assert_int_equal(glssao_resize(g.effect, GUEST_W / 2, GUEST_H), GLSSAO_OK);
     fixture_clear_log(g.f);
     guest_refused(&g, glssao_compute(g.effect, &g.frame, &settings), "frame.depth_texture", "another size");
+    gl.UseProgram(0); /* as such a host does */
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     gl.DeleteFramebuffers(1, &framebuffer);
     gl.DeleteTextures(2, (const GLuint[2]){depth, texture});

@@ -220,6 +220,7 @@ void glssao__schedule_make(glssao__schedule *out, const glssao__request *q)
     glssao__builder b = {.s = out, .frame = q->frame, .settings = q->settings, .estimates = q->estimates};
     memset(out, 0, sizeof *out);
     glssao__choose(&b.c, q);
+    memcpy(out->host_names, b.c.host_names, sizeof out->host_names);
     out->plan = b.c.plan;
     out->may_use_compute = b.c.compute && q->can.path == GLSSAO_PATH_AUTO;
     out->has_tiles = b.c.has_tiles;
