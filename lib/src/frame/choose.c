@@ -91,7 +91,7 @@ static const char *tiles_refusal(const glssao__choice *c, const glssao__request 
     const int most = can->max_size - 2 * TILE_SIDE;
     if (can->max_point_size < 8.0f * TILE_SIDE || c->size[0] > most || c->size[1] > most)
         return "the driver draws no points or viewports that large";
-    /* Measured, docs/decisions.md: a GPU finishes open pixels as fast as the passes that find them. */
+    /* Measured, docs/decisions/0050: a GPU finishes open pixels as fast as the passes that find them. */
     if (q->settings->tiles == GLSSAO_TILES_AUTO && !can->is_software)
         return "a GPU finishes open pixels as fast as it would sort tiles";
     if (q->settings->tiles == GLSSAO_TILES_AUTO && columns * rows < LEAST_TILES)

@@ -95,7 +95,7 @@ static const struct shader {
 };
 
 /* Invocations of a work group, and the rows of a tile that they share (glsl/passes/planar_tile.comp). Found by
- * experiment, docs/decisions.md. */
+ * experiment, docs/decisions/0052. */
 static const struct group {
     int x, y, rows;
 } row_group = {32, 8, 0}, horizon_group = {8, 16, 0}, tile_group = {32, 14, 28};

@@ -127,7 +127,7 @@ static void fill_ssao(glssao_constants *c, const glssao__uniforms_source *source
 }
 
 /* Sine of the angle up to which a surface counts as a plane. Horizon's estimate of such a plane is 1 within a step of
- * R16 (docs/economy.md); the hemisphere technique's epsilon hides more. */
+ * R16 (glsl/tiles/proof.md); the hemisphere technique's epsilon hides more. */
 static const float FLAT = 1.5e-3f;
 
 /* For the passes in glsl/tiles/. */
