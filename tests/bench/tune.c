@@ -118,8 +118,8 @@ static bool run(const glssao_settings *settings, fit_sum *fits)
     bool ran = true;
     for (int v = 0; ran && v < t.view_count; v++) {
         memset(&fits[v], 0, sizeof fits[v]);
-        ran = effects_run(&e, &t.reader, &t.views[v].gbuffer, t.views[v].radius, settings, t.picture, t.error,
-                          sizeof t.error);
+        const effect_job job = {.gbuffer = &t.views[v].gbuffer, .settings = settings, .radius = t.views[v].radius};
+        ran = effects_run(&e, &t.reader, &job, t.picture, t.error, sizeof t.error);
         if (ran)
             fit_add(&fits[v], t.picture, t.views[v].truth.accessibility, t.views[v].classes, count);
     }
@@ -135,7 +135,7 @@ static bool measure_level(int level, double square[BENCH_SCENES_MAX], fit_sum *f
     if (!run(&settings, fits))
         return false;
     for (int v = 0; v < t.view_count; v++) {
-        const double rmse = fit_rmse(&fits[v], 1, FIT_ALL);
+        const double rmse = fit_rmse(&fits[v], 1);
         square[v] = rmse * rmse;
     }
     return true;
@@ -152,7 +152,7 @@ static bool measure_classic(fit_sum *fits)
         fit_merge(&all, &fits[v]);
     const double exponent = fit_exponent(&all);
     for (int v = 0; v < t.view_count; v++) {
-        const double rmse = fit_rmse(&fits[v], exponent, FIT_ALL);
+        const double rmse = fit_rmse(&fits[v], exponent);
         t.classic[v] = rmse * rmse;
     }
     return true;
@@ -235,18 +235,35 @@ static bool search(fit_sum *fits, int rounds)
     return true;
 }
 
+/* Drops the scenes for judging; -1, with the error set, where --pick asks for one of them. */
+static int keep_tuning_scenes(int count)
+{
+    int kept = 0;
+    for (int i = 0; i < count; i++) {
+        if (t.scenes[i].judging && t.options.pick) {
+            snprintf(t.error, sizeof t.error, "%s is kept for judging: nothing may be tuned on it", t.scenes[i].name);
+            return -1;
+        }
+        if (!t.scenes[i].judging)
+            t.scenes[kept++] = t.scenes[i];
+    }
+    if (kept == 0)
+        snprintf(t.error, sizeof t.error, "no scene has that name");
+    return kept;
+}
+
 static bool prepare(void)
 {
     t.context = context_create(&(context_options){.kind = (context_kind)t.options.context}, t.error, sizeof t.error);
     if (!t.context || !gl_load(context_load, t.context, t.error, sizeof t.error) ||
         !map_reader_create(&t.reader, t.options.size[0], t.options.size[1], t.error, sizeof t.error))
         return false;
-    const int count = bench_scenes_list(&t.options, t.scenes);
-    for (; t.view_count < count; t.view_count++)
+    const int count = keep_tuning_scenes(bench_scenes_list(&t.options, t.scenes));
+    for (; count > 0 && t.view_count < count; t.view_count++)
         if (!bench_view_create(&t.views[t.view_count], &t.scenes[t.view_count], &t.options, t.error, sizeof t.error))
             return false;
     t.picture = malloc((size_t)t.options.size[0] * (size_t)t.options.size[1] * sizeof *t.picture);
-    return t.picture != NULL;
+    return count > 0 && t.picture != NULL;
 }
 
 static bool tune(void)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Loads a scene, draws and traces it, sorts its pixels, and lets the scene go.
+ * Loads a scene, draws it, traces it, classifies its pixels, and frees the scene.
  */
 #include "views.h"
 
@@ -143,6 +143,52 @@ static uint32_t count_triangles(const scene *s)
     return triangles;
 }
 
+/* Gives each triangle vertices of its own, with its own normal. False when memory is short. */
+static bool flatten(scene *s)
+{
+    scene_vertex *own = malloc(((size_t)s->index_count + 1) * sizeof *own);
+    if (!own)
+        return false;
+    for (uint32_t i = 0; i < s->index_count; i++) {
+        own[i] = s->vertices[s->indices[i]];
+        s->indices[i] = i;
+    }
+    for (uint32_t i = 0; i + 2 < s->index_count; i += 3) {
+        double u[3], w[3], n[3], length = 0;
+        for (int k = 0; k < 3; k++) {
+            u[k] = (double)own[i + 1].position[k] - (double)own[i].position[k];
+            w[k] = (double)own[i + 2].position[k] - (double)own[i].position[k];
+        }
+        for (int k = 0; k < 3; k++) {
+            n[k] = u[(k + 1) % 3] * w[(k + 2) % 3] - u[(k + 2) % 3] * w[(k + 1) % 3];
+            length += n[k] * n[k];
+        }
+        for (uint32_t c = i; length > 0 && c < i + 3; c++)
+            for (int k = 0; k < 3; k++)
+                own[c].normal[k] = (float)(n[k] / sqrt(length));
+    }
+    free(s->vertices);
+    s->vertices = own;
+    s->vertex_count = s->index_count;
+    return true;
+}
+
+/* Both truths; the flat one last, because it changes the scene. */
+static bool trace(bench_view *v, scene *s, const scene_view *view, const options *o, char *error, size_t error_size)
+{
+    const truth_request request = {
+        .name = v->name, .cache = o->cache, .radius = v->radius, .rays = o->rays, .seed = o->seed};
+    if (!truth_get(&request, s, view, &v->truth, error, error_size))
+        return false;
+    if (!o->flat)
+        return true;
+    if (!flatten(s)) {
+        snprintf(error, error_size, "out of memory");
+        return false;
+    }
+    return truth_get(&request, s, view, &v->flat, error, error_size);
+}
+
 bool bench_view_create(bench_view *v, const bench_scene *b, const options *o, char *error, size_t error_size)
 {
     *v = (bench_view){.radius = 0};
@@ -152,16 +198,16 @@ bool bench_view_create(bench_view *v, const bench_scene *b, const options *o, ch
     if (!s)
         return false;
     v->triangles = count_triangles(s);
-    const truth_request request = {
-        .name = v->name, .cache = o->cache, .radius = v->radius, .rays = o->rays, .seed = o->seed};
     bool made = gbuffer_draw(&v->gbuffer, s, &view, 0, error, error_size) &&
                 gbuffer_draw(&v->beyond, s, &view, gbuffer_margin(view.width), error, error_size) &&
-                truth_get(&request, s, &view, &v->truth, error, error_size);
+                trace(v, s, &view, o, error, error_size);
     scene_destroy(s);
     if (!made)
         return false;
     gbuffer_read(&v->gbuffer, &v->distance, &v->normals);
-    made = v->distance && classify(v);
+    made = v->distance && classify(v) &&
+           perception_create(&v->perception, v->truth.accessibility, v->classes, view.width, view.height) &&
+           grain_create(&v->grain, v->truth.accessibility, v->classes, view.width, view.height);
     if (!made)
         snprintf(error, error_size, "out of memory");
     return made;
@@ -172,6 +218,9 @@ void bench_view_destroy(bench_view *v)
     gbuffer_destroy(&v->gbuffer);
     gbuffer_destroy(&v->beyond);
     truth_destroy(&v->truth);
+    truth_destroy(&v->flat);
+    perception_destroy(&v->perception);
+    grain_destroy(&v->grain);
     free(v->distance);
     free(v->normals);
     free(v->classes);

@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * One scene at a time, at half the measuring size.
+ */
+#include "flicker.h"
+
+#include "progress.h"
+#include "sequence.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const float turn_rad = 0.5f * 0.01745329252f; /* of the camera from frame to frame */
+
+typedef struct clip {
+    float radius;
+    int count;
+    gbuffer *frames;
+    float **distance;
+    float *result[2]; /* of the last frame and of this one */
+} clip;
+
+static bool clip_draw(clip *k, const bench_scene *b, int width, int height, char *error, size_t error_size)
+{
+    scene_view view;
+    scene *s = bench_scene_open(b, width, height, &view, &k->radius, error, error_size);
+    bool drawn = s != NULL;
+    for (int i = 0; drawn && i < k->count; i++) {
+        float *normals;
+        const camera start = bench_scene_camera(b, s, (float)width / (float)height);
+        const camera now = camera_turned(&start, turn_rad * (float)i);
+        view = camera_view(&now, width, height);
+        drawn = gbuffer_draw(&k->frames[i], s, &view, 0, error, error_size);
+        if (drawn) {
+            gbuffer_read(&k->frames[i], &k->distance[i], &normals);
+            free(normals);
+            drawn = k->distance[i] != NULL;
+        }
+    }
+    scene_destroy(s);
+    return drawn;
+}
+
+static void clip_clear(clip *k)
+{
+    for (int i = 0; i < k->count; i++) {
+        gbuffer_destroy(&k->frames[i]);
+        free(k->distance[i]);
+        k->distance[i] = NULL;
+    }
+}
+
+/* RMS of the change between frames that follow each other; NAN where no point is seen twice. */
+static bool measure_config(const clip *k, const config_result *c, effects *e, map_reader *m, double *out, char *error,
+                           size_t error_size)
+{
+    frame_change change = {0, 0};
+    for (int i = 0; i < k->count; i++) {
+        const effect_job job = {.gbuffer = &k->frames[i],
+                                .settings = &c->config.settings,
+                                .radius = k->radius,
+                                .depth_alone = c->config.inputs == INPUTS_DEPTH};
+        if (!effects_run(e, m, &job, k->result[i % 2], error, error_size))
+            return false;
+        const sequence_frame now = {k->frames[i].view, k->distance[i], k->result[i % 2]};
+        if (i > 0) {
+            const sequence_frame before = {k->frames[i - 1].view, k->distance[i - 1], k->result[(i - 1) % 2]};
+            sequence_compare(&change, &before, &now);
+        }
+    }
+    *out = change.pixels > 0 ? sqrt(change.sum2 / change.pixels) : NAN;
+    return true;
+}
+
+static bool is_measured(const bench_config *c)
+{
+    return c->kind == BENCH_EFFECT && (c->level || c->inputs == INPUTS_DEPTH);
+}
+
+static bool measure_scene(results *r, int view, clip *k, effects *e, map_reader *m, char *error, size_t error_size)
+{
+    progress_show("frame change: %s", r->views[view].name);
+    bool done = clip_draw(k, &r->scenes[view], m->width, m->height, error, error_size);
+    for (int i = 0; done && i < r->config_count; i++)
+        if (is_measured(&r->configs[i].config))
+            done = measure_config(k, &r->configs[i], e, m, &r->configs[i].views[view].frame_change, error, error_size);
+    clip_clear(k);
+    return done;
+}
+
+bool flicker_measure(results *r, context *c, char *error, size_t error_size)
+{
+    const options *o = r->options;
+    const int width = o->size[0] / 2, height = o->size[1] / 2;
+    const size_t pixels = (size_t)width * (size_t)height, frames = (size_t)o->sequence_frames;
+    clip k = {.count = o->sequence_frames,
+              .frames = calloc(frames + 1, sizeof *k.frames),
+              .distance = calloc(frames + 1, sizeof *k.distance),
+              .result = {calloc(pixels, sizeof(float)), calloc(pixels, sizeof(float))}};
+    effects e = {.context = c, .width = width, .height = height, .seed = o->seed, .path = (glssao_path)o->path};
+    map_reader m = {.width = 0};
+    bool done = k.frames && k.distance && k.result[0] && k.result[1];
+    if (!done)
+        snprintf(error, error_size, "out of memory");
+    done = done && map_reader_create(&m, width, height, error, error_size);
+    for (int v = 0; done && v < r->view_count; v++)
+        done = measure_scene(r, v, &k, &e, &m, error, error_size);
+    progress_clear();
+    effects_destroy(&e);
+    map_reader_destroy(&m);
+    free(k.frames);
+    free(k.distance);
+    free(k.result[0]);
+    free(k.result[1]);
+    return done;
+}
