@@ -54,7 +54,6 @@ typedef struct economy {
     economy_step steps[ECONOMY_STEPS];
     economy_row shares[2][ECONOMY_SHARES]; /* of sky, of a plane; the rest is rough */
     double first_ms[ECONOMY_FIRSTS];       /* of glssao_create and a frame: see economy_first_name */
-    double seconds;
 } economy;
 
 glssao_settings economy_settings(int config);
@@ -77,7 +76,7 @@ bool economy_measure_steps(economy *e, char *error, size_t error_size);
 /* economy_shares.c */
 bool economy_measure_shares(economy *e, char *error, size_t error_size);
 
-/* economy_report.c: charts beside the document, in pictures/. */
-bool economy_write(const economy *e, const char *path, char *error, size_t error_size);
+/* economy_report.c: writes economy-*.tsv into the output folder. */
+bool economy_write(const economy *e, char *error, size_t error_size);
 
 #endif

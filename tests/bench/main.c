@@ -35,33 +35,15 @@ typedef struct run {
     char error[ERROR_LENGTH];
 } run;
 
-static void read_machine(results *r)
-{
-    r->cores = (int)sysconf(_SC_NPROCESSORS_ONLN);
-    snprintf(r->cpu, sizeof r->cpu, "unknown");
-    FILE *f = fopen("/proc/cpuinfo", "r");
-    char line[256];
-    while (f && fgets(line, sizeof line, f)) {
-        const char *colon = strchr(line, ':');
-        if (strncmp(line, "model name", 10) == 0 && colon) {
-            snprintf(r->cpu, sizeof r->cpu, "%s", colon + 1 + strspn(colon + 1, " \t"));
-            r->cpu[strcspn(r->cpu, "\n")] = '\0';
-            break;
-        }
-    }
-    if (f)
-        fclose(f);
-}
-
 static bool open_context(run *r)
 {
     r->context =
         context_create(&(context_options){.kind = (context_kind)r->options.context}, r->error, sizeof r->error);
     if (!r->context || !gl_load(context_load, r->context, r->error, sizeof r->error))
         return false;
-    r->results.context = context_description(r->context);
+    r->results.context = r->context;
     r->results.software = context_is_software(r->context);
-    fprintf(stderr, "context: %s\n", r->results.context);
+    fprintf(stderr, "context: %s\n", context_description(r->context));
     r->effects = (effects){.context = r->context,
                            .width = r->options.size[0],
                            .height = r->options.size[1],
@@ -137,7 +119,7 @@ static bool take_times(run *r)
     int chosen = 0; /* the first, where the one asked for is not there */
     for (int i = 0; i < out->view_count; i++)
         chosen = strcmp(out->scenes[i].name, r->options.time_scene) == 0 ? i : chosen;
-    out->time_scene = out->scenes[chosen].name;
+    r->options.time_scene = out->scenes[chosen].name;
     bool timed = true;
     for (int i = 0; timed && i < out->view_count; i++)
         if (i == chosen || r->options.time_all)
@@ -167,7 +149,7 @@ static bool measure(run *r)
     results *out = &r->results;
     const double start_ms = clock_wall_ms();
     out->options = &r->options;
-    read_machine(out);
+    out->cores = (int)sysconf(_SC_NPROCESSORS_ONLN);
     if (!make_folder(r->options.out)) {
         snprintf(r->error, sizeof r->error, "%s: no such folder can be made", r->options.out);
         return false;

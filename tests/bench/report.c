@@ -1,70 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * The tables of glssao-bench.
+ * The columns of each table.
  */
 #include "report.h"
 
-#include <errno.h>
+#include "table.h"
+
 #include <math.h>
-#include <string.h>
-
-bool table_begin(table *t, const results *r, const char *name, const char *columns, char *error, size_t error_size)
-{
-    const options *o = r->options;
-    const uint32_t v = glssao_version();
-    t->row_begun = false;
-    snprintf(t->path, sizeof t->path, "%s/%s.tsv", o->out, name);
-    t->file = fopen(t->path, "w");
-    if (!t->file) {
-        snprintf(error, error_size, "%s: %s", t->path, strerror(errno));
-        return false;
-    }
-    fprintf(t->file, "# %s\n", o->command);
-    fprintf(t->file,
-            "# glssao=%u.%u.%u\tcpu=%s\tcores=%d\tcontext=%s\tsoftware=%d\tsize=%dx%d\trays=%d\ttime_size=%dx%d\t"
-            "frames=%d\ttime_scene=%s\n",
-            v >> 16, v >> 8 & 255, v & 255, r->cpu, r->cores, r->context, r->software, o->size[0], o->size[1], o->rays,
-            o->time_size[0], o->time_size[1], o->frames, r->time_scene ? r->time_scene : "");
-    for (; *columns; columns++)
-        fputc(*columns == ' ' ? '\t' : *columns, t->file);
-    fputc('\n', t->file);
-    return true;
-}
-
-static void begin_cell(table *t)
-{
-    if (t->row_begun)
-        fputc('\t', t->file);
-    t->row_begun = true;
-}
-
-void table_text(table *t, const char *value)
-{
-    begin_cell(t);
-    fputs(value, t->file);
-}
-
-void table_number(table *t, double value)
-{
-    begin_cell(t);
-    if (isfinite(value))
-        fprintf(t->file, "%.6g", value);
-}
-
-void table_end_row(table *t)
-{
-    fputc('\n', t->file);
-    t->row_begun = false;
-}
-
-bool table_end(table *t, char *error, size_t error_size)
-{
-    const bool written = !ferror(t->file);
-    if (fclose(t->file) == 0 && written)
-        return true;
-    snprintf(error, error_size, "%s: it could not be written in full", t->path);
-    return false;
-}
 
 static void add_time(table *t, const timing *time)
 {
@@ -93,7 +35,7 @@ static void add_config(table *t, const bench_config *c)
 bool report_accuracy(const results *r, char *error, size_t error_size)
 {
     table t;
-    if (!table_begin(&t, r, "accuracy",
+    if (!table_begin(&t, r->options, r->context, "accuracy",
                      "configuration technique level inputs size blur rounds scene rmse mean p95 p99 off_share "
                      "nonfinite_share smooth_rmse edge_rmse ssim flip grain specks frame_change exponent default_rmse "
                      "default_mean own_exponent own_rmse flat_rmse flat_mean median_ms p95_ms cpu_ms normals_ms "
@@ -139,7 +81,8 @@ bool report_accuracy(const results *r, char *error, size_t error_size)
 bool report_scenes(const results *r, char *error, size_t error_size)
 {
     table t;
-    if (!table_begin(&t, r, "scenes", "scene use radius triangles coverage edge_share tilted_share", error, error_size))
+    if (!table_begin(&t, r->options, r->context, "scenes",
+                     "scene use radius triangles coverage edge_share tilted_share", error, error_size))
         return false;
     for (int v = 0; v < r->view_count; v++) {
         const bench_view *b = &r->views[v];
@@ -156,7 +99,7 @@ bool report_scenes(const results *r, char *error, size_t error_size)
 static bool report_oracle(const results *r, char *error, size_t error_size)
 {
     table t;
-    if (!table_begin(&t, r, "oracle", "scene thickness best rmse", error, error_size))
+    if (!table_begin(&t, r->options, r->context, "oracle", "scene thickness best rmse", error, error_size))
         return false;
     for (int v = 0; v < r->view_count; v++) {
         for (int k = 0; k < THICKNESS_COUNT; k++) {
@@ -179,7 +122,7 @@ bool report_split(const results *r, char *error, size_t error_size)
     table t;
     if (r->split_count == 0)
         return true;
-    if (!table_begin(&t, r, "split", "configuration scene step alone total", error, error_size))
+    if (!table_begin(&t, r->options, r->context, "split", "configuration scene step alone total", error, error_size))
         return false;
     for (int i = 0; i < r->split_count; i++) {
         const split_result *s = &r->splits[i];

@@ -1,28 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * Tables of tab-separated values, one row a line. The first line is the command that made them, the second the machine
- * and what all rows share, the third the names of the columns. A cell that was not measured is empty.
+ * The tables of glssao-bench, in the output folder. Each call returns false, with one line in `error`, where a file
+ * could not be written.
  */
 #ifndef GLSSAO_BENCH_REPORT_H
 #define GLSSAO_BENCH_REPORT_H
 
 #include "results.h"
-
-#include <stdio.h>
-
-typedef struct table {
-    FILE *file;
-    char path[1024];
-    bool row_begun;
-} table;
-
-/* Starts FOLDER/NAME.tsv. `columns` are separated by spaces. */
-bool table_begin(table *t, const results *r, const char *name, const char *columns, char *error, size_t error_size);
-void table_text(table *t, const char *value);
-void table_number(table *t, double value); /* not finite: an empty cell */
-void table_end_row(table *t);
-/* Closes it; false, with one line in `error`, where it could not be written in full. */
-bool table_end(table *t, char *error, size_t error_size);
 
 /* accuracy.tsv: one row for each configuration and scene. */
 bool report_accuracy(const results *r, char *error, size_t error_size);

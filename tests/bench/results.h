@@ -6,6 +6,7 @@
 #define GLSSAO_BENCH_RESULTS_H
 
 #include "configs.h"
+#include "context.h"
 #include "measure.h"
 #include "options.h"
 #include "views.h"
@@ -69,16 +70,14 @@ enum { BENCH_SPLITS = BENCH_TECHNIQUES + GLSSAO_ULTRA };
 
 typedef struct results {
     const options *options;
-    const char *context;
+    const context *context;
     bool software;
-    char cpu[128];
     int cores;
     bench_scene scenes[BENCH_SCENES_MAX];
     bench_view *views; /* of the scenes, by index */
     int view_count;
     config_result *configs;
     int config_count;
-    const char *time_scene; /* NULL: no times */
     oracle_result oracle;
     split_result splits[BENCH_SPLITS];
     int split_count; /* 0: not measured */
