@@ -4,6 +4,8 @@
  */
 #include "configs.h"
 
+#include "peers.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -115,6 +117,17 @@ static int add_rays(const options *o, bench_config *out, int count)
     return count;
 }
 
+static int add_peers(const options *o, bench_config *out, int count)
+{
+    for (int i = 0; o->peers && peers_name(i) && count < BENCH_CONFIGS_MAX; i++) {
+        bench_config c = {.kind = BENCH_PEER, .level = true, .peer = i};
+        snprintf(c.id, sizeof c.id, "%s", peers_name(i));
+        if (options_match(o->only, c.id))
+            out[count++] = c;
+    }
+    return count;
+}
+
 int bench_configs_list(const options *o, const glssao_effect *effect, bench_config out[BENCH_CONFIGS_MAX])
 {
     int count = 0;
@@ -136,7 +149,7 @@ int bench_configs_list(const options *o, const glssao_effect *effect, bench_conf
             }
         }
     }
-    return add_rays(o, out, count);
+    return add_peers(o, out, add_rays(o, out, count));
 }
 
 const char *bench_technique_name(glssao_technique technique)

@@ -5,6 +5,7 @@
  */
 #include "errors.h"
 
+#include "peers.h"
 #include "progress.h"
 
 #include <math.h>
@@ -44,6 +45,22 @@ static bool run_rays(const results *r, const bench_config *c, int view, float *o
     return traced;
 }
 
+static bool run_peer(const results *r, const bench_config *c, int view, float *out, char *error, size_t error_size)
+{
+    const bench_view *v = &r->views[view];
+    const peer_view at = {&v->gbuffer, v->radius, v->median_distance};
+    replay_inputs in;
+    replay *p = peers_load(r->peers, c->peer, &at, error, error_size);
+    bool ran = replay_inputs_create(&in, &v->gbuffer) && p;
+    if (ran) {
+        replay_draw(r->peers->replayer, p, &in);
+        ran = replay_read(p, v->gbuffer.view.width, v->gbuffer.view.height, out, error, error_size);
+    }
+    replay_inputs_destroy(&in);
+    replay_destroy(p);
+    return ran;
+}
+
 bool errors_run(const results *r, const bench_config *c, int view, bool plain, effects *e, map_reader *m, float *out,
                 char *error, size_t error_size)
 {
@@ -51,6 +68,8 @@ bool errors_run(const results *r, const bench_config *c, int view, bool plain, e
     glssao_settings settings = c->settings;
     if (c->kind == BENCH_RAYS)
         return run_rays(r, c, view, out, error, error_size);
+    if (c->kind == BENCH_PEER)
+        return run_peer(r, c, view, out, error, error_size);
     if (plain)
         settings.power = 1;
     const effect_job job = {.gbuffer = c->inputs == INPUTS_BEYOND ? &v->beyond : &v->gbuffer,
@@ -130,6 +149,14 @@ static bool measure_config(results *r, config_result *c, effects *e, map_reader 
     return true;
 }
 
+static bool record_peers(const results *r, char *error, size_t error_size)
+{
+    peer_view views[BENCH_SCENES_MAX];
+    for (int i = 0; i < r->view_count; i++)
+        views[i] = (peer_view){&r->views[i].gbuffer, r->views[i].radius, r->views[i].median_distance};
+    return peers_record(r->peers, views, r->view_count, error, error_size);
+}
+
 bool errors_measure(results *r, effects *e, map_reader *m, char *error, size_t error_size)
 {
     const size_t count = (size_t)m->width * (size_t)m->height;
@@ -140,6 +167,7 @@ bool errors_measure(results *r, effects *e, map_reader *m, char *error, size_t e
         measured = (pictures[i] = malloc(count * sizeof *pictures[i])) != NULL;
     if (!measured)
         snprintf(error, error_size, "out of memory");
+    measured = measured && (!r->peers || record_peers(r, error, error_size));
     for (int i = 0; measured && i < r->config_count; i++) {
         progress_show("error %d/%d: %s", i + 1, r->config_count, r->configs[i].config.id);
         measured = measure_config(r, &r->configs[i], e, m, pictures, fits, error, error_size);

@@ -4,6 +4,7 @@
  */
 #include "flicker.h"
 
+#include "peers.h"
 #include "progress.h"
 #include "sequence.h"
 
@@ -19,7 +20,10 @@ typedef struct clip {
     int count;
     gbuffer *frames;
     float **distance;
-    float *result[2]; /* of the last frame and of this one */
+    float *result[2];  /* of the last frame and of this one */
+    peer_bench *peers; /* NULL: none; a value of the two below for each frame */
+    peer_view *views;
+    replay_inputs *inputs;
 } clip;
 
 static bool clip_draw(clip *k, const bench_scene *b, int width, int height, char *error, size_t error_size)
@@ -38,18 +42,57 @@ static bool clip_draw(clip *k, const bench_scene *b, int width, int height, char
             free(normals);
             drawn = k->distance[i] != NULL;
         }
+        if (drawn && k->peers) {
+            k->views[i] =
+                (peer_view){&k->frames[i], k->radius, peers_distance(k->distance[i], (size_t)width * (size_t)height)};
+            drawn = replay_inputs_create(&k->inputs[i], &k->frames[i]);
+        }
     }
     scene_destroy(s);
-    return drawn;
+    return drawn && (!k->peers || peers_record(k->peers, k->views, k->count, error, error_size));
 }
 
 static void clip_clear(clip *k)
 {
     for (int i = 0; i < k->count; i++) {
         gbuffer_destroy(&k->frames[i]);
+        replay_inputs_destroy(&k->inputs[i]);
         free(k->distance[i]);
         k->distance[i] = NULL;
     }
+}
+
+static bool run_peer(const clip *k, const config_result *c, int frame, char *error, size_t error_size)
+{
+    const scene_view *view = &k->frames[frame].view;
+    replay *p = peers_load(k->peers, c->config.peer, &k->views[frame], error, error_size);
+    if (!p)
+        return false;
+    replay_draw(k->peers->replayer, p, &k->inputs[frame]);
+    const bool ran = replay_read(p, view->width, view->height, k->result[frame % 2], error, error_size);
+    replay_destroy(p);
+    return ran;
+}
+
+/* A frame into its place in k->result; contrast techniques with the exponent that fits best. */
+static bool run_frame(const clip *k, const config_result *c, int frame, effects *e, map_reader *m, char *error,
+                      size_t error_size)
+{
+    glssao_settings settings = c->config.settings;
+    float *result = k->result[frame % 2];
+    const bool contrast = bench_has_contrast(&c->config);
+    if (contrast)
+        settings.power = 1;
+    const effect_job job = {.gbuffer = &k->frames[frame],
+                            .settings = &settings,
+                            .radius = k->radius,
+                            .depth_alone = c->config.inputs == INPUTS_DEPTH};
+    if (!(c->config.kind == BENCH_PEER ? run_peer(k, c, frame, error, error_size)
+                                       : effects_run(e, m, &job, result, error, error_size)))
+        return false;
+    for (int i = 0; contrast && i < m->width * m->height; i++)
+        result[i] = powf(result[i], (float)c->exponent);
+    return true;
 }
 
 /* RMS of the change between frames that follow each other; NAN where no point is seen twice. */
@@ -58,11 +101,7 @@ static bool measure_config(const clip *k, const config_result *c, effects *e, ma
 {
     frame_change change = {0, 0};
     for (int i = 0; i < k->count; i++) {
-        const effect_job job = {.gbuffer = &k->frames[i],
-                                .settings = &c->config.settings,
-                                .radius = k->radius,
-                                .depth_alone = c->config.inputs == INPUTS_DEPTH};
-        if (!effects_run(e, m, &job, k->result[i % 2], error, error_size))
+        if (!run_frame(k, c, i, e, m, error, error_size))
             return false;
         const sequence_frame now = {k->frames[i].view, k->distance[i], k->result[i % 2]};
         if (i > 0) {
@@ -76,7 +115,7 @@ static bool measure_config(const clip *k, const config_result *c, effects *e, ma
 
 static bool is_measured(const bench_config *c)
 {
-    return c->kind == BENCH_EFFECT && (c->level || c->inputs == INPUTS_DEPTH);
+    return c->kind == BENCH_PEER || (c->kind == BENCH_EFFECT && (c->level || c->inputs == INPUTS_DEPTH));
 }
 
 static bool measure_scene(results *r, int view, clip *k, effects *e, map_reader *m, char *error, size_t error_size)
@@ -98,10 +137,13 @@ bool flicker_measure(results *r, context *c, char *error, size_t error_size)
     clip k = {.count = o->sequence_frames,
               .frames = calloc(frames + 1, sizeof *k.frames),
               .distance = calloc(frames + 1, sizeof *k.distance),
-              .result = {calloc(pixels, sizeof(float)), calloc(pixels, sizeof(float))}};
+              .result = {calloc(pixels, sizeof(float)), calloc(pixels, sizeof(float))},
+              .peers = r->peers,
+              .views = calloc(frames + 1, sizeof *k.views),
+              .inputs = calloc(frames + 1, sizeof *k.inputs)};
     effects e = {.context = c, .width = width, .height = height, .seed = o->seed, .path = (glssao_path)o->path};
     map_reader m = {.width = 0};
-    bool done = k.frames && k.distance && k.result[0] && k.result[1];
+    bool done = k.frames && k.distance && k.result[0] && k.result[1] && k.views && k.inputs;
     if (!done)
         snprintf(error, error_size, "out of memory");
     done = done && map_reader_create(&m, width, height, error, error_size);
@@ -112,6 +154,8 @@ bool flicker_measure(results *r, context *c, char *error, size_t error_size)
     map_reader_destroy(&m);
     free(k.frames);
     free(k.distance);
+    free(k.views);
+    free(k.inputs);
     free(k.result[0]);
     free(k.result[1]);
     return done;

@@ -12,6 +12,7 @@
 #include "flicker.h"
 #include "gl.h"
 #include "options.h"
+#include "peers.h"
 #include "report.h"
 #include "results.h"
 #include "split.h"
@@ -31,6 +32,7 @@ typedef struct run {
     results results;
     context *context;
     map_reader reader;
+    peer_bench peers;
     effects effects; /* at the size errors are measured at */
     char error[ERROR_LENGTH];
 } run;
@@ -155,7 +157,14 @@ static bool measure(run *r)
         return false;
     }
     double phase_ms = start_ms;
-    if (!open_context(r) || !make_views(r) || !make_configs(r))
+    if (!open_context(r))
+        return false;
+    if (r->options.peers) {
+        out->peers = &r->peers;
+        if (!peers_open(&r->peers, &r->options, r->context, r->error, sizeof r->error))
+            return false;
+    }
+    if (!make_views(r) || !make_configs(r))
         return false;
     end_phase("scenes and their truth", &phase_ms);
     if (!errors_measure(out, &r->effects, &r->reader, r->error, sizeof r->error))
@@ -187,6 +196,8 @@ static void release(run *r)
     for (int i = 0; i < out->view_count; i++)
         bench_view_destroy(&out->views[i]);
     free(out->views);
+    if (out->peers)
+        peers_close(out->peers);
     effects_destroy(&r->effects);
     map_reader_destroy(&r->reader);
     context_destroy(r->context);

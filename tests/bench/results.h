@@ -76,6 +76,7 @@ typedef struct results {
     bench_scene scenes[BENCH_SCENES_MAX];
     bench_view *views; /* of the scenes, by index */
     int view_count;
+    struct peer_bench *peers; /* NULL: none */
     config_result *configs;
     int config_count;
     oracle_result oracle;

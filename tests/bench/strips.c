@@ -155,12 +155,14 @@ bool strips_write(const results *r, effects *e, map_reader *m, char *error, size
     }
     float *plain = as_is + count;
     bool written = true;
-    for (int t = 0; written && t < BENCH_TECHNIQUES; t++) {
-        const config_result *c = results_level(r, (glssao_technique)t, GLSSAO_HIGH);
-        for (int i = 0; written && c && i < r->view_count; i++) {
+    for (int k = 0; written && k < r->config_count; k++) {
+        const config_result *c = &r->configs[k];
+        const glssao_technique technique = c->config.settings.technique;
+        const bool peer = c->config.kind == BENCH_PEER;
+        for (int i = 0; written && (peer || c == results_level(r, technique, GLSSAO_HIGH)) && i < r->view_count; i++) {
             char path[2048];
             snprintf(path, sizeof path, "%s/strip-%s-%s.png", r->options->out, r->views[i].name,
-                     bench_technique_name((glssao_technique)t));
+                     peer ? c->config.id : bench_technique_name(technique));
             written = errors_run(r, &c->config, i, false, e, m, as_is, error, error_size) &&
                       errors_run(r, &c->config, i, true, e, m, plain, error, error_size) &&
                       draw_strip(&r->views[i], c, as_is, plain, path, error, error_size);

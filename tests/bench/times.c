@@ -5,6 +5,7 @@
 #include "times.h"
 
 #include "clock.h"
+#include "peers.h"
 #include "progress.h"
 
 #include <math.h>
@@ -125,6 +126,42 @@ static bool time_rays(results *r, const scene *s, const scene_view *view, float 
     return true;
 }
 
+/* What a host with depth and normals pays for a peer: its passes, drawn from a recording. */
+static bool time_peers(results *r, const gbuffer *g, float radius, int of_view, char *error, size_t error_size)
+{
+    const int frames = r->options->frames;
+    const peer_view view = {g, radius, r->views[of_view].median_distance};
+    double *values = calloc((size_t)frames * ROWS, sizeof *values);
+    replay_inputs in;
+    bool timed = replay_inputs_create(&in, g) && values && peers_record(r->peers, &view, 1, error, error_size);
+    for (int i = 0; timed && i < r->config_count; i++) {
+        if (r->configs[i].config.kind != BENCH_PEER)
+            continue;
+        replay *p = peers_load(r->peers, r->configs[i].config.peer, &view, error, error_size);
+        timed = p != NULL;
+        for (int k = 0; timed && k < frames * ROWS; k++)
+            values[k] = NAN;
+        for (int f = -WARM_UP_FRAMES; timed && f < frames; f++) {
+            gl.Finish();
+            const double wall = clock_wall_ms(), cpu = clock_cpu_ms();
+            replay_draw(r->peers->replayer, p, &in);
+            gl.Finish();
+            if (f < 0)
+                continue;
+            values[f] = clock_wall_ms() - wall;
+            values[frames + f] = clock_cpu_ms() - cpu;
+            if (!r->software)
+                values[f] = replay_gpu_ms(r->peers->replayer, p, &in);
+        }
+        if (timed)
+            r->configs[i].views[of_view].time = summarise(values, frames);
+        replay_destroy(p);
+    }
+    replay_inputs_destroy(&in);
+    free(values);
+    return timed;
+}
+
 bool times_measure(results *r, effects *e, int of_view, char *error, size_t error_size)
 {
     const ptrdiff_t per_config = (ptrdiff_t)ROWS * r->options->frames;
@@ -143,10 +180,11 @@ bool times_measure(results *r, effects *e, int of_view, char *error, size_t erro
     const bool timed = s && gbuffer_draw(&g[0], s, &view, 0, error, error_size) &&
                        gbuffer_draw(&g[1], s, &view, gbuffer_margin(e->width), error, error_size) &&
                        take_turns(r, e, &plain, g, radius, values, error, error_size) &&
-                       time_rays(r, s, &view, radius, of_view, error, error_size);
+                       time_rays(r, s, &view, radius, of_view, error, error_size) &&
+                       (!r->peers || time_peers(r, &g[0], radius, of_view, error, error_size));
     effects_destroy(&plain);
     for (int i = 0; timed && i < r->config_count; i++) {
-        if (r->configs[i].config.kind != BENCH_RAYS)
+        if (r->configs[i].config.kind == BENCH_EFFECT)
             r->configs[i].views[of_view].time = summarise(values + i * per_config, r->options->frames);
     }
     progress_clear();

@@ -4,6 +4,8 @@
  */
 #include "views.h"
 
+#include "peers.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -205,6 +207,8 @@ bool bench_view_create(bench_view *v, const bench_scene *b, const options *o, ch
     if (!made)
         return false;
     gbuffer_read(&v->gbuffer, &v->distance, &v->normals);
+    if (v->distance)
+        v->median_distance = peers_distance(v->distance, (size_t)view.width * (size_t)view.height);
     made = v->distance && classify(v) &&
            perception_create(&v->perception, v->truth.accessibility, v->classes, view.width, view.height) &&
            grain_create(&v->grain, v->truth.accessibility, v->classes, view.width, view.height);

@@ -16,6 +16,7 @@
 typedef struct bench_view {
     char name[64];
     float radius;            /* scene units */
+    float median_distance;   /* of what is seen, scene units */
     gbuffer gbuffer, beyond; /* the view proper; the same with a margin and a second layer */
     bench_truth truth;
     bench_truth flat; /* about the triangles' own normals, as depth alone shows them; where options.flat */
