@@ -119,10 +119,13 @@ static int add_rays(const options *o, bench_config *out, int count)
 
 static int add_peers(const options *o, bench_config *out, int count)
 {
-    for (int i = 0; o->peers && peers_name(i) && count < BENCH_CONFIGS_MAX; i++) {
+    for (int i = 0; o->peers && i < peers_count(o->peer_grid) && count < BENCH_CONFIGS_MAX; i++) {
         bench_config c = {.kind = BENCH_PEER, .level = true, .peer = i};
-        snprintf(c.id, sizeof c.id, "%s", peers_name(i));
-        if (options_match(o->only, c.id))
+        bool listed = false;
+        peers_name(i, c.id);
+        for (int k = 0; k < count; k++)
+            listed |= strcmp(out[k].id, c.id) == 0;
+        if (!listed && options_match(o->only, c.id))
             out[count++] = c;
     }
     return count;

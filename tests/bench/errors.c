@@ -154,7 +154,7 @@ static bool record_peers(const results *r, char *error, size_t error_size)
     peer_view views[BENCH_SCENES_MAX];
     for (int i = 0; i < r->view_count; i++)
         views[i] = (peer_view){&r->views[i].gbuffer, r->views[i].radius, r->views[i].median_distance};
-    return peers_record(r->peers, views, r->view_count, error, error_size);
+    return peers_record_configs(r, views, r->view_count, error, error_size);
 }
 
 bool errors_measure(results *r, effects *e, map_reader *m, char *error, size_t error_size)

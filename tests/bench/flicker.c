@@ -49,7 +49,7 @@ static bool clip_draw(clip *k, const bench_scene *b, int width, int height, char
         }
     }
     scene_destroy(s);
-    return drawn && (!k->peers || peers_record(k->peers, k->views, k->count, error, error_size));
+    return drawn;
 }
 
 static void clip_clear(clip *k)
@@ -121,7 +121,8 @@ static bool is_measured(const bench_config *c)
 static bool measure_scene(results *r, int view, clip *k, effects *e, map_reader *m, char *error, size_t error_size)
 {
     progress_show("frame change: %s", r->views[view].name);
-    bool done = clip_draw(k, &r->scenes[view], m->width, m->height, error, error_size);
+    bool done = clip_draw(k, &r->scenes[view], m->width, m->height, error, error_size) &&
+                (!k->peers || peers_record_configs(r, k->views, k->count, error, error_size));
     for (int i = 0; done && i < r->config_count; i++)
         if (is_measured(&r->configs[i].config))
             done = measure_config(k, &r->configs[i], e, m, &r->configs[i].views[view].frame_change, error, error_size);

@@ -24,6 +24,8 @@ static const option table[] = {
     {"pick", "NAME,...", "only scenes whose name holds one of these", KIND_TEXT, AT(pick), 0, 0},
     {"only", "ID,...", "only configurations whose id holds one of these", KIND_TEXT, AT(only), 0, 0},
     {"all-views", NULL, "every view of every scene, not the first of the main ones", KIND_FLAG, AT(all_views), 0, 0},
+    {"peer-grid", NULL, "peers with many settings, to find their best; with --only PEER", KIND_FLAG, AT(peer_grid), 0,
+     0},
     {"size", "WxH", "size at which errors are measured (960x540)", KIND_SIZE, AT(size), 16, 8192},
     {"rays", "N", "rays a pixel of the truth (512)", KIND_INT, AT(rays), 1, 1 << 20},
     {"cache", "DIR", "where traced truths are kept (out/bench-cache)", KIND_TEXT, AT(cache), 0, 0},

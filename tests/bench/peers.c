@@ -15,24 +15,55 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* The multipliers of -best are tuned: `glssao-bench --peers NODE_MODULES --peer-grid`, the row with the least RMSE over
- * the scenes for tuning. */
-static const struct peer_config {
-    const char *name, *peer;
-    double radius, thickness, strength;
-} configs[] = {
-    {"three-gtao", "three-gtao", 1, 1, 1},
-    {"three-ssao", "three-ssao", 1, 1, 1},
-    {"three-sao", "three-sao", 1, 1, 1},
-    {"n8ao", "n8ao", 1, 1, 1},
-    {"postprocessing-ssao", "postprocessing-ssao", 1, 1, 1},
-    {"babylon-ssao2", "babylon-ssao2", 1, 1, 1},
-};
-enum { CONFIG_COUNT = sizeof configs / sizeof configs[0] };
+typedef struct peer_config {
+    const char *peer;
+    double radius, thickness, strength; /* multipliers; 1: the documented default */
+    bool power;                         /* its strength is an exponent, which is fitted anyway, or it has none */
+} peer_config;
 
-const char *peers_name(int number)
+/* Tuned: the row with the least RMSE of `glssao-bench --peers NODE_MODULES --peer-grid --only PEER`, on the scenes for
+ * tuning. */
+static const peer_config best[] = {
+    {"three-gtao", 1.01, 1, 1, true}, {"three-ssao", 1.01, 1, 1, true},           {"three-sao", 1.01, 1, 1, false},
+    {"n8ao", 1.01, 1, 1, true},       {"postprocessing-ssao", 1.01, 1, 1, false}, {"babylon-ssao2", 1.01, 1, 1, false},
+};
+enum { PEERS = sizeof best / sizeof best[0] };
+
+/* None is 1, which stands for the documented default. */
+static const double radii[] = {0.5, 0.71, 1.01, 1.41, 2}, thicknesses[] = {0.25, 0.5, 1.01, 2};
+static const double strengths[] = {1.01, 0.5, 2};
+enum {
+    RADII = sizeof radii / sizeof radii[0],
+    THICKNESSES = sizeof thicknesses / sizeof thicknesses[0],
+    STRENGTHS = sizeof strengths / sizeof strengths[0],
+    GRID = RADII * THICKNESSES * STRENGTHS
+};
+
+/* First the defaults, then the best, then the grid of each. */
+static peer_config get_config(int number)
 {
-    return number < CONFIG_COUNT ? configs[number].name : NULL;
+    const int i = number - 2 * PEERS;
+    if (number < PEERS)
+        return (peer_config){best[number].peer, 1, 1, 1, best[number].power};
+    if (i < 0)
+        return best[number - PEERS];
+    const peer_config *of = &best[i / GRID];
+    return (peer_config){of->peer, radii[i % RADII], thicknesses[i / RADII % THICKNESSES],
+                         strengths[of->power ? 0 : i / (RADII * THICKNESSES) % STRENGTHS], of->power};
+}
+
+int peers_count(bool grid)
+{
+    return PEERS * (2 + (grid ? GRID : 0));
+}
+
+void peers_name(int number, char name[48])
+{
+    const peer_config c = get_config(number);
+    if (number < 2 * PEERS)
+        snprintf(name, 48, "%s%s", c.peer, number < PEERS ? "" : "-best");
+    else
+        snprintf(name, 48, "%s@%gx%gx%g", c.peer, c.radius, c.thickness, c.strength);
 }
 
 static void hash_text(uint64_t *h, const char *text)
@@ -104,13 +135,13 @@ float peers_distance(const float *distance, size_t count)
 
 static void describe(int number, const peer_view *v, char *line, size_t size)
 {
-    const struct peer_config *c = &configs[number];
+    const peer_config c = get_config(number);
     const scene_view *view = &v->gbuffer->view;
     /* ndc_z = -a + b / distance */
     const double a = (double)view->clip_from_view[10], b = (double)view->clip_from_view[14];
-    int used = snprintf(line, size, "%s\t%d\t%d\t%.9g\t%.9g\t%.9g\t%.9g\t%g\t%g\t%g", c->peer, view->width,
-                        view->height, (double)v->radius, (double)v->distance, b / (a - 1), b / (a + 1), c->radius,
-                        c->thickness, c->strength);
+    int used =
+        snprintf(line, size, "%s\t%d\t%d\t%.9g\t%.9g\t%.9g\t%.9g\t%g\t%g\t%g", c.peer, view->width, view->height,
+                 (double)v->radius, (double)v->distance, b / (a - 1), b / (a + 1), c.radius, c.thickness, c.strength);
     for (int i = 0; i < 32; i++) {
         const double m = (double)(i < 16 ? view->view_from_world[i] : view->clip_from_view[i - 16]);
         used += snprintf(line + used, size - (size_t)used, "\t%.9g", m);
@@ -122,7 +153,7 @@ static void name_recording(int number, const peer_view *v, char line[2048], char
     uint64_t h = UINT64_C(14695981039346656037);
     describe(number, v, line, 2048);
     hash_text(&h, line);
-    snprintf(key, 64, "%.40s-%016" PRIx64, configs[number].peer, h);
+    snprintf(key, 64, "%.40s-%016" PRIx64, get_config(number).peer, h);
 }
 
 /* node record.mjs NODE_MODULES JOBS FOLDER */
@@ -143,7 +174,8 @@ static bool run_node(const peer_bench *b, const char *jobs, char *error, size_t 
     return false;
 }
 
-bool peers_record(peer_bench *b, const peer_view *views, int count, char *error, size_t error_size)
+bool peers_record(peer_bench *b, const int *numbers, int number_count, const peer_view *views, int count, char *error,
+                  size_t error_size)
 {
     char jobs[2048];
     int missing = 0;
@@ -151,9 +183,9 @@ bool peers_record(peer_bench *b, const peer_view *views, int count, char *error,
         return true;
     snprintf(jobs, sizeof jobs, "%s/jobs.tsv", b->folder);
     FILE *f = fopen(jobs, "w");
-    for (int i = 0; f && i < count * CONFIG_COUNT; i++) {
+    for (int i = 0; f && i < count * number_count; i++) {
         char line[2048], key[64], path[2048];
-        name_recording(i % CONFIG_COUNT, &views[i / CONFIG_COUNT], line, key);
+        name_recording(numbers[i % number_count], &views[i / number_count], line, key);
         snprintf(path, sizeof path, "%s/%s.peer", b->folder, key);
         if (access(path, R_OK) == 0)
             continue;
@@ -172,4 +204,13 @@ replay *peers_load(peer_bench *b, int number, const peer_view *v, char *error, s
     char line[2048], key[64];
     name_recording(number, v, line, key);
     return replay_load(b->replayer, b->folder, key, error, error_size);
+}
+
+bool peers_record_configs(const results *r, const peer_view *views, int count, char *error, size_t error_size)
+{
+    int numbers[BENCH_CONFIGS_MAX], number_count = 0;
+    for (int i = 0; i < r->config_count; i++)
+        if (r->configs[i].config.kind == BENCH_PEER)
+            numbers[number_count++] = r->configs[i].config.peer;
+    return peers_record(r->peers, numbers, number_count, views, count, error, error_size);
 }

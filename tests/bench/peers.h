@@ -8,9 +8,12 @@
 #include "replay.h"
 #include "results.h"
 
-/* Name of a peer's configuration; NULL past the last one. Each peer comes with its documented defaults, and as
- * NAME-best with the multipliers of radius, thickness and strength that are nearest to the truth. */
-const char *peers_name(int number);
+/* The configurations: each peer with its documented defaults; each as NAME-best, with the multipliers of radius,
+ * thickness and strength that bring it nearest to the truth; and, with `grid`, each with many multipliers: NAME@RxTxS;
+ * some have the same name.
+ */
+int peers_count(bool grid);
+void peers_name(int number, char name[48]);
 
 typedef struct peer_view {
     const gbuffer *gbuffer;
@@ -27,8 +30,11 @@ typedef struct peer_bench {
 bool peers_open(peer_bench *b, const options *o, context *c, char *error, size_t error_size);
 void peers_close(peer_bench *b);
 
-/* Has node record all configurations for these views, except for what was recorded before. */
-bool peers_record(peer_bench *b, const peer_view *views, int count, char *error, size_t error_size);
+/* Has node record these configurations for these views, except for what was recorded before. */
+bool peers_record(peer_bench *b, const int *numbers, int number_count, const peer_view *views, int count, char *error,
+                  size_t error_size);
+/* The same for the peers among r->configs. */
+bool peers_record_configs(const results *r, const peer_view *views, int count, char *error, size_t error_size);
 
 /* Loads the recording of a configuration for a view; NULL, with one line in `error`. */
 replay *peers_load(peer_bench *b, int number, const peer_view *v, char *error, size_t error_size);

@@ -103,13 +103,12 @@ bool replay_inputs_create(replay_inputs *in, const gbuffer *g)
         for (size_t k = 0; k < 3; k++)
             unsigned_normals[3 * i + k] = distance[i] > 0 ? 0.5f + 0.5f * normals[3 * i + k] : clear[k];
         normals[3 * i + 2] = -normals[3 * i + 2];
-        distance[i] = distance[i] > 0 ? distance[i] : 1e8f;
     }
     if (made) {
         in->textures[REPLAY_NORMALS] = make_texture(GL_RGBA16F, GL_RGB, GL_FLOAT, size, false, false, unsigned_normals);
         in->textures[REPLAY_NORMALS_LEFT_HANDED] =
-            make_texture(GL_RGBA16F, GL_RGB, GL_FLOAT, size, false, false, normals);
-        in->textures[REPLAY_DISTANCE] = make_texture(GL_R32F, GL_RED, GL_FLOAT, size, false, false, distance);
+            make_texture(GL_RGBA16F, GL_RGB, GL_FLOAT, size, true, false, normals);
+        in->textures[REPLAY_DISTANCE] = make_texture(GL_R32F, GL_RED, GL_FLOAT, size, true, false, distance);
         in->textures[REPLAY_WHITE] = make_texture(GL_RGBA8, GL_RGBA, GL_FLOAT, one, false, false, white);
         gl.BindTexture(GL_TEXTURE_2D, g->depth);
         gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);

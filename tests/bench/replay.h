@@ -12,8 +12,8 @@
 typedef enum replay_input {
     REPLAY_DEPTH = 0,           /* window depth */
     REPLAY_NORMALS,             /* view space, 0..1; where nothing is, three's clear colour */
-    REPLAY_NORMALS_LEFT_HANDED, /* view space that looks down +z, -1..1 */
-    REPLAY_DISTANCE,            /* view distance; 1e8 where nothing is */
+    REPLAY_NORMALS_LEFT_HANDED, /* view space that looks down +z, -1..1; linear filter, as Babylon.js has it */
+    REPLAY_DISTANCE,            /* view distance, 0 where nothing is; linear filter */
     REPLAY_WHITE,
     REPLAY_INPUTS
 } replay_input;

@@ -158,8 +158,9 @@ bool strips_write(const results *r, effects *e, map_reader *m, char *error, size
     for (int k = 0; written && k < r->config_count; k++) {
         const config_result *c = &r->configs[k];
         const glssao_technique technique = c->config.settings.technique;
-        const bool peer = c->config.kind == BENCH_PEER;
-        for (int i = 0; written && (peer || c == results_level(r, technique, GLSSAO_HIGH)) && i < r->view_count; i++) {
+        const bool peer = c->config.kind == BENCH_PEER && !strchr(c->config.id, '@'); /* none of the grid */
+        const bool level = c->config.kind == BENCH_EFFECT && c == results_level(r, technique, GLSSAO_HIGH);
+        for (int i = 0; written && (peer || level) && i < r->view_count; i++) {
             char path[2048];
             snprintf(path, sizeof path, "%s/strip-%s-%s.png", r->options->out, r->views[i].name,
                      peer ? c->config.id : bench_technique_name(technique));

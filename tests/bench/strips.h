@@ -8,8 +8,8 @@
 #include "effects.h"
 #include "results.h"
 
-/* strip-SCENE-NAME.png in the output folder, for the default level of every technique and for every peer: truth, result,
- * error. For contrast techniques and peers a second row has result and error with the best exponent. */
+/* strip-SCENE-NAME.png in the output folder, for the default level of every technique and for every peer: truth,
+ * result, error. For contrast techniques and peers a second row has result and error with the best exponent. */
 bool strips_write(const results *r, effects *e, map_reader *m, char *error, size_t error_size);
 
 /* worst-horizon.png in the output folder. For each scene, down the left half and then the right: truth, result and

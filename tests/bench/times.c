@@ -133,7 +133,7 @@ static bool time_peers(results *r, const gbuffer *g, float radius, int of_view, 
     const peer_view view = {g, radius, r->views[of_view].median_distance};
     double *values = calloc((size_t)frames * ROWS, sizeof *values);
     replay_inputs in;
-    bool timed = replay_inputs_create(&in, g) && values && peers_record(r->peers, &view, 1, error, error_size);
+    bool timed = replay_inputs_create(&in, g) && values && peers_record_configs(r, &view, 1, error, error_size);
     for (int i = 0; timed && i < r->config_count; i++) {
         if (r->configs[i].config.kind != BENCH_PEER)
             continue;

@@ -44,14 +44,14 @@ export async function recordBabylon(job, load) {
     const engine = new NullEngine({ renderWidth: job.width, renderHeight: job.height, textureSize: 512,
         deterministicLockstep: false, lockstepMaxSteps: 1 });
     const scene = new Scene(engine), camera = new FreeCamera("camera", Vector3.Zero(), scene);
-    camera.minZ = job.near;
+    camera.minZ = Math.min(job.near, 0.1 * job.radius); // it shortens the radius near the camera, by minZAspect
     camera.maxZ = job.far;
     camera.fov = 2 * Math.atan(1 / job.clipFromView[5]);
     const pipeline = new ThinSSAO2RenderingPipeline("ssao", scene);
     pipeline.camera = camera;
     pipeline.radius = job.radius * job.radiusScale;
     pipeline.totalStrength = job.strength;
-    pipeline.maxZ = 50 * job.radius * 100;
+    pipeline.maxZ = job.thickness === 1 ? 50 * job.radius : 2 * job.far;
     pipeline.epsilon = 0.01 * job.radius * job.thickness;
 
     const recording = new Recording(job.folder);

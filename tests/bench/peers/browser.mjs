@@ -63,16 +63,15 @@ if (job.peer === "three-gtao") {
 }
 else if (job.peer === "postprocessing-ssao") {
     const { EffectComposer, RenderPass, NormalPass, EffectPass, SSAOEffect } = await import("postprocessing");
-    world.overrideMaterial = new THREE.MeshBasicMaterial();
+    const white = new THREE.MeshBasicMaterial();
+    world.traverse((object) => { if (object.isMesh) object.material = white; });
     world.background = new THREE.Color(1, 1, 1);
     renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     const composer = new EffectComposer(renderer, { frameBufferType: THREE.HalfFloatType });
     const normals = new NormalPass(world, camera);
     composer.addPass(new RenderPass(world, camera));
     composer.addPass(normals);
-    composer.addPass(new EffectPass(camera, new SSAOEffect(camera, normals.texture, { luminanceInfluence: 0,
-        worldDistanceThreshold: 100 * job.distance, worldDistanceFalloff: 1, worldProximityThreshold: job.radius,
-        worldProximityFalloff: job.radius / 2 })));
+    composer.addPass(new EffectPass(camera, new SSAOEffect(camera, normals.texture, { luminanceInfluence: 0 })));
     composer.setSize(job.width, job.height);
     pass = { render: () => composer.render(0) };
 }

@@ -87,13 +87,11 @@ export const peers = {
         composer.autoRenderToScreen = false;
         composer.setSize(job.width, job.height);
         const normals = new NormalPass(v.scene, v.camera);
-        const far = job.distance * 100;
         const height = job.radius / job.distance * job.clipFromView[5] / 2; // of the radius, in parts of the picture
-        const effect = new SSAOEffect(v.camera, normals.texture, {
-            luminanceInfluence: 0, worldDistanceThreshold: far, worldDistanceFalloff: 1,
-            worldProximityThreshold: job.radius * job.thickness, worldProximityFalloff: job.radius * job.thickness / 2,
-            radius: job.radiusScale === 1 ? 0.1825 : Math.min(height * job.radiusScale, 1), intensity: job.strength,
-        });
+        const world = job.thickness === 1 ? {} : { worldDistanceThreshold: job.far, worldDistanceFalloff: 1,
+            worldProximityThreshold: job.radius * job.thickness, worldProximityFalloff: job.radius * job.thickness / 2 };
+        const radius = job.radiusScale === 1 ? 0.1825 : Math.min(height * job.radiusScale, 1);
+        const effect = new SSAOEffect(v.camera, normals.texture, { luminanceInfluence: 0, radius, intensity: job.strength, ...world });
         composer.addPass(new RenderPass(v.scene, v.camera));
         composer.addPass(normals);
         composer.addPass(new EffectPass(v.camera, effect));
