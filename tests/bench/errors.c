@@ -135,7 +135,9 @@ static bool measure_config(results *r, config_result *c, effects *e, map_reader 
         const error_measure as_is = measure_error(pictures[i], v->truth.accessibility, v->classes, count);
         c->views[i].by_default_rmse = as_is.rmse;
         c->views[i].by_default_mean = as_is.mean;
-        if (contrast && !errors_run(r, &c->config, i, true, e, m, pictures[i], error, error_size))
+        const bool has_power =
+            c->config.kind == BENCH_EFFECT && (c->config.settings.power > 1 || c->config.settings.power < 1);
+        if (has_power && !errors_run(r, &c->config, i, true, e, m, pictures[i], error, error_size))
             return false;
         fit_add(&fits[i], pictures[i], v->truth.accessibility, v->classes, count);
         fit_merge(all, &fits[i]);

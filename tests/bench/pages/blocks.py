@@ -117,7 +117,7 @@ def beaten_rows(a):
         for level in [f"horizon-{level}" for level in LEVELS if a.has(f"horizon-{level}")]:
             for column, (name, less, _) in MEASURES.items():
                 for scene in a.by_config[peer] if less is not None else []:
-                    ours, theirs = a.by_config[level][scene][column], a.by_config[peer][scene][column]
+                    ours, theirs = (a.by_config[c][scene].get(column) for c in (level, peer))
                     if ours is None or theirs is None:
                         continue
                     if (theirs < ours) if less else (theirs > ours):

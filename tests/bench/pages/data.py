@@ -19,6 +19,10 @@ MEASURES = {
 }
 
 
+class Missing(Exception):
+    """A table that a block needs is not there."""
+
+
 class Table:
     """The rows of a file as dictionaries; numbers are floats, empty cells None."""
 
@@ -81,8 +85,9 @@ class Accuracy:
     """accuracy.tsv beside scenes.tsv: figures of a configuration over all scenes of one use."""
 
     def __init__(self, folder, use="tuning"):
-        self.table = load(folder, "accuracy")
-        scenes = load(folder, "scenes")
+        self.table, scenes = load(folder, "accuracy"), load(folder, "scenes")
+        if not self.table or not scenes:
+            raise Missing(folder)
         self.uses = {row["scene"]: row["use"] for row in scenes.rows}
         self.scenes = [scene for scene in self.table.values("scene") if self.uses[scene] == use]
         self.by_config = {}

@@ -13,7 +13,7 @@ import sys
 
 import blocks
 import charts
-from data import MEASURES, Accuracy, load
+from data import MEASURES, Accuracy, Missing, load
 
 BLOCK = re.compile(r"<!-- ([a-z_]+) ([^>]*?)-->\n.*?<!-- end -->", re.S)
 
@@ -24,10 +24,9 @@ def picture(docs, name, alt):
 
 
 def chart(docs, folder, column):
-    if not load(folder, "accuracy"):
-        return None
     name, machine = MEASURES[column][0], os.path.basename(folder)
-    path, link = picture(docs, f"accuracy-{column.replace('_', '-')}-{machine}.png", f"{name} against time on {machine}")
+    parts = ["accuracy", column.replace("_", "-") if column != "rmse" else "", machine if machine != "llvmpipe" else ""]
+    path, link = picture(docs, "-".join(filter(None, parts)) + ".png", f"{name} against time on {machine}")
     return link if charts.accuracy(Accuracy(folder), column, path) else None
 
 
@@ -79,6 +78,8 @@ def fill(match, data_folder, docs, page):
             text = CHARTS[name](docs, folder, *arguments[1:])
         else:
             text = getattr(blocks, name)(folder, *arguments[1:])
+    except Missing:
+        text = None
     except (AttributeError, KeyError, FileNotFoundError, StopIteration) as fault:
         sys.exit(f"make.py: {page}: block {match.group(1)} {match.group(2)}: {type(fault).__name__}: {fault}")
     if text is None:
