@@ -59,7 +59,7 @@ double economy_skipped_share(const glssao_effect *effect)
     return (double)skipped / (width * height);
 }
 
-/* CPU time of all threads where the rasteriser is software, else the GPU's. */
+/* CPU time of all threads on a software rasteriser, GPU time otherwise. */
 static bool run_once(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings, bool software,
                      double *out_ms, char *error, size_t error_size)
 {
@@ -91,7 +91,7 @@ static double worst_difference(glssao_effect *const effects[2])
     }
     for (int i = 0; pictures[0] && pictures[1] && i < w * h; i++) {
         const double off = fabs((double)pictures[0][i] - (double)pictures[1][i]) * 65535;
-        worst = !(off <= worst) ? off : worst; /* also where it is no number */
+        worst = !(off <= worst) ? off : worst; /* also for NaN */
     }
     free(pictures[0]);
     free(pictures[1]);
@@ -113,7 +113,7 @@ bool economy_compare(const economy *e, const glssao_frame *frame, int width, int
                                       .width = width,
                                       .height = height,
                                       .no_timers = e->software,
-                                      .path = GLSSAO_PATH_FRAGMENT}; /* only draws leave tiles out */
+                                      .path = GLSSAO_PATH_FRAGMENT}; /* only draws can skip tiles */
         glssao_settings s = *settings;
         s.tiles = tiles[i];
         done = glssao_create(&config, &effects[i]) == GLSSAO_OK && glssao_compute(effects[i], frame, &s) == GLSSAO_OK;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Pictures made for the purpose: rough on the left, and on the right sky or a plane.
+ * Pictures that are rough on the left, with sky or a plane on the right.
  */
 #include "economy.h"
 

@@ -24,13 +24,14 @@ typedef struct peer_config {
 /* Tuned: the row with the least RMSE of `glssao-bench --peers NODE_MODULES --peer-grid --only PEER`, on the scenes for
  * tuning. */
 static const peer_config best[] = {
-    {"three-gtao", 1.01, 1, 1, true}, {"three-ssao", 1.01, 1, 1, true},           {"three-sao", 1.01, 1, 1, false},
-    {"n8ao", 1.01, 1, 1, true},       {"postprocessing-ssao", 1.01, 1, 1, false}, {"babylon-ssao2", 1.01, 1, 1, false},
+    {"three-gtao", 1.41, 0.25, 1, true},        {"three-ssao", 1.41, 1.01, 1, true},
+    {"three-sao", 1.01, 1, 1, false},           {"n8ao", 1.01, 1, 1, true},
+    {"postprocessing-ssao", 1.01, 1, 1, false}, {"babylon-ssao2", 1.01, 1, 1, false},
 };
 enum { PEERS = sizeof best / sizeof best[0] };
 
 /* None is 1, which stands for the documented default. */
-static const double radii[] = {0.5, 0.71, 1.01, 1.41, 2}, thicknesses[] = {0.25, 0.5, 1.01, 2};
+static const double radii[] = {0.5, 0.71, 1.01, 1.41, 2}, thicknesses[] = {0.12, 0.25, 0.5, 1.01, 2};
 static const double strengths[] = {1.01, 0.5, 2};
 enum {
     RADII = sizeof radii / sizeof radii[0],

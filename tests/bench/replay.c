@@ -531,5 +531,8 @@ bool replay_read(const replay *p, int width, int height, float *out, char *error
     gl.BindTexture(GL_TEXTURE_2D, p->textures[p->output]);
     gl.GetTexImage(GL_TEXTURE_2D, 0, GL_RED, GL_FLOAT, out);
     gl.BindTexture(GL_TEXTURE_2D, 0);
+    for (size_t i = 0; i < (size_t)width * (size_t)height;
+         i++) /* as the picture that it is multiplied into clamps it */
+        out[i] = out[i] < 0 ? 0 : out[i] > 1 ? 1 : out[i];
     return true;
 }

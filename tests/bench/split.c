@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Runs every seed once over all techniques and views, and sums up on the sampled pixels alone, so that memory stays
- * small. An estimate at convergence is the mean over the seeds, taken before the exponent.
+ * Runs every seed once over all techniques and views. Sums are kept for the sampled pixels only, to save memory. The
+ * converged estimate is the mean over the seeds, before the exponent.
  */
 #include "split.h"
 
@@ -13,9 +13,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How the estimate of one technique is run for the split, all with power 1 but the last. */
+/* Variants of one technique's estimate; all but the last have power 1. */
 typedef enum variant { FULL = 0, HALF, BLURRED, SHIPPED, VARIANT_COUNT } variant;
-enum { SINGLE_SEEDS = 4 }; /* seeds whose pictures are looked at one by one */
+enum { SINGLE_SEEDS = 4 }; /* seeds whose pictures are kept one by one */
 
 typedef struct accumulator { /* of one technique on one view; a value a sampled pixel */
     double *sum[2];          /* FULL, HALF */
@@ -117,7 +117,7 @@ static void release(splitter *s)
     free(s->picture);
 }
 
-/* Mean square over pixels that both sides know. */
+/* Mean square of the difference. */
 static double mean_square(const float *a, const float *b, int count)
 {
     double sum = 0;
@@ -160,7 +160,7 @@ static bool run_variants(splitter *s, effects *e, int technique, int view, int s
             break;
         const glssao_settings settings = variant_settings(split, (variant)v);
         const bench_view *on = &r->views[view];
-        /* Horizon's noise is a tile, the same for all seeds; the estimates that it accumulates differ. */
+        /* Horizon's noise is a tile that is the same for all seeds. The estimates of glssao_accumulate differ. */
         const effect_job job = {.gbuffer = &on->gbuffer,
                                 .settings = &settings,
                                 .radius = on->radius,
@@ -237,7 +237,7 @@ static bool finish_view(splitter *s, split_result *split, int technique, int vie
             raise(single[own], count, split->of->exponent);
             raise(single[BLURRED], count, split->of->exponent);
             noise[k] = mean_square(single[own], truth, count);
-            /* The mean holds the seed itself: its distance from a mean of others is that much larger. */
+            /* The mean includes the seed itself. This factor gives the distance from the mean of the others. */
             noise_step[k] = mean_square(single[own], converged[own], count) * (seeds > 1 ? seeds / (seeds - 1.0) : 1);
             blurred[k] = mean_square(single[BLURRED], truth, count);
             blurred_step[k] = mean_square(single[BLURRED], converged[own], count);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * glssao-tune: searches the horizon technique's constants against ray-traced truth on one half of the scenes (--fold 0
- * or 1), and reports how the rest, which the search never saw, fare; or on all (--fold 2), for the constants that ship,
- * where both halves have shown that the search holds on what it has not seen. It changes no file: what it prints is
- * copied into glsl/horizon.frag by hand.
+ * glssao-tune: searches the horizon technique's constants against ray-traced truth. With --fold 0 or 1 it searches on
+ * one half of the scenes and reports the error on the other half. With --fold 2 it searches on all, for the constants
+ * that ship. Scenes for judging are never used. It changes no file: its result is copied into glsl/horizon.frag by
+ * hand.
  */
 #include "effects.h"
 #include "progress.h"
@@ -18,8 +18,8 @@
 
 enum { LEVELS = GLSSAO_ULTRA + 1, SHARED = LEVELS, ERROR_LENGTH = 4096, SOURCE_ROOM = 4096 };
 
-/* What is searched: constants of glsl/horizon.frag, written there as `const float NAME = value;`. `level`: the only
- * quality level that uses it, or SHARED. */
+/* A constant of glsl/horizon.frag, written there as `const float NAME = value;`. `level`: the only quality level that
+ * uses it, or SHARED. */
 typedef struct tuned {
     const char *name;
     int level;
@@ -62,7 +62,7 @@ static bool applies(const tuned *c, int level)
     return c->level == SHARED || c->level == level;
 }
 
-/* Puts the value of a constant where the source declares it; a source without it stays as it is. */
+/* Replaces the value where the source declares the constant. */
 static void substitute(char *source, const tuned *c)
 {
     char declared[64];
@@ -76,7 +76,7 @@ static void substitute(char *source, const tuned *c)
     }
 }
 
-/* Stands between the library and the driver. */
+/* Replaces glShaderSource for the library. */
 static void take_source(GLuint shader, GLsizei count, const GLchar *const *strings, const GLint *lengths)
 {
     (void)lengths; /* the library's strings end in 0 */
@@ -127,7 +127,7 @@ static bool run(const glssao_settings *settings, fit_sum *fits)
     return ran;
 }
 
-/* As shipped, with power 1: no exponent is fitted to the level. */
+/* As shipped: no exponent is fitted. */
 static bool measure_level(int level, double square[BENCH_SCENES_MAX], fit_sum *fits)
 {
     t.level = level;
@@ -160,7 +160,7 @@ static bool measure_classic(fit_sum *fits)
 
 enum { ALL = 2 };
 
-/* RMSE over the scenes with these numbers modulo 2, or ALL, as a ratio to classic's. */
+/* RMSE over the scenes of one parity, or ALL, as a ratio to classic's. */
 static double ratio(const double square[BENCH_SCENES_MAX], int parity)
 {
     double sum = 0, classic = 0;

@@ -11,7 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How far a pixel is from an edge to count as near one: about the reach of the classic blur at half size, 5 texels. */
+/* Pixels within this distance of an edge count as near it: about the reach of the classic blur at half size, 5 texels.
+ */
 enum { EDGE_REACH = 10 };
 
 static double inverse(const bench_view *v, size_t i)
@@ -19,17 +20,16 @@ static double inverse(const bench_view *v, size_t i)
     return v->distance[i] > 0 ? 1 / (double)v->distance[i] : 0;
 }
 
-/* How far, in view distance, pixel b lies from the plane that goes on from `before` and a. The inverse of the distance
- * is linear over a plane. */
+/* View distance of pixel b from the plane through `before` and a. The inverse distance is linear over a plane. */
 static double off_plane(const bench_view *v, size_t before, size_t a, size_t b)
 {
     const double expected = 2 * inverse(v, a) - inverse(v, before);
     return fabs(inverse(v, b) - expected) * (double)v->distance[a] * (double)v->distance[b];
 }
 
-/* Between neighbours a and b, with the pixels before and after them: sky on one side; or normals more than 37 degrees
- * apart, as the bilateral blur of the classic defaults has it; or a jump of more than 0.4 of the radius, which is that
- * blur's too, but from the plane that either side goes on in. */
+/* Whether there is an edge between neighbours a and b: sky on one side; normals more than 37 degrees apart; or a jump
+ * of more than 0.4 of the radius from the plane of either side. The thresholds are those of the classic bilateral blur.
+ */
 static bool is_edge(const bench_view *v, size_t before, size_t a, size_t b, size_t after)
 {
     if (!(v->distance[a] > 0) || !(v->distance[b] > 0))
@@ -64,7 +64,7 @@ static void position(const bench_view *v, int x, int y, double out[3])
     out[2] = -distance;
 }
 
-/* By the pixels to the right and above, which must belong to the same surface. */
+/* The pixels to the right and above must belong to the same surface. */
 static bool is_tilted(const bench_view *v, int x, int y)
 {
     const float *n = &v->normals[3 * ((size_t)y * (size_t)v->gbuffer.view.width + (size_t)x)];
