@@ -42,7 +42,7 @@ static const option table[] = {
     {"split-seeds", "N", "seeds whose mean stands for convergence, 0: no split (64)", KIND_INT, AT(split_seeds), 0,
      4096},
     {"out", "DIR", "where tables and pictures are written (out/bench)", KIND_TEXT, AT(out), 0, 0},
-    {"peers", "NODE_MODULES", "also the effects of the npm packages there (see peers/README.md)", KIND_TEXT, AT(peers),
+    {"peers", "NODE_MODULES", "also the effects of the npm packages there (docs/comparison.md)", KIND_TEXT, AT(peers),
      0, 0},
     {"quick", NULL, "built-in scenes, small and rough: under 3 minutes on 2 cores", KIND_FLAG, AT(quick), 0, 0},
     {"check", NULL, "also fails where figures are not finite or not in the right order", KIND_FLAG, AT(check), 0, 0},
