@@ -58,8 +58,11 @@ export const peers = {
         pass.setSize(job.width, job.height);
         const pixels = job.radius / job.distance * job.clipFromView[5] * job.height / 2;
         pass.params.saoKernelRadius = job.radiusScale === 1 ? 100 : pixels * job.radiusScale;
-        pass.params.saoScale *= job.thickness;
-        pass.params.saoIntensity *= job.strength;
+        if (job.thickness !== 1) { // its lengths suit a scene whose radius and far plane are 1
+            pass.params.saoScale = job.far / job.radius * job.thickness;
+            pass.params.saoBias *= job.radius;
+            pass.params.saoIntensity *= job.strength / job.radius;
+        }
         pass.params.output = SAOPass.OUTPUT.SAO;
         pass.render(v.renderer, v.write, v.read);
         return v.renderer.recording.output(v.renderer.texture(pass.saoRenderTarget.texture));
