@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Programs kept on disk: taken from there where they fit, compiled anew and without a word where they don't.
+ * Programs kept on disk: loaded where they fit, silently recompiled where they do not.
  */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include "analytic.h"
@@ -19,7 +19,7 @@ typedef struct cached {
     fixture *f;
     char folder[64];
     glssao_frame frame;
-    float *wanted; /* the picture of programs that were compiled */
+    float *wanted; /* the picture from compiled programs */
 } cached;
 
 typedef void (*file_fn)(const char *path);
@@ -49,7 +49,7 @@ static void delete_file(const char *path)
     remove(path);
 }
 
-/* One effect and one frame; the picture is what it was. */
+/* One effect and one frame; the picture must be the same. */
 static gl_counts run_path(cached *c, const char *folder, glssao_path path)
 {
     fixture_clear_log(c->f);
@@ -107,7 +107,7 @@ static void close_cached(cached *c)
     free(c->wanted);
 }
 
-/* Fills the folder; false, and the test is done, where the driver keeps no binaries or the loader hides them. */
+/* Fills the folder. Returns false, which ends the test, if the driver keeps no binaries or the loader hides them. */
 static bool fill(cached *c)
 {
     GLint formats = 0;
@@ -131,7 +131,8 @@ static void the_second_run_compiles_nothing(void **state)
     close_cached(&c);
 }
 
-/* What applies the map is drawn either way; the three compute shaders of the frame are other programs than its four. */
+/* Both ways draw the program of glssao_apply; the frame's three compute shaders are other programs than its four
+ * fragment ones. */
 static void each_path_has_programs_of_its_own(void **state)
 {
     cached c = open_cached(state);
@@ -190,7 +191,7 @@ static void empty(const char *path)
     assert_int_equal(truncate(path, 0), 0);
 }
 
-/* Each is refused, compiled anew, and put right on disk. */
+/* Each damaged file is refused, recompiled and repaired on disk. */
 static void damaged_files_are_compiled_anew(void **state)
 {
     static const file_fn damages[] = {change_magic, change_key, change_length, change_program, cut_short, empty};
@@ -206,7 +207,7 @@ static void damaged_files_are_compiled_anew(void **state)
     close_cached(&c);
 }
 
-/* The head is covered by the sum: no format gets to the driver that it did not write. */
+/* The checksum covers the head: the driver never gets a format that it did not write. */
 static void a_strange_format_is_not_handed_to_the_driver(void **state)
 {
     cached c = open_cached(state);

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// The linear quantity of distance: a function of view distance that changes linearly across the picture of a plane. In
+// perspective it is 1 / distance, in an orthographic projection distance itself.
+// PERSPECTIVE 1: the projection is known to be perspective, which spares a choice and registers.
+
+bool orthographic()
+{
+#if PERSPECTIVE
+    return false;
+#else
+    return gRayDirection.x == 0.0;
+#endif
+}
+
+float linear_from_distance(float distance)
+{
+    PRECISE float linear = orthographic() ? distance : 1.0 / distance;
+    return linear;
+}
+
+// The same for a stored depth that is not sky.
+float linear_from_depth(float depth)
+{
+#if DEPTH == DEPTH_WINDOW
+    vec4 k = gDistanceFromDepth;
+    PRECISE vec2 fraction = vec2((1.0 - depth) * k.x + depth * k.y, (1.0 - depth) * k.z + depth * k.w);
+    fraction = orthographic() ? fraction : fraction.yx;
+    PRECISE float linear = fraction.x / fraction.y;
+    return linear;
+#else
+    return linear_from_distance(depth);
+#endif
+}
+
+// The change of the linear quantity for an error of `length` (scene units) about a surface.
+float linear_error(float length, float linear)
+{
+    PRECISE float error = orthographic() ? length : length * linear * linear;
+    return error;
+}
+
+// The change of the linear quantity for a step of the depth format.
+float linear_step(float linear)
+{
+    PRECISE vec2 shares = orthographic() ? vec2(1.0, linear * linear) : vec2(linear * linear, 1.0);
+    PRECISE float sum = shares.x * gDepthStep.x + linear * gDepthStep.y + shares.y * gDepthStep.z;
+    return sum;
+}
