@@ -20,8 +20,8 @@ mkdir -p "$data" "$work"
 export PATH=$build/tests/bench:$build/examples/render:$PATH
 cd "$root"
 
-glssao-bench --scenes "$scenes" "${peers[@]}" --frames 3 --split-seeds 16 --oracle-step 8 --out "$work" "${options[@]}"
-glssao-economy --scenes "$scenes" --time-size 1280x720 --frames 3 --time-scene columns --check --out "$work" "${options[@]}"
+glssao-bench --scenes "$scenes" "${peers[@]}" --frames 3 --sequence-frames 4 --split-seeds 8 --oracle-step 8 --out "$work" "${options[@]}"
+glssao-economy --scenes "$scenes" --time-size 1280x720 --frames 2 --time-scene columns --check --out "$work" "${options[@]}"
 glssao-cost --frames 3 --out "$work" "${options[@]}"
 "$docs/make-performance.sh" "$work" "$build"
 cp "$work"/*.tsv "$data"

@@ -6,8 +6,8 @@
 set -euo pipefail
 [ $# -ge 2 ] || { sed -n 3,5p "$0"; exit 2; }
 folder=$1 build=$(realpath "$2")
-command="docs/make-performance.sh $*"
 shift 2
+command="docs/make-performance.sh FOLDER BUILD${*:+ $*}"
 frames=${FRAMES:-20}
 bench=$build/tests/bench
 work=$(mktemp -d)

@@ -158,12 +158,18 @@ static void set_quick(options *o)
     o->sequence_frames = 3;
 }
 
+/* Folders of this machine are called what the help calls them. */
 static void keep_command(int argc, char **argv, options *out)
 {
     const char *slash = strrchr(argv[0], '/');
     size_t length = (size_t)snprintf(out->command, sizeof out->command, "%s", slash ? slash + 1 : argv[0]);
-    for (int i = 1; i < argc && length < sizeof out->command; i++)
-        length += (size_t)snprintf(out->command + length, sizeof out->command - length, " %s", argv[i]);
+    for (int i = 1; i < argc && length < sizeof out->command; i++) {
+        const option *before = find(argv[i - 1]);
+        const bool folder = before && before->kind == KIND_TEXT &&
+                            (strcmp(before->value, "DIR") == 0 || strcmp(before->value, "NODE_MODULES") == 0);
+        length += (size_t)snprintf(out->command + length, sizeof out->command - length, " %s",
+                                   folder ? before->value : argv[i]);
+    }
 }
 
 options_result options_parse(int argc, char **argv, options *out, char *error, size_t error_size)

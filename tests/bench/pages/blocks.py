@@ -5,6 +5,8 @@ from data import MEASURES, Accuracy, combine, geometric_mean, load
 
 LEVELS = ["low", "medium", "high", "ultra"]
 TECHNIQUES = ["horizon", "classic", "hemisphere"]
+# Levels that a page shows; the data has all.
+SHOWN = [f"horizon-{level}" for level in LEVELS] + ["classic-high", "classic-ultra", "hemisphere-low", "hemisphere-high"]
 
 
 def number(value, digits=4, sign=False):
@@ -38,11 +40,11 @@ def machine(folder, name="accuracy"):
             f"{t.notes['context']} ({kind}).")
 
 
-def level_names(a):
-    return [c for t in TECHNIQUES for level in LEVELS if a.has(c := f"{t}-{level}")]
+def level_names(a, count=len(SHOWN)):
+    return [c for c in SHOWN[: int(count)] if a.has(c)]
 
 
-def levels(folder, use="tuning"):
+def levels(folder, use="tuning", count=len(SHOWN)):
     """The quality levels: time and every measure, with the interval of the RMSE."""
     a = Accuracy(folder, use)
     if not a.scenes:
@@ -50,7 +52,7 @@ def levels(folder, use="tuning"):
     head = ["level", "ms", "ms, depth alone", "RMSE (95 % interval)", "99th percentile", "off by > 0.1", "SSIM", "FLIP",
             "grain", "frame change", "specks"]
     rows = []
-    for c in level_names(a):
+    for c in level_names(a, count):
         low, high = a.rmse_interval(c)
         depth = c + "-depth"
         rows.append([f"`{c}`", ms(a.time(c)), ms(a.time(depth)) if a.has(depth) else "",
@@ -79,7 +81,7 @@ def depth(folder):
     """Depth alone beside depth with normals, against both truths."""
     a = Accuracy(folder)
     rows = []
-    for c in level_names(a):
+    for c in level_names(a, 5):
         d = c + "-depth"
         if not a.has(d):
             continue
@@ -127,21 +129,18 @@ def beaten_rows(a):
                 yield peer, level, "median_ms", a.table.notes["time_scene"], times[0], times[1]
 
 
-def beaten(folder):
-    """How often each peer is better than each level, out of all scenes; the list is in beaten.tsv."""
+def beaten(folder, level="high"):
+    """On how many scenes each peer is better than a level of horizon; the list is in beaten.tsv."""
     a = Accuracy(folder)
-    rows = list(beaten_rows(a))
-    if not a.configs(technique="peer"):
-        return None
-    columns = [c for c, m in MEASURES.items() if m[1] is not None]
+    own, columns = f"horizon-{level}", [c for c, m in MEASURES.items() if m[1] is not None]
+    rows = [row for row in beaten_rows(a) if row[1] == own]
     out = []
     for peer in a.configs(technique="peer"):
-        for level in LEVELS:
-            counts = [str(sum(r[0] == peer and r[1] == f"horizon-{level}" and r[2] == c for r in rows)) for c in columns]
-            faster = any(r[0] == peer and r[1] == f"horizon-{level}" and r[2] == "median_ms" for r in rows)
-            if faster or any(c != "0" for c in counts):
-                out.append([f"`{peer}`", f"`horizon-{level}`"] + counts + ["yes" if faster else "no"])
-    return table(["peer", "level"] + [MEASURES[c][0] for c in columns] + ["faster"], out, 2)
+        counts = [sum(row[0] == peer and row[2] == c for row in rows) for c in columns]
+        faster = any(row[0] == peer and row[2] == "median_ms" for row in rows)
+        out.append([f"`{peer}`"] + [str(count) for count in counts] + ["yes" if faster else "no"])
+    head = [f"peer, of {len(a.by_config[own])} scenes"] + [MEASURES[c][0] for c in columns] + ["faster"]
+    return table(head, out) if out else None
 
 
 def blur(folder):
@@ -195,14 +194,6 @@ def scenes(folder, count="5"):
                     + [number(a.by_config[c][scene]["rmse"], 3) for c in ("horizon-high", "horizon-ultra", "classic-high",
                                                                            "hemisphere-high") if a.has(c)])
     return table(["scene", "triangles", "near edges", "horizon-high", "horizon-ultra", "classic-high", "hemisphere-high"], rows)
-
-
-def worst(folder):
-    """Per scene: the default level, the best one, and the default with a margin and a second layer."""
-    a = Accuracy(folder)
-    rows = [[scene] + [number(a.by_config[c][scene]["rmse"], 3) for c in ("horizon-high", "horizon-ultra", "horizon-high-beyond")]
-            for scene in a.by_config["horizon-high"]]
-    return table(["scene", "high", "ultra", "beyond"], rows)
 
 
 def host(folder):

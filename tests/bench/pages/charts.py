@@ -74,9 +74,14 @@ def accuracy(a, column, picture):
     """A measure against time: a mark a configuration, and the front of all that need no more than depth and normals."""
     name, less, _ = data.MEASURES[column]
     configs = [c for c in a.by_config if a.time(c) is not None and a.figure(c, column) is not None]
-    points = {c: (a.time(c), a.figure(c, column)) for c in configs}
-    if not points:
+    if not configs:
         return False
+    # Some peers and few rays are so far off that the levels would lie on a line.
+    limit = 1.25 * max((a.figure(c, column) for c in configs if a.info(c)["level"] and a.info(c)["technique"] not in ("peer", "rays")),
+                       default=math.inf)
+    beyond = [c for c in configs if less and a.figure(c, column) > limit]
+    configs = [c for c in configs if c not in beyond]
+    points = {c: (a.time(c), a.figure(c, column)) for c in configs}
     x = [math.log10(p[0]) for p in points.values()]
     y = [p[1] for p in points.values()]
     margin = 0.06 * (max(x) - min(x)) + 0.02
@@ -91,7 +96,7 @@ def accuracy(a, column, picture):
     direction = "lower" if less else "higher"
     script = head(picture, f"{name} of ambient occlusion against time",
                   f"{len(a.scenes)} scenes at {notes['size']}; truth: {notes['rays']} rays a pixel; {direction} is better; "
-                  "contrast techniques have their best exponent",
+                  "contrast techniques have their best exponent" + (f"; off the chart: {', '.join(beyond)}" if beyond else ""),
                   f"milliseconds a frame at {notes['time_size']} (log)", name)
     script += f"set logscale x\nset xrange [{10**x_low}:{10**x_high}]\nset yrange [{y_low}:{y_high}]\n"
     plain = [c for c in configs if a.info(c)["inputs"] != "beyond" and technique_of(a.info(c)) != "rays"]
