@@ -5,9 +5,12 @@
 # it. SCENES: the folder of test scenes. NODE_MODULES: the folder of the peers, from
 #     npm install three n8ao postprocessing @babylonjs/core
 # Traced truths and the peers' recordings are kept in out/bench-cache for the next run. More options for glssao-bench,
-# glssao-economy and glssao-cost come from OPTIONS in the environment, for instance a smaller size. Needs gnuplot and python3.
+# glssao-economy and glssao-cost come from OPTIONS in the environment, for instance a smaller size. Needs gnuplot and python3;
+# with MEASURE_ONLY=1 neither, and the pages are filled later, by
+#     python3 tests/bench/pages/make.py docs/data docs
+# A machine without node takes the recordings in out/bench-cache/peers-* of another one as NODE_MODULES.
 set -euo pipefail
-[ $# -ge 3 ] || { sed -n 3,9p "$0"; exit 2; }
+[ $# -ge 3 ] || { sed -n 3,12p "$0"; exit 2; }
 name=$1 build=$(realpath "$2") scenes=$3
 docs=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
 root=$(dirname "$docs")
@@ -25,6 +28,7 @@ glssao-economy --scenes "$scenes" --time-size 1280x720 --frames 2 --time-scene c
 glssao-cost --frames 3 --out "$work" "${options[@]}"
 "$docs/make-performance.sh" "$work" "$build"
 cp "$work"/*.tsv "$data"
+[ -z "${MEASURE_ONLY:-}" ] || exit 0
 
 # Pictures of the error: of the built-in scenes, which need no credit, and of the worst places of all.
 for technique in classic hemisphere horizon; do

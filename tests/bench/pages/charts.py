@@ -96,7 +96,7 @@ def accuracy(a, column, picture):
     direction = "lower" if less else "higher"
     script = head(picture, f"{name} of ambient occlusion against time",
                   f"{len(a.scenes)} scenes at {notes['size']}; truth: {notes['rays']} rays a pixel; {direction} is better; "
-                  "contrast techniques have their best exponent" + (f"; off the chart: {', '.join(beyond)}" if beyond else ""),
+                  "contrast techniques have their best exponent" + (f"; {len(beyond)} worse marks are off the chart" if beyond else ""),
                   f"milliseconds a frame at {notes['time_size']} (log)", name)
     script += f"set logscale x\nset xrange [{10**x_low}:{10**x_high}]\nset yrange [{y_low}:{y_high}]\n"
     plain = [c for c in configs if a.info(c)["inputs"] != "beyond" and technique_of(a.info(c)) != "rays"]
@@ -127,7 +127,8 @@ def lines(picture, title, subtitle, x_label, y_label, series, log=False):
     """series: {name: [(x, y), ...]}."""
     palette = ["#009e73", "#0072b2", "#d55e00", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999999"]
     script = head(picture, title, subtitle, x_label, y_label)
-    script += "set logscale xy\n" if log else "set yrange [0:*]\n"
+    x = [point[0] for points in series.values() for point in points]
+    script += f"set logscale xy\nset xrange [{0.9 * min(x)}:{1.1 * max(x)}]\n" if log else "set yrange [0:*]\n"
     script += "set key top left\n"
     plots = []
     for i, (name, points) in enumerate(series.items()):
