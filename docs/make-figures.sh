@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# make-figures.sh NAME BINARIES SCENES [NODE_MODULES]: measures everything that docs says in figures on this machine, into
-# docs/data/NAME, and fills the pages and charts. BINARIES: the build's tests/bench and examples/render are looked for in
-# it. SCENES: the folder of test scenes. NODE_MODULES: the folder of the peers, from
+# make-figures.sh NAME BUILD SCENES [NODE_MODULES]: measures everything that docs says in figures on this machine, into
+# docs/data/NAME, and fills the pages and charts. BUILD: the build folder.
+# SCENES: the folder of test scenes. NODE_MODULES: the folder of the peers, from
 #     npm install three n8ao postprocessing @babylonjs/core
 # Traced truths and the peers' recordings are kept in out/bench-cache for the next run. More options for glssao-bench,
 # glssao-economy and glssao-cost come from OPTIONS in the environment, for instance a smaller size. Needs gnuplot and python3;
@@ -10,7 +10,7 @@
 #     python3 tests/bench/pages/make.py docs/data docs
 # A machine without node takes the recordings in out/bench-cache/peers-* of another one as NODE_MODULES.
 set -euo pipefail
-[ $# -ge 3 ] || { sed -n 3,12p "$0"; exit 2; }
+[ $# -ge 3 ] || { sed -n 3,11p "$0"; exit 2; }
 name=$1 build=$(realpath "$2") scenes=$3
 docs=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
 root=$(dirname "$docs")

@@ -88,9 +88,9 @@ static bool open_stage(cost *c, stage *s, int width, int height)
 {
     scene_view view;
     *s = (stage){.width = width, .height = height};
-    scene *scene = bench_scene_open(&c->scene, width, height, &view, &s->radius, c->error, sizeof c->error);
-    bool done = scene && gbuffer_draw(&s->gbuffer, scene, &view, 0, c->error, sizeof c->error);
-    scene_destroy(scene);
+    scene *shown = bench_scene_open(&c->scene, width, height, &view, &s->radius, c->error, sizeof c->error);
+    bool done = shown && gbuffer_draw(&s->gbuffer, shown, &view, 0, c->error, sizeof c->error);
+    scene_destroy(shown);
     gl.GenTextures(1, &s->color);
     gl.BindTexture(GL_TEXTURE_2D, s->color);
     gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);

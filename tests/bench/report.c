@@ -29,7 +29,7 @@ static void add_config(table *t, const bench_config *c)
     table_text(t, inputs[c->inputs]);
     table_text(t, !effect ? "" : c->settings.half_resolution ? "half" : "full");
     table_text(t, effect ? bench_blur_name(c->settings.blur) : "");
-    table_number(t, effect ? c->settings.blur_rounds : NAN);
+    table_number(t, effect ? (double)c->settings.blur_rounds : (double)NAN);
 }
 
 bool report_accuracy(const results *r, char *error, size_t error_size)
