@@ -23,10 +23,10 @@ mkdir -p "$data" "$work"
 export PATH=$build/tests/bench:$build/examples/render:$PATH
 cd "$root"
 
-glssao-bench --scenes "$scenes" "${peers[@]}" --frames 3 --sequence-frames 4 --split-seeds 8 --oracle-step 8 --out "$work" "${options[@]}"
+glssao-bench --scenes "$scenes" "${peers[@]}" --frames 2 --sequence-frames 4 --split-seeds 6 --oracle-step 8 --out "$work" "${options[@]}"
 glssao-economy --scenes "$scenes" --time-size 1280x720 --frames 2 --time-scene columns --check --out "$work" "${options[@]}"
 glssao-cost --frames 3 --out "$work" "${options[@]}"
-"$docs/make-performance.sh" "$work" "$build"
+FRAMES=${FRAMES:-8} "$docs/make-performance.sh" "$work" "$build"
 cp "$work"/*.tsv "$data"
 [ -z "${MEASURE_ONLY:-}" ] || exit 0
 
