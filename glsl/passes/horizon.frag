@@ -64,17 +64,14 @@ struct polynomial {
 
 polynomial measure(float cos_g, float sin_g, float scale)
 {
-    PRECISE polynomial p =
-        polynomial(0.5 * scale * vec4(cos_g + 0.5 * PI * sin_g, -1.98868 * sin_g, -cos_g, 0.25869 * sin_g),
-                   0.5 * scale * 0.15521 * sin_g);
-    return p;
+    return polynomial(0.5 * scale * vec4(cos_g + 0.5 * PI * sin_g, -1.98868 * sin_g, -cos_g, 0.25869 * sin_g),
+                      0.5 * scale * 0.15521 * sin_g);
 }
 
 float value(polynomial p, float c)
 {
-    PRECISE float c2 = c * c;
-    PRECISE float sum = FMA(FMA(c2, FMA(c2, p.c5, p.low.w), p.low.y), c, FMA(c2, p.low.z, p.low.x));
-    return sum;
+    float c2 = c * c;
+    return p.low.x + p.low.z * c2 + (p.low.y + (p.low.w + p.c5 * c2) * c2) * c;
 }
 
 // The pixel that is estimated.
@@ -109,8 +106,8 @@ struct slice_side {
 vec3 sample_at(point p, slice_side side, float number, out vec2 layers)
 {
     // The point is a texel's centre itself, so whole pixels lead to other centres.
-    PRECISE vec2 offset_px = min(ROUND(FMA(vec2(number), side.step_px, side.first_px)), side.reach_px);
-    PRECISE vec2 uv = FMA(offset_px, side.uv_per_px, p.uv);
+    vec2 offset_px = min(roundEven(side.first_px + number * side.step_px), side.reach_px);
+    vec2 uv = p.uv + offset_px * side.uv_per_px;
 #if LAYERS
     vec3 texel = textureLod(u_distance_map, uv, 0.0).rgb;
     float distance = texel.r;
@@ -120,18 +117,15 @@ vec3 sample_at(point p, slice_side side, float number, out vec2 layers)
     layers = vec2(0.0);
 #endif
     float scale = orthographic() ? 1.0 : distance;
-    PRECISE vec2 per_scale = vec2(FMA(offset_px.x, side.x_per_px.x, offset_px.y * side.x_per_px.y),
-                                  FMA(offset_px.x, side.y_per_px.x, offset_px.y * side.y_per_px.y));
-    PRECISE vec3 at =
-        vec3(scale * per_scale.x, FMA(p.y_per_distance, p.distance - distance, scale * per_scale.y), scale * p.per_scale);
-    return at;
+    return vec3(scale * dot(offset_px, side.x_per_px),
+                scale * dot(offset_px, side.y_per_px) + p.y_per_distance * (p.distance - distance), scale * p.per_scale);
 }
 
 // Whether a sample can hide anything: within the sphere, off the point's own texel (where x is 0, or below it where the border
 // holds a sample back), and above the tangent plane by more than the depth format can tell.
 bool occludes(point p, slice_side side, vec3 at)
 {
-    return at.x > side.least_x && at.x < 1.0 && at.y > FMA(side.tangent, at.x, p.y_step);
+    return at.x > side.least_x && at.x < 1.0 && at.y > side.tangent * at.x + p.y_step;
 }
 
 // The sectors from a cosine on. The polynomial leaves 0..31 by an eighth at most, which the rounding takes back; a shift by
@@ -146,8 +140,8 @@ uint hidden_between(slice_side side, float x2, float chord, float top, float bot
 {
     top = min(top, chord);
     bottom = max(bottom, -chord);
-    cos_top = max(top * inversesqrt(FMA(top, top, x2)), side.lowest);
-    PRECISE float cos_bottom = clamp(bottom * inversesqrt(FMA(bottom, bottom, x2)), side.lowest, cos_top);
+    cos_top = max(top * inversesqrt(top * top + x2), side.lowest);
+    float cos_bottom = clamp(bottom * inversesqrt(bottom * bottom + x2), side.lowest, cos_top);
     return sectors_from(side, cos_top) ^ sectors_from(side, cos_bottom);
 }
 
@@ -155,15 +149,14 @@ uint hidden_between(slice_side side, float x2, float chord, float top, float bot
 // is thick enough to veil what is behind it.
 uint hidden_by(slice_side side, vec3 at, vec2 layers, float width, inout float highest)
 {
-    PRECISE float x2 = FMA(at.x, at.x, 1e-12);
-    PRECISE float chord = 1.0 - x2; // x is below 1
-    chord = ROOT(chord);
-    PRECISE float thickness = RUN_WIDTH * width * at.z;
+    float x2 = at.x * at.x + 1e-12;
+    float chord = sqrt(1.0 - x2); // x is below 1
+    float thickness = RUN_WIDTH * width * at.z;
     float cos_top;
     uint mask = 0u;
 #if LAYERS
-    PRECISE float second = min(at.y - layers.y, chord); // its thickness counts from where it is within the sphere
-    mask = hidden_between(side, x2, chord, second, FMA(-SECOND_WIDTH, thickness, second), cos_top);
+    float second = min(at.y - layers.y, chord); // its thickness counts from where it is within the sphere
+    mask = hidden_between(side, x2, chord, second, second - SECOND_WIDTH * thickness, cos_top);
     thickness = layers.x >= 0.0 ? layers.x : thickness;
 #endif
     mask |= hidden_between(side, x2, chord, at.y, at.y - thickness, cos_top);
@@ -180,7 +173,7 @@ uint hidden_sectors(point p, slice_side side, out float highest)
     UNROLL for (int i = 0; i < STEPS; ++i) {
         samples[i] = sample_at(p, side, float(i), layers[i]);
     }
-    PRECISE float rise[STEPS]; // of height, from the sample before; from the point for the first
+    float rise[STEPS]; // of height, from the sample before; from the point for the first
     UNROLL for (int i = 0; i < STEPS; ++i) {
         rise[i] = samples[i].y - (i > 0 ? samples[max(i - 1, 0)].y : 0.0);
     }
@@ -244,40 +237,37 @@ vec2 tile_noise()
 // The occlusion that one slice sees; `angle`: of the slice in the picture, in half turns.
 float slice_occlusion(point p, float angle)
 {
-    PRECISE vec2 direction = vec2(cos(PI * angle), sin(PI * angle));
-    PRECISE vec2 step_px = STEP * clamp(float(STEPS) * p.per_scale * direction * gPixel.zw, -MOST_PIXELS, MOST_PIXELS);
+    vec2 direction = vec2(cos(PI * angle), sin(PI * angle));
+    vec2 step_px = STEP * clamp(float(STEPS) * p.per_scale * direction * gPixel.zw, -MOST_PIXELS, MOST_PIXELS);
     vec2 way = mix(vec2(-1.0), vec2(1.0), greaterThan(step_px, vec2(0.0)));
-    PRECISE vec3 along = vec3(direction, 0.0);
+    vec3 along = vec3(direction, 0.0);
     along = normalize(along - p.up_view * dot(along, p.up_view)); // never of length 0: up is a ray that leaves the picture
-    PRECISE vec3 across = cross(p.up_view, along);
+    vec3 across = cross(p.up_view, along);
     // Shading normals may look away from the eye; the hemisphere is then seen from its rim.
-    PRECISE float normal_up = max(dot(p.normal_view, p.up_view), 0.0);
-    PRECISE float normal_along = dot(p.normal_view, along);
-    PRECISE float slope = clamp(dot(p.normal_view, across) / max(normal_up, 1e-3), -STEEPEST, STEEPEST);
+    float normal_up = max(dot(p.normal_view, p.up_view), 0.0);
+    float normal_along = dot(p.normal_view, along);
+    float slope = clamp(dot(p.normal_view, across) / max(normal_up, 1e-3), -STEEPEST, STEEPEST);
     // The normal projected into the slice leans towards the plus side by g. A normal straight across the slice projects to
     // nothing.
-    PRECISE float projected = max(normal_along * normal_along + normal_up * normal_up, 1e-12);
-    PRECISE float per_projected = inversesqrt(projected);
-    projected *= per_projected;
-    PRECISE float cos_g = normal_up * per_projected;
-    PRECISE float sin_g = normal_along * per_projected;
+    float projected = sqrt(max(normal_along * normal_along + normal_up * normal_up, 1e-12));
+    float cos_g = normal_up / projected;
+    float sin_g = normal_along / projected;
     // The floor is for a normal straight across the slice, which leaves no measure to share out among sectors.
-    PRECISE float total_minus = value(measure(cos_g, -sin_g, 1.0), sin_g);
-    PRECISE float total = max(value(measure(cos_g, sin_g, 1.0), -sin_g) + total_minus, 1e-6);
-    PRECISE float scale = SECTORS / total;
+    float total_minus = value(measure(cos_g, -sin_g, 1.0), sin_g);
+    float total = max(value(measure(cos_g, sin_g, 1.0), -sin_g) + total_minus, 1e-6);
+    float scale = SECTORS / total;
 
     slice_side side;
     side.step_px = abs(step_px);
     side.first_px = (1.0 - p.jitter) * side.step_px;
     side.x_per_px = way * gPixel.xy * along.xy;
-    PRECISE vec2 y_per_px = gPixel.xy * (p.up_view.xy + slope * across.xy);
+    vec2 y_per_px = gPixel.xy * (p.up_view.xy + slope * across.xy);
     // A fifth of a pixel.
-    PRECISE vec2 pixel_x = p.scale * side.x_per_px;
-    PRECISE float least_x = max(dot(pixel_x, pixel_x), 1e-30);
-    side.least_x = 0.2 * ROOT(least_x);
+    vec2 pixel_x = p.scale * side.x_per_px;
+    side.least_x = 0.2 * sqrt(dot(pixel_x, pixel_x));
 
     uint mask = 0u;
-    PRECISE float veiled = total;
+    float veiled = total;
     UNROLL for (int i = 0; i < 2; ++i) {
         float sign = i == 0 ? 1.0 : -1.0; // the plus side, then the minus side
         side.uv_per_px = sign * way * gInvRenderTargetSize;
@@ -291,16 +281,15 @@ float slice_occlusion(point p, float angle)
         mask |= hidden_sectors(p, side, highest);
         veiled -= value(measure(cos_g, sign * sin_g, 1.0), highest);
     }
-    PRECISE float hidden = total * float(count_bits(mask)) * (1.0 / SECTORS);
-    PRECISE float occlusion = projected * mix(hidden, veiled, VEIL);
-    return occlusion;
+    float hidden = total * float(count_bits(mask)) * (1.0 / SECTORS);
+    return projected * mix(hidden, veiled, VEIL);
 }
 
 RESULT result()
 {
     vec2 map_uv = pixel_uv();
     float distance = textureLod(u_distance_map, map_uv, 0.0).r;
-    PRECISE vec2 uv = (floor(pixel_center()) * float(gFactor) + 0.5) * gFullTexel;
+    vec2 uv = (floor(pixel_center()) * float(gFactor) + 0.5) * gFullTexel;
     vec3 normal_view = normal_view_at_uv(uv);
 #if OUTPUT == OUTPUT_SUM
     RESULT open = gAccumulation.xy;
@@ -312,12 +301,10 @@ RESULT result()
     // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
     if (distance >= FAR_AWAY || normal_view == vec3(0.0))
         return open;
-    PRECISE vec3 ray = vec3(uv * gRayDirection.xy + gRayDirection.zw, -1.0);
-    PRECISE float ray_length = dot(ray, ray);
-    PRECISE float per_length = inversesqrt(ray_length);
-    ray_length *= per_length;
+    vec3 ray = vec3(uv * gRayDirection.xy + gRayDirection.zw, -1.0);
+    float ray_length = length(ray);
     vec2 noise = tile_noise();
-    PRECISE point p;
+    point p;
     p.uv = map_uv;
     p.low = pixel_center() - 0.5;
     p.high = gEstimateSize - 0.5 - pixel_center();
@@ -327,16 +314,16 @@ RESULT result()
     p.y_per_distance = ray_length * gPerRadius;
     p.y_step = p.y_per_distance * depth_step(distance + gOcclusionRadius);
     p.normal_view = normal_view;
-    p.up_view = -per_length * ray;
+    p.up_view = -ray / ray_length;
     p.jitter = noise.y;
-    PRECISE float occlusion = 0.0;
+    float occlusion = 0.0;
     UNROLL for (int i = 0; i < SLICES; ++i) {
         occlusion += slice_occlusion(p, (noise.x + float(i)) / float(SLICES));
     }
     occlusion /= float(SLICES);
     // pow() is undefined below 0, which rounding can leave (as it can leave more than 1), and at 0 for a power so small that it
     // is flushed to 0.
-    PRECISE float share = max(1.0 - occlusion, 1e-6);
+    float share = max(1.0 - occlusion, 1e-6);
 #if OUTPUT == OUTPUT_SUM
     return gAccumulation.xy * min(pow(share, CALIBRATION), 1.0);
 #else

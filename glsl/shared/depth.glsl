@@ -19,7 +19,7 @@ float distance_from_depth(float depth)
 {
 #if DEPTH == DEPTH_WINDOW
     vec4 k = gDistanceFromDepth;
-    PRECISE float distance = ((1.0 - depth) * k.x + depth * k.y) / ((1.0 - depth) * k.z + depth * k.w);
+    float distance = ((1.0 - depth) * k.x + depth * k.y) / ((1.0 - depth) * k.z + depth * k.w);
 #else
     float distance = depth;
 #endif
@@ -31,8 +31,7 @@ float distance_from_depth(float depth)
 // A step of the depth format as view distance (scene units), plus what single precision loses.
 float depth_step(float distance)
 {
-    PRECISE float length = gDepthStep.x + distance * (gDepthStep.y + distance * gDepthStep.z);
-    return length;
+    return gDepthStep.x + distance * (gDepthStep.y + distance * gDepthStep.z);
 }
 
 // Whether a stored depth means that nothing was drawn.

@@ -14,8 +14,7 @@ bool orthographic()
 
 float linear_from_distance(float distance)
 {
-    PRECISE float linear = orthographic() ? distance : 1.0 / distance;
-    return linear;
+    return orthographic() ? distance : 1.0 / distance;
 }
 
 // The same for a stored depth that is not sky.
@@ -23,10 +22,9 @@ float linear_from_depth(float depth)
 {
 #if DEPTH == DEPTH_WINDOW
     vec4 k = gDistanceFromDepth;
-    PRECISE vec2 fraction = vec2((1.0 - depth) * k.x + depth * k.y, (1.0 - depth) * k.z + depth * k.w);
+    vec2 fraction = vec2((1.0 - depth) * k.x + depth * k.y, (1.0 - depth) * k.z + depth * k.w);
     fraction = orthographic() ? fraction : fraction.yx;
-    PRECISE float linear = fraction.x / fraction.y;
-    return linear;
+    return fraction.x / fraction.y;
 #else
     return linear_from_distance(depth);
 #endif
@@ -35,14 +33,12 @@ float linear_from_depth(float depth)
 // The change of the linear quantity for an error of `length` (scene units) about a surface.
 float linear_error(float length, float linear)
 {
-    PRECISE float error = orthographic() ? length : length * linear * linear;
-    return error;
+    return orthographic() ? length : length * linear * linear;
 }
 
 // The change of the linear quantity for a step of the depth format.
 float linear_step(float linear)
 {
-    PRECISE vec2 shares = orthographic() ? vec2(1.0, linear * linear) : vec2(linear * linear, 1.0);
-    PRECISE float sum = shares.x * gDepthStep.x + linear * gDepthStep.y + shares.y * gDepthStep.z;
-    return sum;
+    vec2 shares = orthographic() ? vec2(1.0, linear * linear) : vec2(linear * linear, 1.0);
+    return shares.x * gDepthStep.x + linear * gDepthStep.y + shares.y * gDepthStep.z;
 }

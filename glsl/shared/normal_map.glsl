@@ -23,11 +23,10 @@ vec3 decoded_normal(vec3 normal)
 vec3 normal_view_from_stored(vec3 stored)
 {
     vec3 normal = decoded_normal(stored);
-    PRECISE float length_squared = dot(normal, normal);
+    float length_squared = dot(normal, normal);
     if (!(length_squared > 1e-20 && length_squared < 1e20))
         return vec3(0.0);
-    PRECISE vec3 unit = normal * inversesqrt(length_squared);
-    return unit;
+    return normal * inversesqrt(length_squared);
 }
 
 vec3 normal_view_from_map(ivec2 texel)

@@ -8,11 +8,9 @@
 // A normal of any length, projected, in units of NORMAL_STEP. The bounds prevent a division by 0 for one of length 0.
 vec2 projected_normal(vec3 normal)
 {
-    PRECISE float length_squared = dot(normal, normal);
-    length_squared = max(length_squared, 1e-30);
-    PRECISE float scale = inversesqrt(max(0.5 * (length_squared + normal.z * ROOT(length_squared)), 1e-30));
-    PRECISE vec2 steps = normal.xy * (scale / NORMAL_STEP);
-    return steps;
+    float length_squared = max(dot(normal, normal), 1e-30);
+    float scale = inversesqrt(max(0.5 * (length_squared + normal.z * sqrt(length_squared)), 1e-30));
+    return normal.xy * (scale / NORMAL_STEP);
 }
 
 uint normal_code(vec3 normal_view)

@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Which pixel a pass computes.
-//
-// PRECISE stands for `precise` where the driver knows it, and for nothing elsewhere. A compiler may fuse and reorder in one
-// shader what it leaves in another; marked so, fragment and compute shaders compute the same bits. FMA(a, b, c) is
-// a b + c, rounded once where that is cheap; ROOT(x) the square root of a variable above 0; ROUND(x) the nearest whole
-// number below 2^22.
 
 // Where the target's lower left corner lies in the maps, in pixels. Not 0 only for the last pass of a frame with a margin.
 uniform vec2 gOrigin;

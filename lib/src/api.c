@@ -15,6 +15,11 @@ static bool is_closed(const glssao_effect *effect, const char *function)
     return !effect->normals.is_open;
 }
 
+static glssao_result check_state(const glssao_effect *effect, const char *function)
+{
+    return effect->host_restores_state ? GLSSAO_OK : glssao__state_check(&effect->gl, &effect->log, function);
+}
+
 static glssao__request request_of(const glssao_effect *effect, const glssao_frame *frame,
                                   const glssao_settings *settings, int estimates)
 {
@@ -144,8 +149,7 @@ static glssao_result run_call(glssao_effect *effect, call *c)
     if (!is_closed(effect, c->function) ||
         !glssao__check_frame(c->frame, c->settings, effect->size, &effect->log, &c->projection))
         return GLSSAO_INVALID_ARGUMENT;
-    glssao_result result =
-        effect->host_restores_state ? GLSSAO_OK : glssao__state_check(&effect->gl, &effect->log, c->function);
+    glssao_result result = check_state(effect, c->function);
     glssao__schedule schedule;
     for (bool again = result == GLSSAO_OK; again;) {
         const glssao__request request = request_of(effect, c->frame, c->settings, c->estimates);
@@ -245,17 +249,16 @@ glssao_result glssao_apply(glssao_effect *effect, uint32_t framebuffer)
     if (effect->last.number == 0)
         return glssao__log_refuse(&effect->log, "glssao_apply called before glssao_compute");
     const glssao__gl *gl = &effect->gl;
-    if (!effect->host_restores_state) {
-        const glssao_result result = glssao__state_check(gl, &effect->log, "glssao_apply");
-        if (result != GLSSAO_OK)
-            return result;
-        if (framebuffer != 0 && !gl->IsFramebuffer(framebuffer))
-            return glssao__log_refuse(&effect->log, "framebuffer = %u: no framebuffer of this context", framebuffer);
-    }
+    glssao_result result = check_state(effect, "glssao_apply");
+    if (result != GLSSAO_OK)
+        return result;
+    if (!effect->host_restores_state && framebuffer != 0 && !gl->IsFramebuffer(framebuffer))
+        return glssao__log_refuse(&effect->log, "framebuffer = %u: no framebuffer of this context", framebuffer);
     const glssao__state_need need = {STATE_DRAW | STATE_BLEND | STATE_ALL_MASKS, .units = 1u << UNIT_AMBIENT};
     glssao__state state;
     glssao__state_save(gl, &need, effect->host_restores_state, &state);
-    glssao_result result = effect->host_restores_state ? GLSSAO_OK : check_framebuffer(effect, framebuffer);
+    if (!effect->host_restores_state)
+        result = check_framebuffer(effect, framebuffer);
     if (result == GLSSAO_OK) {
         glssao__execute_apply(&effect->resources, framebuffer, effect->last.result,
                               effect->size[0] - 2 * effect->last.margin, effect->size[1] - 2 * effect->last.margin);
@@ -273,17 +276,18 @@ glssao_result glssao_begin_normals(glssao_effect *effect, uint32_t depth_texture
     if (!effect || !is_closed(effect, "glssao_begin_normals"))
         return GLSSAO_INVALID_ARGUMENT;
     const glssao__gl *gl = &effect->gl;
-    glssao__target *normal_map = &effect->resources.targets[MAP_NORMAL];
+    const bool host_restores = effect->host_restores_state;
+    const glssao__target *normal_map = &effect->resources.targets[MAP_NORMAL];
     const glssao__state_need need = glssao__normals_need();
     glssao__state state;
-    glssao_result result = glssao__state_check(gl, &effect->log, "glssao_begin_normals");
+    glssao_result result = check_state(effect, "glssao_begin_normals");
     if (result != GLSSAO_OK)
         return result;
-    glssao__state_save(gl, &need, effect->host_restores_state, &state);
-    result = glssao__normals_begin(gl, &effect->log, normal_map, depth_texture);
+    glssao__state_save(gl, &need, host_restores, &state);
+    result = glssao__normals_begin(&effect->normals, gl, &effect->log, normal_map, depth_texture, host_restores);
     glssao__state_restore(gl, &state);
     if (result == GLSSAO_OK) {
-        glssao__normals_open(&effect->normals, gl, normal_map);
+        glssao__normals_open(&effect->normals, gl, normal_map, host_restores);
         effect->last.depth_texture = depth_texture;
     }
     glssao__resources_check(&effect->resources, "glssao_begin_normals");
@@ -296,7 +300,12 @@ glssao_result glssao_end_normals(glssao_effect *effect)
         return GLSSAO_INVALID_ARGUMENT;
     if (!effect->normals.is_open)
         return glssao__log_refuse(&effect->log, "glssao_end_normals called without glssao_begin_normals");
-    glssao__normals_close(&effect->normals, &effect->gl, &effect->resources.targets[MAP_NORMAL]);
+    const glssao__target *normal_map = &effect->resources.targets[MAP_NORMAL];
+    if (!effect->host_restores_state && !glssao__normals_are_bound(&effect->gl, normal_map))
+        return glssao__log_refuse(&effect->log,
+                                  "glssao_end_normals: the framebuffer of glssao_begin_normals is not bound; bind it "
+                                  "again, and end pairs of several effects in reverse order");
+    glssao__normals_close(&effect->normals, &effect->gl, normal_map, effect->host_restores_state);
     glssao__resources_check(&effect->resources, "glssao_end_normals");
     return GLSSAO_OK;
 }

@@ -38,9 +38,10 @@ static char *copy_cache_folder(const char *folder, const glssao__log *log)
     if (!folder)
         return NULL;
     if (!glssao__program_cache_trusts(folder)) {
-        glssao__log_write(
-            log, GLSSAO_LOG_WARNING,
-            "config.program_cache = %s: no folder of this user that only he can write to; nothing is kept", folder);
+        glssao__log_write(log, GLSSAO_LOG_WARNING,
+                          "config.program_cache = %s: not a folder that this user owns and nobody else can write to; "
+                          "programs are not kept",
+                          folder);
         return NULL;
     }
     char *copy = malloc(strlen(folder) + 1);
@@ -73,7 +74,6 @@ static glssao_result init(glssao_effect *effect, const glssao_config *config)
     effect->last.other = MAP_AMBIENT_1;
     effect->resources.gl = gl;
     effect->resources.log = &effect->log;
-    effect->resources.dialect = (glssao__dialect){gl->version, gl->precise, gl->is_software};
     effect->resources.programs.cache_folder = copy_cache_folder(config->program_cache, &effect->log);
     glssao__uniforms_init(&effect->uniforms, effect->seed);
     return glssao__state_check(gl, &effect->log, "glssao_create");
@@ -121,7 +121,8 @@ void glssao_destroy(glssao_effect *effect)
     if (!effect)
         return;
     if (effect->normals.is_open) /* the host's framebuffer comes back; deleting a bound one would bind 0 */
-        (void)glssao_end_normals(effect);
+        glssao__normals_close(&effect->normals, &effect->gl, &effect->resources.targets[MAP_NORMAL],
+                              effect->host_restores_state);
     glssao__accumulate_destroy(&effect->accumulation, &effect->gl);
     glssao__resources_destroy(&effect->resources);
     free(effect);
@@ -153,6 +154,7 @@ glssao_result glssao_resize(glssao_effect *effect, int width, int height)
     glssao__accumulate_stop(&effect->accumulation, &effect->gl);
     memcpy(effect->size, size, sizeof effect->size);
     effect->known = (glssao__host_textures){0};
+    effect->normals.known_depth = 0;
     effect->last.result = MAP_AMBIENT_0;
     effect->last.other = MAP_AMBIENT_1;
     effect->last.has_tiles = false;

@@ -36,17 +36,21 @@ static glssao_result check_depth(const glssao__gl *gl, const glssao__log *log, c
     return GLSSAO_OK;
 }
 
-glssao_result glssao__normals_begin(const glssao__gl *gl, const glssao__log *log, glssao__target *normal_map,
-                                    gl_uint depth_texture)
+glssao_result glssao__normals_begin(glssao__normals *normals, const glssao__gl *gl, const glssao__log *log,
+                                    const glssao__target *normal_map, gl_uint depth_texture, bool host_restores)
 {
-    const glssao_result result = check_depth(gl, log, normal_map, depth_texture);
-    if (result != GLSSAO_OK)
-        return result;
-    const bool has_stencil = level_parameter(gl, GL_TEXTURE_STENCIL_SIZE) > 0;
+    const bool is_known = host_restores && depth_texture != 0 && depth_texture == normals->known_depth;
+    if (!is_known) {
+        const glssao_result result = check_depth(gl, log, normal_map, depth_texture);
+        if (result != GLSSAO_OK)
+            return result;
+        normals->known_stencil = level_parameter(gl, GL_TEXTURE_STENCIL_SIZE) > 0;
+    }
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, normal_map->framebuffer);
-    gl->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, has_stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
-                             GL_TEXTURE_2D, depth_texture, 0);
-    const gl_enum status = gl->CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
+    gl->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER,
+                             normals->known_stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D,
+                             depth_texture, 0);
+    const gl_enum status = is_known ? GL_FRAMEBUFFER_COMPLETE : gl->CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE) {
         gl->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, 0, 0);
         glssao__log_write(log, GLSSAO_LOG_ERROR,
@@ -54,29 +58,41 @@ glssao_result glssao__normals_begin(const glssao__gl *gl, const glssao__log *log
                           status);
         return GLSSAO_FRAMEBUFFER_ERROR;
     }
-    gl_float clear_depth = 1.0f;
-    gl->GetFloatv(GL_DEPTH_CLEAR_VALUE, &clear_depth);
+    normals->known_depth = depth_texture;
     glssao__target_clear(gl, normal_map, (const gl_float[4]){0.0f, 0.0f, 1.0f, 0.0f});
-    gl->ClearBufferfv(GL_DEPTH, 0, &clear_depth);
+    gl->Clear(GL_DEPTH_BUFFER_BIT); /* to the host's own value */
     return GLSSAO_OK;
 }
 
-void glssao__normals_open(glssao__normals *normals, const glssao__gl *gl, const glssao__target *normal_map)
+void glssao__normals_open(glssao__normals *normals, const glssao__gl *gl, const glssao__target *normal_map,
+                          bool host_restores)
 {
     normals->is_open = true;
-    gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &normals->host_framebuffer);
-    gl->GetFloatv(GL_VIEWPORT, normals->host_viewport);
+    if (!host_restores) {
+        gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &normals->host_framebuffer);
+        gl->GetFloatv(GL_VIEWPORT, normals->host_viewport);
+    }
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, normal_map->framebuffer);
     glssao__state_viewport(gl,
                            (const gl_float[4]){0.0f, 0.0f, (gl_float)normal_map->width, (gl_float)normal_map->height});
 }
 
-void glssao__normals_close(glssao__normals *normals, const glssao__gl *gl, const glssao__target *normal_map)
+bool glssao__normals_are_bound(const glssao__gl *gl, const glssao__target *normal_map)
+{
+    gl_int bound = 0;
+    gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
+    return (gl_uint)bound == normal_map->framebuffer;
+}
+
+void glssao__normals_close(glssao__normals *normals, const glssao__gl *gl, const glssao__target *normal_map,
+                           bool host_restores)
 {
     /* Detached, the depth texture can be read by the passes, and deleted by the host. */
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, normal_map->framebuffer);
     gl->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, 0, 0);
+    normals->is_open = false;
+    if (host_restores)
+        return;
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, (gl_uint)normals->host_framebuffer);
     glssao__state_viewport(gl, normals->host_viewport);
-    normals->is_open = false;
 }

@@ -76,20 +76,19 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: test_shaders VALIDATOR FOLDER\n");
         return 2;
     }
-    const glssao__dialect plain = {.version = 43}; /* nothing beyond the version */
     const int schedules = schedules_visit(collect, NULL);
     programs[program_count++] = (struct program){.shader = SHADER_APPLY};
     int bad = judge(argv[1]);
     for (int i = 0; i < program_count; ++i) {
         const struct program *p = &programs[i];
         const bool compute = p->variant.values[MACRO_COMPUTE];
-        char *const source = glssao__shader_source(p->shader, &p->variant, &plain);
+        char *const source = glssao__shader_source(p->shader, &p->variant, 43);
         bad +=
             !write_stage(argv[2], i, compute ? "comp" : "frag", compute ? "#version 430\n" : "#version 330\n", source);
         if (pending == BATCH)
             bad += judge(argv[1]);
     }
-    bad += !write_stage(argv[2], program_count, "vert", "#version 330\n", glssao__shader_vertex_source(&plain));
+    bad += !write_stage(argv[2], program_count, "vert", "#version 330\n", glssao__shader_vertex_source());
     bad += judge(argv[1]);
     printf("%d schedules, %d programs, %d bad batches\n", schedules, program_count, bad);
     return bad || program_count < 100;

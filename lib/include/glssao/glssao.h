@@ -294,10 +294,11 @@ GLSSAO_API glssao_settings glssao_default_settings(glssao_technique technique, g
 /* For hosts without view-space normals of their own: binds the effect's normal map and your depth texture (depth or
  * depth-stencil format, full size) as the draw framebuffer, sets the viewport to the full size, and clears both: normals to
  * (0, 0, 1, 0), depth to your glClearDepth value. Draw your opaque geometry, write view-space normals to output 0, and sample
- * neither texture. Then call glssao_end_normals, and hand glssao_map(effect, GLSSAO_MAP_NORMAL, ...) to glssao_compute as
- * normal_texture. May fail with INVALID_ARGUMENT and FRAMEBUFFER_ERROR. */
+ * neither texture. With the same framebuffer bound, call glssao_end_normals, and hand glssao_map(effect, GLSSAO_MAP_NORMAL,
+ * ...) to glssao_compute as normal_texture. May fail with INVALID_ARGUMENT and FRAMEBUFFER_ERROR. */
 GLSSAO_API glssao_result glssao_begin_normals(glssao_effect *effect, uint32_t depth_texture);
-/* Restores the framebuffer and viewport that were there before glssao_begin_normals. INVALID_ARGUMENT without one. */
+/* Restores the framebuffer and viewport that were there before glssao_begin_normals. INVALID_ARGUMENT without one, or where
+ * another framebuffer is bound: pairs of several effects end in reverse order. */
 GLSSAO_API glssao_result glssao_end_normals(glssao_effect *effect);
 
 /* Runs the passes of glssao_plan_frame; the result is GLSSAO_MAP_AMBIENT. May fail with INVALID_ARGUMENT, and with

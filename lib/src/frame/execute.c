@@ -144,15 +144,13 @@ static void wait_for(const glssao__gl *gl, enum glssao__barrier barrier)
 
 static void run_step(run *r, const glssao__step *step)
 {
-    glssao__target *target = &r->resources->targets[step->target];
-    wait_for(r->resources->gl, step->barrier);
+    const glssao__gl *gl = r->resources->gl;
+    wait_for(gl, step->barrier);
     switch (step->kind) {
     case STEP_CLEAR_TO_ONE:
-        glssao__target_clear_to_one(r->resources->gl, target);
-        return;
     case STEP_CLEAR_TO_ZERO:
-        glssao__target_clear(r->resources->gl, target, (const gl_float[4]){0.0f, 0.0f, 0.0f, 0.0f});
-        return;
+        glssao__target_clear_to(gl, &r->resources->targets[step->target], step->kind == STEP_CLEAR_TO_ONE);
+        break;
     case STEP_DRAW:
         use(r, step);
         draw(r, step);
@@ -162,7 +160,6 @@ static void run_step(run *r, const glssao__step *step)
         dispatch(r, step);
         break;
     }
-    target->is_one = false;
 }
 
 static void upload(const glssao__resources *resources, const glssao__uniforms *uniforms, int count)

@@ -60,8 +60,8 @@ static glssao_result prepare_program(glssao__resources *r, enum glssao__shader s
     const bool compute = variant->values[MACRO_COMPUTE];
     char name[128];
     glssao__shader_describe(shader, variant, name, sizeof name);
-    char *own = glssao__shader_source(shader, variant, &r->dialect);
-    char *vertex = compute ? NULL : glssao__shader_vertex_source(&r->dialect);
+    char *own = glssao__shader_source(shader, variant, r->gl->version);
+    char *vertex = compute ? NULL : glssao__shader_vertex_source();
     const glssao__program_source source = {
         .name = name, .vertex = vertex, .fragment = compute ? NULL : own, .compute = compute ? own : NULL};
     glssao_result result = GLSSAO_OUT_OF_MEMORY;
@@ -94,7 +94,7 @@ static void clear_new(const glssao__resources *r, enum glssao__map map, glssao__
     if (map == MAP_NORMAL)
         glssao__target_clear(r->gl, target, (const gl_float[4]){0.0f, 0.0f, 1.0f, 0.0f});
     else if (map == MAP_AMBIENT_0 || map == MAP_AMBIENT_1 || map == MAP_RESULT)
-        glssao__target_clear_to_one(r->gl, target);
+        glssao__target_clear_to(r->gl, target, 1.0f);
 }
 
 /* Makes the maps that differ from what is asked for, all or none. */

@@ -16,7 +16,6 @@ enum { UNIFORM_HORIZONTAL, UNIFORM_ORIGIN, UNIFORM_TILE_RANGE, UNIFORM_REGION };
 typedef struct glssao__resources {
     const glssao__gl *gl;
     const glssao__log *log;
-    glssao__dialect dialect;
     glssao__programs programs;
     glssao__target targets[MAP_COUNT]; /* from MAP_FIRST_TARGET on */
     glssao__target retired[MAP_COUNT]; /* replaced during a call; deleted by glssao__resources_collect */

@@ -185,47 +185,30 @@ static void append_define(text *t, const char *name, int value)
     append(t, line);
 }
 
-/* What the driver knows beyond GLSL 3.30; glsl/shared/pixel.glsl says what the macros stand for. */
-static const char *arithmetic(const glssao__dialect *dialect, enum glssao__shader shader)
-{
-#define EXACT "#extension GL_ARB_gpu_shader5 : require\n#define PRECISE precise\n"
-#define PLAIN "#define FMA(a, b, c) ((a) * (b) + (c))\n#define ROOT(x) sqrt(x)\n#define ROUND(x) roundEven(x)\n"
-    /* Classic and hemisphere are estimated one way only. */
-    if (!dialect->precise || shader == SHADER_CLASSIC || shader == SHADER_HEMISPHERE)
-        return "#define PRECISE\n" PLAIN;
-    if (dialect->is_software)
-        return EXACT PLAIN;
-    return EXACT "#define FMA(a, b, c) fma(a, b, c)\n#define ROOT(x) ((x) * inversesqrt(x))\n"
-                 "#define ROUND(x) ((x) + 12582912.0 - 12582912.0)\n";
-#undef EXACT
-#undef PLAIN
-}
-
-static void append_head(text *t, const glssao__dialect *dialect, enum glssao__shader shader, bool compute)
+static void append_version(text *t, int gl_version, bool compute)
 {
     if (!compute)
         append(t, "#version 330\n");
-    else if (dialect->version >= 43)
+    else if (gl_version >= 43)
         append(t, "#version 430\n");
     else
         append(t, "#version 330\n#extension GL_ARB_compute_shader : require\n"
                   "#extension GL_ARB_shader_image_load_store : require\n");
-    append(t, arithmetic(dialect, shader));
 }
 
-char *glssao__shader_vertex_source(const glssao__dialect *dialect)
+char *glssao__shader_vertex_source(void)
 {
     text t = {0};
-    append_head(&t, dialect, SHADER_APPLY, false);
+    append_version(&t, 33, false);
     append(&t, shader_fullscreen_vert);
     return finish(&t);
 }
 
-char *glssao__shader_source(enum glssao__shader shader, const glssao__variant *variant, const glssao__dialect *dialect)
+char *glssao__shader_source(enum glssao__shader shader, const glssao__variant *variant, int gl_version)
 {
     const struct group *group = group_of(shader);
     text t = {0};
-    append_head(&t, dialect, shader, variant->values[MACRO_COMPUTE]);
+    append_version(&t, gl_version, variant->values[MACRO_COMPUTE]);
     for (int i = 0; i < MACRO_COUNT; ++i)
         append_define(&t, macros[i].name, variant->values[i]);
     append_define(&t, "GROUP_X", group->x);

@@ -66,13 +66,6 @@ typedef struct glssao__variant {
     uint8_t values[MACRO_COUNT];
 } glssao__variant;
 
-/* What shaders may use beyond GLSL 3.30. */
-typedef struct glssao__dialect {
-    int version;      /* of OpenGL: 33 and up */
-    bool precise;     /* GL_ARB_gpu_shader5: `precise` and fma() */
-    bool is_software; /* the processor rasterises */
-} glssao__dialect;
-
 /* Sets macros that the shader does not test to 0, so that variants with the same source compare equal. */
 glssao__variant glssao__shader_variant(enum glssao__shader shader, glssao__variant wanted);
 /* Whether the shader tests the macro. */
@@ -86,8 +79,8 @@ void glssao__shader_describe(enum glssao__shader shader, const glssao__variant *
 void glssao__shader_group(enum glssao__shader shader, const glssao__variant *variant, int out_pixels[2]);
 
 /* The source of a stage: fragment or compute, whichever the variant asks for, or the vertex stage that all draws share.
- * NULL where there is no memory; the caller frees. */
-char *glssao__shader_source(enum glssao__shader shader, const glssao__variant *variant, const glssao__dialect *dialect);
-char *glssao__shader_vertex_source(const glssao__dialect *dialect);
+ * `gl_version`: 10 major + minor. NULL where there is no memory; the caller frees. */
+char *glssao__shader_source(enum glssao__shader shader, const glssao__variant *variant, int gl_version);
+char *glssao__shader_vertex_source(void);
 
 #endif

@@ -104,17 +104,17 @@ bool glssao__gl_load(glssao__gl *gl, const glssao__gl_loader *loader, const char
         gl->GetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
     gl->program_binaries = formats > 0;
     gl->is_software = names_software((const char *)gl->GetString(GL_RENDERER));
-    gl->precise = has_extension(gl, "GL_ARB_gpu_shader5");
     gl->depth_bounds_test = has_extension(gl, "GL_EXT_depth_bounds_test");
     gl->stencil_texturing = gl->version >= 43 || has_extension(gl, "GL_ARB_stencil_texturing");
-    if (gl->version < 45)
-        gl->GetTextureParameteriv = NULL;
+    gl->feedback_query = gl->version >= 40 || has_extension(gl, "GL_ARB_transform_feedback2");
 
     gl_int mask = 0, texture_size = 0, viewport[2] = {0, 0};
     gl->GetIntegerv(GL_CONTEXT_PROFILE_MASK, &mask);
     gl->compatibility = (mask & GL_CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0;
     if (!gl->compatibility)
         gl->ClampColor = NULL, gl->PixelTransferf = NULL;
+    if (gl->compatibility || gl->version < 45) /* Mesa knows GL_TEXTURE_TARGET in core contexts alone */
+        gl->GetTextureParameteriv = NULL;
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &texture_size);
     gl->GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
     gl->max_size = smaller(texture_size, smaller(viewport[0], viewport[1]));
@@ -129,11 +129,17 @@ bool glssao__gl_load(glssao__gl *gl, const glssao__gl_loader *loader, const char
 
 bool glssao__gl_take_error(const glssao__gl *gl, gl_enum error)
 {
-    enum { FLAGS = 8 }; /* a driver has one flag for each kind of error */
-    for (int i = 0; i < FLAGS; ++i) {
-        const gl_enum found = gl->GetError();
-        if (found == error || found == 0)
-            return found == error;
+    /* A driver has one flag in all, or one for each kind of error. */
+    bool is_enum = false, is_value = false;
+    gl_enum found = gl->GetError();
+    for (int i = 0; i < 8 && found != error && found != 0; ++i) {
+        is_enum = is_enum || found == GL_INVALID_ENUM;
+        is_value = is_value || found == GL_INVALID_VALUE;
+        found = gl->GetError();
     }
-    return false;
+    if (is_enum)
+        gl->Enable(GL_INVALID_ENUM); /* no such capability */
+    if (is_value)
+        gl->Clear(~0u); /* no such buffers */
+    return found == error;
 }

@@ -38,7 +38,12 @@ enum {
     GL_FRONT = 0x0404,
     GL_BACK = 0x0405,
     GL_FRONT_AND_BACK = 0x0408,
+    GL_INVALID_ENUM = 0x0500,
+    GL_INVALID_VALUE = 0x0501,
     GL_INVALID_OPERATION = 0x0502,
+    GL_TRANSFORM_FEEDBACK_PAUSED = 0x8E23,
+    GL_TRANSFORM_FEEDBACK_ACTIVE = 0x8E24,
+    GL_DEPTH_BUFFER_BIT = 0x0100,
     GL_OUT_OF_MEMORY = 0x0505,
     GL_POLYGON_MODE = 0x0B40,
     GL_POINT_SMOOTH = 0x0B10,
@@ -243,6 +248,7 @@ enum {
     X(void, BufferData, (gl_enum target, gl_sizeiptr size, const void *data, gl_enum usage))                           \
     X(void, BufferSubData, (gl_enum target, gl_intptr offset, gl_sizeiptr size, const void *data))                     \
     X(gl_enum, CheckFramebufferStatus, (gl_enum target))                                                               \
+    X(void, Clear, (gl_bitfield mask))                                                                                 \
     X(void, ClearBufferfv, (gl_enum buffer, gl_int index, const gl_float *value))                                      \
     X(gl_enum, ClientWaitSync, (gl_sync sync, gl_bitfield flags, uint64_t timeout_ns))                                 \
     X(void, ColorMaski, (gl_uint index, gl_boolean r, gl_boolean g, gl_boolean b, gl_boolean a))                       \
@@ -355,7 +361,7 @@ typedef struct glssao__gl {
     bool program_binaries;  /* linked programs can be read back */
     bool depth_bounds_test; /* GL_EXT_depth_bounds_test */
     bool is_software;       /* the processor rasterises */
-    bool precise;           /* shaders know `precise` and fma() */
+    bool feedback_query;    /* the driver can be asked whether transform feedback is active */
     bool stencil_texturing; /* a depth-stencil texture may be set to give its stencil values */
     int max_size;           /* largest texture and viewport side, pixels */
     int max_draw_buffers;
@@ -376,7 +382,7 @@ typedef struct glssao__gl_loader {
 bool glssao__gl_load(glssao__gl *gl, const glssao__gl_loader *loader, const char **out_missing);
 
 /* For calls that are known to have failed: removes the GL error that they left, and says whether it was there. Errors
- * of the host that the driver returns before it are lost. */
+ * that the host had left are put back, as far as a call can cause them again. */
 bool glssao__gl_take_error(const glssao__gl *gl, gl_enum error);
 
 #endif

@@ -22,8 +22,16 @@ glssao_result glssao__state_check(const glssao__gl *gl, const glssao__log *log, 
     if (gl->compatibility)
         gl->GetIntegerv(GL_RENDER_MODE, &mode);
     if (mode != GL_RENDER)
-        return glssao__log_refuse(log, "%s: the render mode is GL_FEEDBACK or GL_SELECT, which draws nothing",
+        return glssao__log_refuse(log, "%s: GL_RENDER_MODE is GL_FEEDBACK or GL_SELECT, which draws nothing",
                                   function);
+    if (gl->feedback_query) {
+        gl_int active = 0, paused = 0;
+        gl->GetIntegerv(GL_TRANSFORM_FEEDBACK_ACTIVE, &active);
+        if (active)
+            gl->GetIntegerv(GL_TRANSFORM_FEEDBACK_PAUSED, &paused);
+        if (active && !paused)
+            return glssao__log_refuse(log, "%s: transform feedback is active; pause or end it first", function);
+    }
     gl->GetIntegerv(GL_CURRENT_PROGRAM, &program);
     if (program)
         gl->GetProgramiv((gl_uint)program, GL_DELETE_STATUS, &is_deleted);

@@ -61,8 +61,8 @@ typedef struct glssao__state {
     gl_boolean toggles[STATE_TOGGLES];
 } glssao__state;
 
-/* Refuses state that can be neither neutralised nor put back: feedback and selection mode, and a current program that
- * the host has deleted, which would be lost. Changes nothing. */
+/* Refuses state that can be neither neutralised nor put back: feedback and selection mode, active transform feedback,
+ * and a current program that the host has deleted, which would be lost. Changes nothing. */
 glssao_result glssao__state_check(const glssao__gl *gl, const glssao__log *log, const char *function);
 
 /* Saves what `need` names and sets what the passes want. With `host_restores` nothing is asked: the wanted state is

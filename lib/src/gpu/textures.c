@@ -95,19 +95,15 @@ void glssao__target_delete(const glssao__gl *gl, glssao__target *target)
     *target = (glssao__target){0};
 }
 
-void glssao__target_clear(const glssao__gl *gl, glssao__target *target, const gl_float color[4])
+void glssao__target_clear(const glssao__gl *gl, const glssao__target *target, const gl_float color[4])
 {
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, target->framebuffer);
     gl->ClearBufferfv(GL_COLOR, 0, color);
-    target->is_one = false;
 }
 
-void glssao__target_clear_to_one(const glssao__gl *gl, glssao__target *target)
+void glssao__target_clear_to(const glssao__gl *gl, const glssao__target *target, gl_float value)
 {
-    if (target->is_one)
-        return;
-    glssao__target_clear(gl, target, (const gl_float[4]){1.0f, 1.0f, 1.0f, 1.0f});
-    target->is_one = true;
+    glssao__target_clear(gl, target, (const gl_float[4]){value, value, value, value});
 }
 
 void glssao__samplers_make(const glssao__gl *gl, gl_uint out_samplers[SAMPLER_COUNT])

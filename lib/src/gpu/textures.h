@@ -29,7 +29,6 @@ typedef struct glssao__target {
     gl_uint texture, framebuffer;
     int width, height;
     gl_enum format;
-    bool is_one; /* holds 1 everywhere */
 } glssao__target;
 
 bool glssao__target_fits(const glssao__target *target, const glssao__target_spec *spec);
@@ -37,9 +36,8 @@ bool glssao__target_fits(const glssao__target *target, const glssao__target_spec
 glssao_result glssao__target_make(const glssao__gl *gl, const glssao__log *log, const glssao__target_spec *spec,
                                   glssao__target *out);
 void glssao__target_delete(const glssao__gl *gl, glssao__target *target);
-void glssao__target_clear(const glssao__gl *gl, glssao__target *target, const gl_float color[4]);
-/* Clears to 1, unless that is what the target holds. */
-void glssao__target_clear_to_one(const glssao__gl *gl, glssao__target *target);
+void glssao__target_clear(const glssao__gl *gl, const glssao__target *target, const gl_float color[4]);
+void glssao__target_clear_to(const glssao__gl *gl, const glssao__target *target, gl_float value);
 
 /* A texture of RGBA8 texels that repeats; 0 where there is no memory for it. */
 gl_uint glssao__texture_make_rgba8(const glssao__gl *gl, int width, int height, const void *texels);

@@ -93,6 +93,8 @@ bool glssao__host_texture_bind(const glssao__gl *gl, gl_enum target, gl_uint tex
     gl_int value = 0;
     if (gl->GetTextureParameteriv) {
         gl->GetTextureParameteriv(texture, GL_TEXTURE_TARGET, &value);
+        if (value == 0) /* a buffer texture has no parameters */
+            (void)glssao__gl_take_error(gl, GL_INVALID_OPERATION);
         if ((gl_enum)value == target)
             gl->BindTexture(target, texture);
         return (gl_enum)value == target;
