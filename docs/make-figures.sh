@@ -30,9 +30,7 @@ FRAMES=${FRAMES:-8} "$docs/make-performance.sh" "$work" "$build"
 cp "$work"/*.tsv "$data"
 [ -z "${MEASURE_ONLY:-}" ] || exit 0
 
-# Pictures of the error: of the built-in scenes, which need no credit, and of the worst places of all.
-for technique in classic hemisphere horizon; do
-    cp "$work/strip-columns-$technique.png" "$docs/pictures/accuracy-$technique.png"
-done
+# Of a built-in scene, which needs no credit, and of the worst places of all scenes.
+cp "$work/strip-columns-horizon.png" "$docs/pictures/accuracy-horizon.png"
 cp "$work/worst-horizon.png" "$docs/pictures/worst-horizon.png"
 python3 "$root/tests/bench/pages/make.py" "$docs/data" "$docs"
