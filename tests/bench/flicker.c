@@ -13,7 +13,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const float turn_rad = 0.5f * 0.01745329252f; /* of the camera from frame to frame */
+/* How the camera moves from frame to frame. */
+typedef enum motion { TURNS = 0, ROLLS, MOTIONS } motion;
+static const float step_rad[MOTIONS] = {0.5f * 0.01745329252f, 25 * 0.01745329252f};
+enum { ROLL_FRAMES = 3 };
 
 typedef struct clip {
     float radius;
@@ -26,7 +29,28 @@ typedef struct clip {
     replay_inputs *inputs;
 } clip;
 
-static bool clip_draw(clip *k, const bench_scene *b, int width, int height, char *error, size_t error_size)
+/* About the axis of the view (Rodrigues' formula). */
+static camera rolled(const camera *c, float angle_rad)
+{
+    camera r = *c;
+    float axis[3], length = 0, along = 0;
+    for (int i = 0; i < 3; i++) {
+        axis[i] = c->target[i] - c->eye[i];
+        length += axis[i] * axis[i];
+    }
+    for (int i = 0; i < 3; i++) {
+        axis[i] /= sqrtf(length);
+        along += axis[i] * c->up[i];
+    }
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        r.up[i] = c->up[i] * cosf(angle_rad) + (axis[j] * c->up[k] - axis[k] * c->up[j]) * sinf(angle_rad) +
+                  axis[i] * along * (1 - cosf(angle_rad));
+    }
+    return r;
+}
+
+static bool clip_draw(clip *k, const bench_scene *b, motion how, int width, int height, char *error, size_t error_size)
 {
     scene_view view;
     scene *s = bench_scene_open(b, width, height, &view, &k->radius, error, error_size);
@@ -34,7 +58,8 @@ static bool clip_draw(clip *k, const bench_scene *b, int width, int height, char
     for (int i = 0; drawn && i < k->count; i++) {
         float *normals;
         const camera start = bench_scene_camera(b, s, (float)width / (float)height);
-        const camera now = camera_turned(&start, turn_rad * (float)i);
+        const float angle = step_rad[how] * (float)i;
+        const camera now = how == TURNS ? camera_turned(&start, angle) : rolled(&start, angle);
         view = camera_view(&now, width, height);
         drawn = gbuffer_draw(&k->frames[i], s, &view, 0, error, error_size);
         if (drawn) {
@@ -118,14 +143,19 @@ static bool is_measured(const bench_config *c)
     return c->kind == BENCH_PEER || (c->kind == BENCH_EFFECT && (c->level || c->inputs == INPUTS_DEPTH));
 }
 
-static bool measure_scene(results *r, int view, clip *k, effects *e, map_reader *m, char *error, size_t error_size)
+static bool measure_scene(results *r, int view, motion how, clip *k, effects *e, map_reader *m, char *error,
+                          size_t error_size)
 {
-    progress_show("frame change: %s", r->views[view].name);
-    bool done = clip_draw(k, &r->scenes[view], m->width, m->height, error, error_size) &&
+    progress_show("%s change: %s", how == TURNS ? "frame" : "roll", r->views[view].name);
+    k->count = how == TURNS ? r->options->sequence_frames : ROLL_FRAMES;
+    bool done = clip_draw(k, &r->scenes[view], how, m->width, m->height, error, error_size) &&
                 (!k->peers || peers_record_configs(r, k->views, k->count, error, error_size));
     for (int i = 0; done && i < r->config_count; i++)
         if (is_measured(&r->configs[i].config))
-            done = measure_config(k, &r->configs[i], e, m, &r->configs[i].views[view].frame_change, error, error_size);
+            done = measure_config(k, &r->configs[i], e, m,
+                                  how == TURNS ? &r->configs[i].views[view].frame_change
+                                               : &r->configs[i].views[view].roll_change,
+                                  error, error_size);
     clip_clear(k);
     return done;
 }
@@ -134,9 +164,9 @@ bool flicker_measure(results *r, context *c, char *error, size_t error_size)
 {
     const options *o = r->options;
     const int width = o->size[0] / 2, height = o->size[1] / 2;
-    const size_t pixels = (size_t)width * (size_t)height, frames = (size_t)o->sequence_frames;
-    clip k = {.count = o->sequence_frames,
-              .frames = calloc(frames + 1, sizeof *k.frames),
+    const size_t pixels = (size_t)width * (size_t)height,
+                 frames = (size_t)(o->sequence_frames > ROLL_FRAMES ? o->sequence_frames : ROLL_FRAMES);
+    clip k = {.frames = calloc(frames + 1, sizeof *k.frames),
               .distance = calloc(frames + 1, sizeof *k.distance),
               .result = {calloc(pixels, sizeof(float)), calloc(pixels, sizeof(float))},
               .peers = r->peers,
@@ -148,8 +178,8 @@ bool flicker_measure(results *r, context *c, char *error, size_t error_size)
     if (!done)
         snprintf(error, error_size, "out of memory");
     done = done && map_reader_create(&m, width, height, error, error_size);
-    for (int v = 0; done && v < r->view_count; v++)
-        done = measure_scene(r, v, &k, &e, &m, error, error_size);
+    for (int i = 0; done && i < r->view_count * MOTIONS; i++)
+        done = measure_scene(r, i / MOTIONS, (motion)(i % MOTIONS), &k, &e, &m, error, error_size);
     progress_clear();
     effects_destroy(&e);
     map_reader_destroy(&m);

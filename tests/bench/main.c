@@ -97,7 +97,7 @@ static bool make_configs(run *r)
         *c = (config_result){.config = configs[i]};
         c->views = calloc((size_t)out->view_count, sizeof *c->views);
         for (int v = 0; c->views && v < out->view_count; v++)
-            c->views[v] = (view_result){.frame_change = NAN, .time = no_time};
+            c->views[v] = (view_result){.frame_change = NAN, .roll_change = NAN, .time = no_time};
         if (!c->views) {
             snprintf(r->error, sizeof r->error, "out of memory");
             return false;

@@ -35,7 +35,7 @@ static const option table[] = {
     {"time-all", NULL, "times on every scene", KIND_FLAG, AT(time_all), 0, 0},
     {"most-rays", "N", "ray tracing as a peer with 1, 2, 4 to N rays a pixel, 0: none (512)", KIND_INT, AT(most_rays),
      0, 1 << 16},
-    {"sequence-frames", "N", "frames of a moving camera for the frame change, 0: none (6)", KIND_INT,
+    {"sequence-frames", "N", "frames of a moving camera for frame and roll change, 0: none (6)", KIND_INT,
      AT(sequence_frames), 0, 1000},
     {"oracle-step", "N", "the error is split on one pixel of every N x N (4)", KIND_INT, AT(oracle_step), 1, 64},
     {"oracle-rays", "N", "rays a pixel through the depth map (256)", KIND_INT, AT(oracle_rays), 1, 65536},

@@ -37,7 +37,8 @@ bool report_accuracy(const results *r, char *error, size_t error_size)
     table t;
     if (!table_begin(&t, r->options, r->context, "accuracy",
                      "configuration technique level inputs size blur rounds scene rmse mean p95 p99 off_share "
-                     "nonfinite_share smooth_rmse edge_rmse ssim flip grain specks frame_change exponent default_rmse "
+                     "nonfinite_share smooth_rmse edge_rmse ssim flip grain specks frame_change roll_change exponent "
+                     "default_rmse "
                      "default_mean own_exponent own_rmse flat_rmse flat_mean median_ms p95_ms cpu_ms normals_ms "
                      "distance_ms estimate_ms blur_ms upsample_ms",
                      error, error_size))
@@ -60,6 +61,7 @@ bool report_accuracy(const results *r, char *error, size_t error_size)
                                       m->grain,
                                       m->specks,
                                       m->frame_change,
+                                      m->roll_change,
                                       c->exponent,
                                       m->by_default_rmse,
                                       m->by_default_mean,

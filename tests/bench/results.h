@@ -25,7 +25,7 @@ typedef struct view_result {
     double by_default_rmse, by_default_mean;
     double own_exponent, own_rmse; /* the exponent that fits this view alone */
     double flat_rmse, flat_mean;   /* against the truth about the surface's own normal */
-    double ssim, flip, grain, specks, frame_change;
+    double ssim, flip, grain, specks, frame_change, roll_change;
     timing time;
 } view_result;
 

@@ -132,7 +132,8 @@ def beaten_rows(a):
 def beaten(folder, level="high"):
     """On how many scenes each peer is better than a level of horizon; the list is in beaten.tsv."""
     a = Accuracy(folder)
-    own, columns = f"horizon-{level}", [c for c, m in MEASURES.items() if m[1] is not None]
+    own = f"horizon-{level}"
+    columns = [c for c, m in MEASURES.items() if m[1] is not None and a.info(own).get(c) is not None]
     rows = [row for row in beaten_rows(a) if row[1] == own]
     out = []
     for peer in a.configs(technique="peer"):

@@ -15,6 +15,7 @@ MEASURES = {
     "flip": ("FLIP", True, "mean"),
     "grain": ("grain", True, "rms"),
     "frame_change": ("frame change", True, "rms"),
+    "roll_change": ("roll change", True, "rms"),
     "specks": ("specks", True, "sum"),
 }
 

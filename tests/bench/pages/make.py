@@ -11,6 +11,8 @@ import os
 import re
 import sys
 
+sys.dont_write_bytecode = True
+
 import blocks
 import charts
 from data import MEASURES, Accuracy, Missing, load
