@@ -2,6 +2,7 @@
  *
  * The benchmark's measures on constructed pictures whose right value is known in closed form.
  */
+#include "filter.h"
 #include "measure.h"
 #include "perception.h"
 #include "sequence.h"
@@ -68,6 +69,23 @@ static double grain(void)
     const double value = grain_measure(&g, picture);
     grain_destroy(&g);
     return value;
+}
+
+static void filters_see_zeros_or_the_nearest_pixel_outside(void **state)
+{
+    (void)state;
+    static float out[COUNT], scratch[COUNT];
+    const kernel box = {.radius = 1, .taps = {1.0f / 3, 1.0f / 3, 1.0f / 3}};
+    fill(picture, 1);
+    filter_picture(picture, WIDTH, HEIGHT, &box, &box, FILTER_ZERO, scratch, out);
+    assert_near((double)out[0], 4.0 / 9, 1e-6);
+    assert_near((double)out[WIDTH - 2], 6.0 / 9, 1e-6);
+    assert_near((double)out[WIDTH], 6.0 / 9, 1e-6);
+    assert_near((double)out[WIDTH + 1], 1, 1e-6);
+    assert_near((double)out[COUNT - 1], 4.0 / 9, 1e-6);
+    filter_picture(picture, WIDTH, HEIGHT, &box, &box, FILTER_REPLICATE, scratch, out);
+    for (int i = 0; i < COUNT; i++)
+        assert_near((double)out[i], 1, 1e-6);
 }
 
 /* 3 % of the pixels are off by 0.25, the others by -0.0625. */
@@ -318,6 +336,7 @@ static void points_that_were_hidden_are_left_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(filters_see_zeros_or_the_nearest_pixel_outside, reset),
         cmocka_unit_test_setup(error_figures_follow_from_their_definitions, reset),
         cmocka_unit_test_setup(nonfinite_pixels_are_counted_and_left_out, reset),
         cmocka_unit_test_setup(best_exponent_is_found, reset),
