@@ -59,7 +59,7 @@ static void land_first(batch *b)
     b->done += !f->failed;
     b->failed += f->failed;
     if (f->failed) {
-        progress_wipe(&b->shown);
+        progress_clear();
         fprintf(stderr, "glssao-render: %s:%d: %s\n", list_name(b), f->job->line, f->error);
     }
     b->first = (b->first + 1) % FLIGHTS;
@@ -138,7 +138,7 @@ static void print_summary(const batch *b, double start_ms)
     if (b->options->shard_count) {
         snprintf(shard, sizeof shard, ", shard %d/%d", b->options->shard_index, b->options->shard_count);
     }
-    progress_wipe(&b->shown);
+    progress_clear();
     fprintf(stderr, "%s%s: %zu of %zu jobs done, %zu failed; %zu pictures in %.2f s, %.1f a second\n", list_name(b),
             shard, b->done, b->mine, b->failed, b->pictures, seconds, seconds > 0 ? (double)b->pictures / seconds : 0);
 }
@@ -160,7 +160,7 @@ static bool run(batch *b, char *error, size_t error_size)
         snprintf(error, error_size, "out of memory");
         return false;
     }
-    b->shown = progress_start("job", (int)b->mine);
+    b->shown = progress_start("job");
     int drawn = 0;
     for (size_t i = 0; i < b->list.count; i++) {
         const batch_job *job = &b->list.jobs[i];
@@ -173,7 +173,7 @@ static bool run(batch *b, char *error, size_t error_size)
         }
         f->failed = job->error || !draw_job(b, i, f);
         land_those_done(b);
-        progress_show(&b->shown, ++drawn);
+        progress_count(&b->shown, ++drawn, (int)b->mine);
     }
     if (b->mine) {
         land_all(b);

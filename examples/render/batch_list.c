@@ -5,10 +5,16 @@
 #define _POSIX_C_SOURCE 200809L /* strdup */
 #include "batch_list.h"
 
+#include "read_file.h"
+
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+enum { MOST_LIST_BYTES = 1 << 30 };
 
 static bool is_blank(char c)
 {
@@ -61,39 +67,19 @@ static int split_line(char *line, char **words, const char **out_fault)
     }
 }
 
-/* Of malloc, with a 0 behind it; NULL, with errno, on failure. */
-static char *read_text(const char *path, size_t *out_size)
+/* From standard input, a FIFO or a regular file. NULL with the reason on failure. */
+static char *read_text(const char *path, size_t *out_size, const char **out_reason)
 {
-    FILE *file = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
-    char *text = NULL;
-    size_t size = 0, room = 0;
-    bool done = !file;
-    while (!done) {
-        if (room - size < 2) {
-            room = room ? 2 * room : 65536;
-            char *grown = realloc(text, room);
-            if (!grown) {
-                errno = ENOMEM;
-                break;
-            }
-            text = grown;
-        }
-        const size_t got = fread(text + size, 1, room - size - 1, file);
-        size += got;
-        done = got == 0;
-    }
-    const int code = errno;
-    const bool whole = file && done && !ferror(file);
-    if (file && file != stdin) {
-        fclose(file);
-    }
-    if (!whole) {
-        free(text);
-        errno = code;
+    const bool is_standard = strcmp(path, "-") == 0;
+    const int file = is_standard ? STDIN_FILENO : open(path, O_RDONLY | O_CLOEXEC);
+    if (file < 0) {
+        *out_reason = strerror(errno);
         return NULL;
     }
-    text[size] = '\0';
-    *out_size = size;
+    char *text = (char *)read_stream(file, MOST_LIST_BYTES, out_size, out_reason);
+    if (!is_standard) {
+        close(file);
+    }
     return text;
 }
 
@@ -134,10 +120,10 @@ bool batch_list_read(batch_list *list, const options *defaults, char *error, siz
 {
     size_t size = 0;
     *list = (batch_list){.count = 0};
-    errno = 0;
-    list->text = read_text(defaults->batch, &size);
+    const char *reason;
+    list->text = read_text(defaults->batch, &size, &reason);
     if (!list->text) {
-        snprintf(error, error_size, "%s: %s", defaults->batch, strerror(errno));
+        snprintf(error, error_size, "%s: %s", defaults->batch, reason);
         return false;
     }
     if (strlen(list->text) != size) {

@@ -6,18 +6,9 @@
 #define GLSSAO_EXAMPLES_OPTIONS_H
 
 #include "context.h"
+#include "option.h"
 
 #include <glssao/glssao.h>
-
-typedef struct options_number {
-    bool given;
-    float value;
-} options_number;
-
-typedef struct options_vector {
-    bool given;
-    float value[3];
-} options_vector;
 
 typedef struct options {
     const char *scene_path;                            /* NULL: the built-in scene */
@@ -26,8 +17,8 @@ typedef struct options {
     const char *output, *ao, *normals, *depth, *stats; /* NULL: not wanted */
     int width, height;
     int quality, technique, context, path; /* glssao_quality, glssao_technique, context_kind, glssao_path */
-    options_number radius, power, fov_deg, near_plane, far_plane, error, budget_ms, time_s;
-    options_vector eye, target, up;
+    option_number radius, power, fov_deg, near_plane, far_plane, error, budget_ms, time_s;
+    option_vector eye, target, up;
     int sample_count;  /* 0: the quality's own */
     int blur_rounds;   /* -1: the quality's own */
     int margin;        /* pixels on each side */
@@ -52,6 +43,7 @@ typedef enum options_program { OPTIONS_RENDER, OPTIONS_JOB, OPTIONS_VIEWER } opt
 /* Of options.technique, behind the library's own. */
 enum { OPTIONS_RAYTRACE = GLSSAO_HORIZON + 1 };
 
+#define OPTIONS_MAP_WORDS "none|ao|normals|depth|random|shadow|tiles"
 /* Of options.debug_map; the shadow map only where one is drawn. */
 typedef enum options_map {
     OPTIONS_MAP_NONE = 0,

@@ -2,10 +2,11 @@
  *
  * What no value alone tells: options that need or exclude each other, and the text of --set.
  */
-#include "option_table.h"
+#include "options_internal.h"
 
 #include "setting_table.h"
 #include "trace.h"
+#include "words.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -80,8 +81,8 @@ static bool check_together(const options *o, bool is_viewer, char *error, size_t
         snprintf(error, error_size, "--layers 2: only the horizon technique reads a second layer");
     } else if (o->scene_path && o->scene_name) {
         snprintf(error, error_size, "--scene %s and the file %s exclude each other", o->scene_name, o->scene_path);
-    } else if (o->scene_name && option_find_word("columns|cornell|steps|plane", o->scene_name) < 0) {
-        snprintf(error, error_size, "--scene \"%s\": must be one of columns|cornell|steps|plane", o->scene_name);
+    } else if (o->scene_name && words_find(SCENE_WORDS, o->scene_name) < 0) {
+        snprintf(error, error_size, "--scene \"%s\": must be one of " SCENE_WORDS, o->scene_name);
     } else if (o->time_s.given && !o->scene_path) {
         snprintf(error, error_size, "--time %g: a built-in scene has no animation", (double)o->time_s.value);
     } else if (o->no_ao && o->ao) {

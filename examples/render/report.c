@@ -6,7 +6,9 @@
 
 #include "clock.h"
 #include "gl.h"
+#include "statistics.h"
 #include "whole_file.h"
+#include "words.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -59,30 +61,10 @@ void bench_record(bench *b, double frame_ms, double cpu_ms, const glssao_stats *
     b->recorded++;
 }
 
-static int compare(const void *a, const void *b)
+static void print_times(const char *name, double *values, int count)
 {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* The value that `percent` of the sorted ones do not exceed (nearest rank); negative where memory is short. */
-static double percentile(const double *values, int count, int percent)
-{
-    double *sorted = malloc((size_t)count * sizeof *sorted);
-    if (!sorted) {
-        return -1;
-    }
-    memcpy(sorted, values, (size_t)count * sizeof *sorted);
-    qsort(sorted, (size_t)count, sizeof *sorted, compare);
-    const double value = sorted[((long)count * percent + 99) / 100 - 1];
-    free(sorted);
-    return value;
-}
-
-static void print_times(const char *name, const double *values, int count)
-{
-    printf("%-20s median %8.3f ms   p95 %8.3f ms\n", name, percentile(values, count, 50),
-           percentile(values, count, 95));
+    printf("%-20s median %8.3f ms   p95 %8.3f ms\n", name, statistics_percentile(values, count, 50),
+           statistics_percentile(values, count, 95));
 }
 
 void bench_print(const bench *b, const glssao_stats *stats, bool cpu)
@@ -93,7 +75,7 @@ void bench_print(const bench *b, const glssao_stats *stats, bool cpu)
         print_times("frame, CPU", b->cpu_ms, b->recorded);
     }
     for (int i = 0; i < GLSSAO_PASS_COUNT; i++) {
-        if (stats->passes[i].draw_calls > 0 && percentile(b->gpu_ms[i], b->recorded, 50) >= 0) {
+        if (stats->passes[i].draw_calls > 0 && statistics_percentile(b->gpu_ms[i], b->recorded, 50) >= 0) {
             char name[64];
             snprintf(name, sizeof name, "%s, GPU", stats->passes[i].name);
             print_times(name, b->gpu_ms[i], b->recorded);
@@ -170,10 +152,6 @@ static void print_scene(FILE *f, const scene *s)
 
 static void print_settings(FILE *f, const report *r)
 {
-    static const char *const techniques[] = {"classic", "hemisphere", "horizon"};
-    static const char *const qualities[] = {"low", "medium", "high", "ultra"};
-    static const char *const blurs[] = {"none", "gaussian", "bilateral", "box", "planar"};
-    static const char *const tiles[] = {"auto", "off", "on"};
     const glssao_settings *s = r->settings;
     if (!s) {
         fputs("  \"settings\": null,\n", f);
@@ -185,11 +163,11 @@ static void print_settings(FILE *f, const report *r)
             "\"half_resolution\": %s, \"upsample\": %s, \"tiles\": \"%s\", \"blur\": \"%s\", \"blur_rounds\": %d, "
             "\"blur_sigma\": %.9g, "
             "\"blur_normal_threshold\": %.9g, \"blur_depth_threshold\": %.9g, \"seed\": %u},\n",
-            techniques[s->technique], qualities[r->options->quality], (double)s->radius, (double)s->fade_start,
-            (double)s->fade_end, (double)s->surface_epsilon, (double)s->power, s->sample_count,
-            s->half_resolution ? "true" : "false", s->upsample ? "true" : "false", tiles[s->tiles], blurs[s->blur],
-            s->blur_rounds, (double)s->blur_sigma, (double)s->blur_normal_threshold, (double)s->blur_depth_threshold,
-            r->options->seed);
+            words_at(TECHNIQUE_WORDS, (int)s->technique).text, words_at(QUALITY_WORDS, r->options->quality).text,
+            (double)s->radius, (double)s->fade_start, (double)s->fade_end, (double)s->surface_epsilon, (double)s->power,
+            s->sample_count, s->half_resolution ? "true" : "false", s->upsample ? "true" : "false",
+            words_at(TILES_WORDS, (int)s->tiles).text, words_at(BLUR_WORDS, (int)s->blur).text, s->blur_rounds,
+            (double)s->blur_sigma, (double)s->blur_normal_threshold, (double)s->blur_depth_threshold, r->options->seed);
 }
 
 static void print_traced(FILE *f, const report *r)
@@ -222,11 +200,11 @@ static void print_passes(FILE *f, const report *r)
 static void print_bench(FILE *f, const bench *b)
 {
     fprintf(f, "  \"bench\": {\"frames\": %d, ", b->recorded);
-    print_ms(f, "median_ms", percentile(b->frame_ms, b->recorded, 50));
+    print_ms(f, "median_ms", statistics_percentile(b->frame_ms, b->recorded, 50));
     fputs(", ", f);
-    print_ms(f, "p95_ms", percentile(b->frame_ms, b->recorded, 95));
+    print_ms(f, "p95_ms", statistics_percentile(b->frame_ms, b->recorded, 95));
     fputs(", ", f);
-    print_ms(f, "cpu_median_ms", percentile(b->cpu_ms, b->recorded, 50));
+    print_ms(f, "cpu_median_ms", statistics_percentile(b->cpu_ms, b->recorded, 50));
     fputs("},\n", f);
 }
 

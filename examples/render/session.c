@@ -139,7 +139,7 @@ bool session_draw(session *s, bool shows_progress, writer_slip *slip, char *erro
     const float full_turn = 6.283185307f;
     const options *o = s->options;
     const int count = o->frames ? o->frames : 1;
-    progress shown = progress_start("frame", count);
+    progress shown = progress_start("frame");
     for (int i = 0; i < count; i++) {
         scene_view view;
         stopwatch_start(&s->times);
@@ -158,7 +158,7 @@ bool session_draw(session *s, bool shows_progress, writer_slip *slip, char *erro
             return session_finish(s, slip, error, error_size);
         }
         if (shows_progress && o->frames) {
-            progress_show(&shown, i + 1);
+            progress_count(&shown, i + 1, count);
         }
     }
     return true;

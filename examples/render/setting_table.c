@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "setting_table.h"
 
+#include "words.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,8 +30,7 @@ const setting setting_table[] = {
      true, NULL, CLASSIC},
     {"epsilon", "scene units", "an occluder less than this nearer does not count", SETTING_NUMBER, AT(surface_epsilon),
      0, 1e12f, true, NULL, CLASSIC | HEMISPHERE},
-    {"blur", "", "how noise is smoothed", SETTING_WORD, AT(blur), 0, 4, false, "none|gaussian|bilateral|box|planar",
-     ALL},
+    {"blur", "", "how noise is smoothed", SETTING_WORD, AT(blur), 0, 4, false, BLUR_WORDS, ALL},
     {"blur-rounds", "rounds", "each is one horizontal and one vertical pass", SETTING_WHOLE, AT(blur_rounds), 0, 16,
      false, NULL, ALL},
     {"blur-sigma", "pixels", "width of the Gaussian and bilateral blurs", SETTING_NUMBER, AT(blur_sigma), 0.1f, 2.5f,
@@ -39,38 +40,26 @@ const setting setting_table[] = {
     {"blur-depth", "scene units", "bilateral: taps farther off in view distance are dropped", SETTING_NUMBER,
      AT(blur_depth_threshold), 0, 1e12f, true, NULL, ALL},
     {"tiles", "", "tiles where nothing can occlude are looked for, and left out", SETTING_WORD, AT(tiles), 0, 2, false,
-     "auto|off|on", ALL},
+     TILES_WORDS, ALL},
     {"no-angle-weight", "", "for teaching: occluders count at any angle", SETTING_SWITCH, AT(no_angle_weight), 0, 1,
      false, NULL, CLASSIC},
 };
 #undef AT
 const int setting_count = sizeof setting_table / sizeof setting_table[0];
 
-static bool find_word(const char *words, const char *text, size_t length, int *out)
-{
-    for (int i = 0; *words; i++) {
-        const size_t here = strcspn(words, "|");
-        if (here == length && !memcmp(words, text, length)) {
-            *out = i;
-            return true;
-        }
-        words += here + (words[here] == '|');
-    }
-    return false;
-}
-
 static bool take(const setting *s, const char *text, size_t length, glssao_settings *out)
 {
     void *at = (char *)out + s->offset;
     char number[64];
     if (s->kind == SETTING_WORD) {
-        return find_word(s->words, text, length, at);
+        const int value = words_find_span(s->words, text, length);
+        *(int *)at = value >= 0 ? value : *(int *)at;
+        return value >= 0;
     }
     if (s->kind == SETTING_SWITCH) {
-        int value;
-        const bool known = find_word("off|on", text, length, &value);
-        *(bool *)at = known ? value : *(bool *)at;
-        return known;
+        const int value = words_find_span("off|on", text, length);
+        *(bool *)at = value >= 0 ? value > 0 : *(bool *)at;
+        return value >= 0;
     }
     if (length == 0 || length >= sizeof number || !strchr("-.0123456789", text[0])) {
         return false;
@@ -113,16 +102,6 @@ bool setting_apply(const char *text, glssao_settings *settings, char *error, siz
     return true;
 }
 
-/* The n-th of words separated by '|'. */
-static const char *word_at(const char *words, int n, int *out_length)
-{
-    for (int i = 0; i < n; i++) {
-        words += strcspn(words, "|") + 1;
-    }
-    *out_length = (int)strcspn(words, "|");
-    return words;
-}
-
 static bool is_same(const setting *s, const glssao_settings *a, const glssao_settings *b)
 {
     const size_t size = s->kind == SETTING_SWITCH ? sizeof(bool) : sizeof(int);
@@ -140,7 +119,6 @@ bool setting_differences(const glssao_settings *from, const glssao_settings *to,
             continue;
         }
         char value[64];
-        int length = 0;
         if (s->kind == SETTING_NUMBER) {
             snprintf(value, sizeof value, "%.9g", (double)*(const float *)at);
         } else if (s->kind == SETTING_WHOLE) {
@@ -148,8 +126,7 @@ bool setting_differences(const glssao_settings *from, const glssao_settings *to,
         } else if (s->kind == SETTING_SWITCH) {
             snprintf(value, sizeof value, "%s", *(const bool *)at ? "on" : "off");
         } else {
-            const char *word = word_at(s->words, *(const int *)at, &length);
-            snprintf(value, sizeof value, "%.*s", length, word);
+            snprintf(value, sizeof value, "%s", words_at(s->words, *(const int *)at).text);
         }
         const int written = snprintf(out + used, out_size - used, "%s%s=%s", used ? "," : "", s->name, value);
         if (written < 0 || (size_t)written >= out_size - used) {

@@ -12,7 +12,7 @@
 typedef struct key {
     char *name; /* path, or name of a built-in scene */
     bool is_file;
-    options_number time_s;
+    option_number time_s;
     struct stat status; /* of the file, where it has one */
 } key;
 

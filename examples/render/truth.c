@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "truth.h"
 
-#include "trace_progress.h"
+#include "progress.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -41,17 +41,17 @@ void truth_close(truth *t)
 bool truth_trace(truth *t, const scene_view *view, const glssao_settings *settings, uint32_t seed, char *error,
                  size_t error_size)
 {
-    trace_progress bar = trace_progress_start("tracing");
+    progress bar = progress_start("tracing");
     const trace_options options = {.radius = settings->radius,
                                    .samples = settings->sample_count,
                                    .seed = seed,
-                                   .progress = trace_progress_report,
+                                   .progress = progress_share,
                                    .progress_user = &bar};
     trace_stats stats;
     if (!trace_accessibility(t->scene, view, &options, t->accessibility, NULL, &stats, error, error_size)) {
         return false;
     }
-    trace_progress_end(&bar);
+    progress_clear();
     t->stats.rays += stats.rays;
     t->stats.seconds += stats.seconds;
     const size_t count = (size_t)t->width * (size_t)t->height;

@@ -49,7 +49,7 @@ bool viewpoint_choose(const options *o, const scene *s, viewpoint *out, char *er
         out->base = camera_frame_scene(s, (float)o->width / (float)o->height);
     }
     const struct {
-        const options_vector *from;
+        const option_vector *from;
         float *to;
     } vectors[] = {{&o->eye, out->base.eye}, {&o->target, out->base.target}, {&o->up, out->base.up}};
     for (size_t i = 0; i < sizeof vectors / sizeof vectors[0]; i++) {

@@ -10,9 +10,9 @@
 
 typedef struct viewpoint {
     camera base;
-    float half_height;                    /* of an orthographic view, scene units; 0: perspective */
-    float clip_near, clip_far;            /* the file's camera shows nothing outside; 0: no bound */
-    options_number near_plane, far_plane; /* from the command line */
+    float half_height;                   /* of an orthographic view, scene units; 0: perspective */
+    float clip_near, clip_far;           /* the file's camera shows nothing outside; 0: no bound */
+    option_number near_plane, far_plane; /* from the command line */
 } viewpoint;
 
 /* False, with one line in `error`, where the scene has no such camera. */

@@ -1,19 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * Reading files, and the checks that come before parsing. tinygltf 2.7 reads eight bytes past a BIN chunk whose length
+ * The checks that come before parsing. tinygltf 2.7 reads eight bytes past a BIN chunk whose length
  * is wrong, recurses once per level of nested extras, and copies the BIN chunk for each buffer without a URI.
  */
-#ifndef _POSIX_C_SOURCE
-#define _POSIX_C_SOURCE 200809L /* fstat: a FIFO or a device must not be read */
-#endif
 #include "gltf_file.h"
 
-#include <errno.h>
-#include <fcntl.h>
+#include "read_file.h"
+
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 enum {
     MOST_FILE_BYTES = INT32_MAX, /* tinygltf counts in int */
@@ -29,38 +24,6 @@ static const struct {
 } root_arrays[] = {{"buffers", 4096},   {"materials", 65536},         {"images", 65536}, {"textures", 65536},
                    {"samplers", 65536}, {"cameras", 65536},           {"skins", 65536},  {"animations", 65536},
                    {"scenes", 65536},   {"", 1 << 19 /* any other */}};
-
-uint8_t *gltf_read_file(const char *path, size_t limit, size_t *out_size, const char **out_reason)
-{
-    const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    struct stat about;
-    uint8_t *data = NULL;
-    *out_size = 0;
-    *out_reason = NULL;
-    if (file < 0 || fstat(file, &about) != 0)
-        *out_reason = strerror(errno);
-    else if (!S_ISREG(about.st_mode))
-        *out_reason = "not a regular file";
-    else if ((uintmax_t)about.st_size > limit)
-        *out_reason = "too large";
-    else if (!(data = malloc((size_t)about.st_size + 1)))
-        *out_reason = "not enough memory";
-    while (data && *out_size < (size_t)about.st_size) {
-        const ssize_t got = read(file, data + *out_size, (size_t)about.st_size - *out_size);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got <= 0) {
-            *out_reason = got < 0 ? strerror(errno) : "the file became shorter while it was read";
-            free(data);
-            data = NULL;
-            break;
-        }
-        *out_size += (size_t)got;
-    }
-    if (file >= 0)
-        close(file);
-    return data;
-}
 
 const char *gltf_file_name(const char *path)
 {
@@ -231,7 +194,7 @@ bool gltf_file_open(gltf_file *out, const char *path, scene_fault *fault)
 {
     const char *reason = NULL;
     memset(out, 0, sizeof *out);
-    out->data = gltf_read_file(path, MOST_FILE_BYTES, &out->size, &reason);
+    out->data = read_file(path, MOST_FILE_BYTES, &out->size, &reason);
     if (!out->data)
         return scene_fail(fault, "%s", reason);
     out->binary = out->size >= 4 && !memcmp(out->data, "glTF", 4);

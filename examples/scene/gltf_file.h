@@ -24,10 +24,6 @@ typedef struct gltf_file {
     size_t bin_size; /* of the GLB's BIN chunk */
 } gltf_file;
 
-/* The whole of a regular file of at most `limit` bytes, to be freed by the caller; never NULL for an empty one. NULL on
- * failure, with the reason in words. */
-uint8_t *gltf_read_file(const char *path, size_t limit, size_t *out_size, const char **out_reason);
-
 /* Reads a .gltf or .glb file, told apart by its first bytes, and checks it. The caller frees `data`. */
 bool gltf_file_open(gltf_file *out, const char *path, scene_fault *fault);
 

@@ -55,7 +55,7 @@ static void step_quality(viewer *v)
 static void set_radius(viewer *v, float radius)
 {
     setting_scale_radius(&v->settings, radius);
-    v->options.radius = (options_number){true, radius};
+    v->options.radius = (option_number){true, radius};
     viewer_change(v);
 }
 

@@ -3,6 +3,7 @@
  * glssao-view: a window, and a loop that waits until something happens.
  */
 #include "gui.h"
+#include "statistics.h"
 #include "viewer.h"
 
 #include <GLFW/glfw3.h>
@@ -90,20 +91,14 @@ static double quiet_time(const viewer *v, bool walking)
     return walking ? 0.001 : quiet;
 }
 
-static int compare_floats(const void *a, const void *b)
-{
-    const float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
 /* Of the frames that the graph remembers. */
 static double median_frame_ms(const viewer *v)
 {
-    float sorted[GRAPH_LENGTH];
-    memcpy(sorted, v->frame_ms, sizeof sorted);
-    qsort(sorted, GRAPH_LENGTH, sizeof *sorted, compare_floats);
-    const unsigned count = v->frames < GRAPH_LENGTH ? v->frames : GRAPH_LENGTH; /* what was not drawn is 0, in front */
-    return (double)sorted[GRAPH_LENGTH - 1 - count / 2];
+    const int count = v->frames < GRAPH_LENGTH ? (int)v->frames : GRAPH_LENGTH;
+    double ms[GRAPH_LENGTH] = {0};
+    for (int i = 0; i < count; i++)
+        ms[i] = (double)v->frame_ms[i];
+    return statistics_percentile(ms, count > 0 ? count : 1, 50);
 }
 
 static void run(viewer *v)

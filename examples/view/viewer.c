@@ -167,7 +167,7 @@ void viewer_close(viewer *v)
 glssao_settings viewer_standard(const viewer *v)
 {
     options o = v->options;
-    o.radius = (options_number){v->settings.radius > 0, v->settings.radius};
+    o.radius = (option_number){v->settings.radius > 0, v->settings.radius};
     o.power.given = false;
     o.sample_count = 0;
     o.blur_rounds = -1;

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What options.c, options_table.c and options_check.c share.
+ */
+#ifndef GLSSAO_EXAMPLES_OPTIONS_INTERNAL_H
+#define GLSSAO_EXAMPLES_OPTIONS_INTERNAL_H
+
+#include "option.h"
+#include "options.h"
+
+/* options_table.c: what a program, or a line of a batch, takes. */
+option_set options_set(options_program program);
+
+/* options_check.c: checks what no value alone tells, and the text of --set. False, with one line in `error`. */
+bool options_check(const options *o, options_program program, char *error, size_t error_size);
+
+#endif
