@@ -30,12 +30,10 @@ static int split_line(char *line, char **words, const char **out_fault)
     char *out = line; /* never overtakes `in` */
     int count = 0;
     for (;;) {
-        while (is_blank(*in)) {
+        while (is_blank(*in))
             in++;
-        }
-        if (*in == '\0' || *in == '#') {
+        if (*in == '\0' || *in == '#')
             return count;
-        }
         words[count++] = out;
         while (*in && !is_blank(*in)) {
             const char quote = *in == '\'' || *in == '"' ? *in : '\0';
@@ -61,9 +59,8 @@ static int split_line(char *line, char **words, const char **out_fault)
         const bool is_last = *in == '\0';
         in += !is_last;
         *out++ = '\0';
-        if (is_last) {
+        if (is_last)
             return count;
-        }
     }
 }
 
@@ -77,9 +74,8 @@ static char *read_text(const char *path, size_t *out_size, const char **out_reas
         return NULL;
     }
     char *text = (char *)read_stream(file, MOST_LIST_BYTES, out_size, out_reason);
-    if (!is_standard) {
+    if (!is_standard)
         close(file);
-    }
     return text;
 }
 
@@ -90,20 +86,17 @@ static bool add_job(batch_list *list, const options *defaults, int number, char 
     const char *fault = NULL;
     batch_job job = {.line = number};
     char **words = malloc((strlen(line) / 2 + 3) * sizeof *words);
-    if (!words) {
+    if (!words)
         return false;
-    }
     words[0] = line; /* where a program's name would stand */
     const int count = split_line(line, words + 1, &fault);
-    if (count < 0) {
+    if (count < 0)
         job.error = strdup(fault);
-    } else if (count > 0 && !options_parse_job(defaults, count + 1, words, &job.options, error, sizeof error)) {
+    else if (count > 0 && !options_parse_job(defaults, count + 1, words, &job.options, error, sizeof error))
         job.error = strdup(error);
-    }
     free(words);
-    if (count == 0) {
+    if (count == 0)
         return true;
-    }
     if (list->count % 64 == 0) {
         batch_job *grown = realloc(list->jobs, (list->count + 64) * sizeof *grown);
         if (!grown) {
@@ -148,9 +141,8 @@ bool batch_list_read(batch_list *list, const options *defaults, char *error, siz
 
 void batch_list_free(batch_list *list)
 {
-    for (size_t i = 0; i < list->count; i++) {
+    for (size_t i = 0; i < list->count; i++)
         free(list->jobs[i].error);
-    }
     free(list->jobs);
     free(list->text);
     *list = (batch_list){.count = 0};

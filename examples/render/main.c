@@ -49,19 +49,16 @@ static bool open_scene_and_context(run *r)
     stopwatch *times = &r->session.times;
     l->options = &r->options;
     l->running = pthread_create(&l->thread, NULL, load_scene, l) == 0;
-    if (!l->running) { /* no more threads: then here */
+    if (!l->running) /* no more threads: then here */
         load_scene(l);
-    }
     stopwatch_start(times);
     const bool opened = session_open(&r->session, &r->options, r->error, sizeof r->error);
     times->ms[PHASE_CONTEXT] = clock_wall_ms() - times->last_ms;
-    if (l->running) {
+    if (l->running)
         pthread_join(l->thread, NULL);
-    }
     times->ms[PHASE_LOAD] = l->ms;
-    if (opened && !l->scene) {
+    if (opened && !l->scene)
         memcpy(r->error, l->error, sizeof r->error);
-    }
     return opened && l->scene;
 }
 
@@ -70,22 +67,18 @@ static bool render(run *r, double start_ms)
 {
     const options *o = &r->options;
     session *s = &r->session;
-    if (!outputs_check(o, r->error, sizeof r->error) || !open_scene_and_context(r)) {
+    if (!outputs_check(o, r->error, sizeof r->error) || !open_scene_and_context(r))
         return false;
-    }
     stopwatch_start(&s->times);
-    if (!stage_open(&r->stage, r->loader.scene, NULL, r->error, sizeof r->error)) {
+    if (!stage_open(&r->stage, r->loader.scene, NULL, r->error, sizeof r->error))
         return false;
-    }
     stopwatch_lap(&s->times, PHASE_SETUP);
     if (!session_begin(s, o, &r->stage, r->error, sizeof r->error) ||
-        (o->bench && !session_bench(s, r->error, sizeof r->error))) {
+        (o->bench && !session_bench(s, r->error, sizeof r->error)))
         return false;
-    }
     const bool wants_frame = o->output || o->ao || o->normals || o->depth || (o->stats && !o->bench);
-    if (wants_frame && !session_draw(s, true, &r->slip, r->error, sizeof r->error)) {
+    if (wants_frame && !session_draw(s, true, &r->slip, r->error, sizeof r->error))
         return false;
-    }
     return session_finish(s, &r->slip, r->error, sizeof r->error) &&
            (!o->stats || session_write_stats(s, start_ms, 0, r->error, sizeof r->error));
 }
@@ -103,17 +96,14 @@ int main(int argc, char **argv)
     case OPTIONS_RUN:
         break;
     }
-    if (r.options.batch) {
+    if (r.options.batch)
         return batch_run(&r.options) ? EXIT_DONE : EXIT_NOT_RENDERED;
-    }
     const bool done = render(&r, start_ms);
-    if (r.stage.scene) {
+    if (r.stage.scene)
         stage_close(&r.stage);
-    }
     session_close(&r.session);
     scene_destroy(r.loader.scene);
-    if (!done) {
+    if (!done)
         fprintf(stderr, "glssao-render: %s\n", r.error);
-    }
     return done ? EXIT_DONE : EXIT_NOT_RENDERED;
 }

@@ -42,9 +42,8 @@ static options_result parse(int argc, char **argv, options_program program, opti
                      .blur_rounds = -1,
                      .cache_mib = 1024};
     const option_set set = options_set(program);
-    if (!option_parse(&set, argc, argv, out, error, error_size)) {
+    if (!option_parse(&set, argc, argv, out, error, error_size))
         return OPTIONS_WRONG;
-    }
     if (out->help) {
         print_help(program);
         return OPTIONS_DONE;
@@ -55,12 +54,10 @@ static options_result parse(int argc, char **argv, options_program program, opti
                GLSSAO_VERSION_MAJOR, GLSSAO_VERSION_MINOR, GLSSAO_VERSION_PATCH, v >> 16, v >> 8 & 255, v & 255);
         return OPTIONS_DONE;
     }
-    if (!options_check(out, program, error, error_size)) {
+    if (!options_check(out, program, error, error_size))
         return OPTIONS_WRONG;
-    }
-    if (!out->scene_path && !out->scene_name) {
+    if (!out->scene_path && !out->scene_name)
         out->scene_name = "columns";
-    }
     return OPTIONS_RUN;
 }
 
@@ -79,9 +76,8 @@ bool options_parse_job(const options *defaults, int argc, char **argv, options *
     *out = *defaults;
     out->scene_path = out->scene_name = NULL;
     const option_set set = options_set(OPTIONS_JOB);
-    if (!option_parse(&set, argc, argv, out, error, error_size)) {
+    if (!option_parse(&set, argc, argv, out, error, error_size))
         return false;
-    }
     if (!out->scene_path && !out->scene_name) {
         out->scene_path = defaults->scene_path;
         out->scene_name = defaults->scene_name;

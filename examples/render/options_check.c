@@ -35,13 +35,11 @@ static bool check_samples(const options *o, char *error, size_t error_size)
 {
     char fault[256];
     glssao_settings settings = {.sample_count = o->sample_count};
-    if (o->set) {
+    if (o->set)
         setting_apply(o->set, &settings, fault, sizeof fault);
-    }
     const int count = settings.sample_count, most = o->technique == GLSSAO_CLASSIC ? 14 : 64;
-    if (count == 0 || o->technique == OPTIONS_RAYTRACE) {
+    if (count == 0 || o->technique == OPTIONS_RAYTRACE)
         return true;
-    }
     if (o->technique == GLSSAO_HORIZON && !is_horizon_count(count)) {
         snprintf(error, error_size, "--samples \"%d\": horizon takes 12, 16, 24, 32, 48 or 64", count);
         return false;
@@ -120,9 +118,8 @@ static bool check_settings(const options *o, char *error, size_t error_size)
 {
     char fault[256];
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
-    if (!o->set || setting_apply(o->set, &settings, fault, sizeof fault)) {
+    if (!o->set || setting_apply(o->set, &settings, fault, sizeof fault))
         return true;
-    }
     snprintf(error, error_size, "--set %s", fault);
     return false;
 }
@@ -130,9 +127,8 @@ static bool check_settings(const options *o, char *error, size_t error_size)
 bool options_check(const options *o, options_program program, char *error, size_t error_size)
 {
     if (program == OPTIONS_RENDER && o->batch) { /* the jobs are checked, each with what it has of these options */
-        if (o->bench) {
+        if (o->bench)
             snprintf(error, error_size, "--batch and --bench %d exclude each other", o->bench);
-        }
         return !o->bench && check_settings(o, error, error_size);
     }
     if (o->shard_count && program == OPTIONS_RENDER) {

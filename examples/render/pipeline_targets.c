@@ -60,29 +60,25 @@ void pipeline_free_targets(pipeline *p)
     gl.DeleteTextures(PIXEL_KIND_COUNT, p->maps);
     p->depth_framebuffer = p->color_framebuffer = p->layer_framebuffer = p->depth = p->color = 0;
     p->layers[0] = p->layers[1] = 0;
-    for (int i = 0; i < PIXEL_KIND_COUNT; i++) {
+    for (int i = 0; i < PIXEL_KIND_COUNT; i++)
         p->maps[i] = p->map_framebuffers[i] = 0;
-    }
     map_view_free(p);
 }
 
 bool pipeline_make_targets(pipeline *p, char *error, size_t error_size)
 {
     bool complete = true;
-    if (!p->depth) {
+    if (!p->depth)
         p->depth = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, p->width, p->height);
-    }
-    if (p->wants.prepass && !p->depth_framebuffer) {
+    if (p->wants.prepass && !p->depth_framebuffer)
         complete = make_framebuffer(0, p->depth, &p->depth_framebuffer);
-    }
     if (p->wants.picture && !p->color) {
         p->color = make_texture(GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, p->width, p->height);
         complete = make_framebuffer(p->color, p->depth, &p->color_framebuffer) && complete;
     }
     if (p->draw_options.layers && !p->layer_framebuffer) {
-        for (int i = 0; i < 2; i++) {
+        for (int i = 0; i < 2; i++)
             p->layers[i] = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, p->width, p->height);
-        }
         complete = make_framebuffer(0, p->layers[0], &p->layer_framebuffer) && complete;
     }
     const GLenum gl_error = gl.GetError();
@@ -115,13 +111,11 @@ GLuint pipeline_map_framebuffer(pipeline *p, pixel_kind kind)
 
 bool pipeline_change_size(pipeline *p, int width, int height, char *error, size_t error_size)
 {
-    if (!check_size(width, height, error, error_size)) {
+    if (!check_size(width, height, error, error_size))
         return false;
-    }
     const glssao_result result = p->kept ? glssao_resize(p->kept, width, height) : GLSSAO_OK;
-    if (!pipeline_check(result, "glssao_resize", error, error_size)) {
+    if (!pipeline_check(result, "glssao_resize", error, error_size))
         return false;
-    }
     pipeline_free_targets(p);
     p->width = width;
     p->height = height;

@@ -22,9 +22,8 @@ void stopwatch_start(stopwatch *w)
 
 void stopwatch_lap(stopwatch *w, phase p)
 {
-    if (w->finish) {
+    if (w->finish)
         gl.Finish();
-    }
     const double now = clock_wall_ms();
     w->ms[p] += now - w->last_ms;
     w->last_ms = now;
@@ -34,14 +33,12 @@ bool bench_create(bench *b, int frames)
 {
     *b = (bench){.frames = frames};
     double *values = calloc((size_t)frames * (2 + GLSSAO_PASS_COUNT), sizeof *values);
-    if (!values) {
+    if (!values)
         return false;
-    }
     b->frame_ms = values;
     b->cpu_ms = values + frames;
-    for (int i = 0; i < GLSSAO_PASS_COUNT; i++) {
+    for (int i = 0; i < GLSSAO_PASS_COUNT; i++)
         b->gpu_ms[i] = values + (ptrdiff_t)frames * (2 + i);
-    }
     return true;
 }
 
@@ -55,9 +52,8 @@ void bench_record(bench *b, double frame_ms, double cpu_ms, const glssao_stats *
 {
     b->frame_ms[b->recorded] = frame_ms;
     b->cpu_ms[b->recorded] = cpu_ms;
-    for (int i = 0; i < GLSSAO_PASS_COUNT; i++) {
+    for (int i = 0; i < GLSSAO_PASS_COUNT; i++)
         b->gpu_ms[i][b->recorded] = stats->passes[i].gpu_ms;
-    }
     b->recorded++;
 }
 
@@ -71,9 +67,8 @@ void bench_print(const bench *b, const glssao_stats *stats, bool cpu)
 {
     printf("%d frames\n", b->recorded);
     print_times("frame", b->frame_ms, b->recorded);
-    if (cpu) {
+    if (cpu)
         print_times("frame, CPU", b->cpu_ms, b->recorded);
-    }
     for (int i = 0; i < GLSSAO_PASS_COUNT; i++) {
         if (stats->passes[i].draw_calls > 0 && statistics_percentile(b->gpu_ms[i], b->recorded, 50) >= 0) {
             char name[64];
@@ -91,11 +86,9 @@ static int utf8_length(const unsigned char *text)
                        : text[0] >= 0xe0 && text[0] < 0xf0 ? 3
                        : text[0] >= 0xf0 && text[0] < 0xf5 ? 4
                                                            : 0;
-    for (int i = 1; i < length; i++) {
-        if ((text[i] & 0xc0) != 0x80) {
+    for (int i = 1; i < length; i++)
+        if ((text[i] & 0xc0) != 0x80)
             return 0;
-        }
-    }
     return length;
 }
 
@@ -105,15 +98,14 @@ static void print_string(FILE *f, const char *text)
     fputc('"', f);
     while (*at) {
         const int length = utf8_length(at);
-        if (length == 0) {
+        if (length == 0)
             fputs("\\ufffd", f);
-        } else if (*at == '"' || *at == '\\') {
+        else if (*at == '"' || *at == '\\')
             fprintf(f, "\\%c", *at);
-        } else if (*at < 0x20) {
+        else if (*at < 0x20)
             fprintf(f, "\\u%04x", *at);
-        } else {
+        else
             fwrite(at, 1, (size_t)length, f);
-        }
         at += length ? length : 1;
     }
     fputc('"', f);
@@ -129,11 +121,10 @@ static void print_field(FILE *f, const char *name, const char *text)
 /* `name`: null where it is negative, that is, not measured. */
 static void print_ms(FILE *f, const char *name, double ms)
 {
-    if (ms < 0) {
+    if (ms < 0)
         fprintf(f, "\"%s\": null", name);
-    } else {
+    else
         fprintf(f, "\"%s\": %.3f", name, ms);
-    }
 }
 
 static void print_scene(FILE *f, const scene *s)
@@ -213,9 +204,8 @@ bool report_write(const report *r, const char *path, char *error, size_t error_s
     static const char *const phase_names[PHASE_COUNT] = {"load", "context", "setup",    "prepass",
                                                          "ao",   "main",    "readback", "encode"};
     whole_file file;
-    if (!whole_file_open(&file, path, error, error_size)) {
+    if (!whole_file_open(&file, path, error, error_size))
         return false;
-    }
     FILE *f = file.file;
     const uint32_t v = glssao_version();
     fprintf(f, "{\n  \"program\": \"glssao-render %d.%d.%d\",\n  \"library\": \"%u.%u.%u\",\n", GLSSAO_VERSION_MAJOR,
@@ -224,19 +214,17 @@ bool report_write(const report *r, const char *path, char *error, size_t error_s
     print_scene(f, r->scene);
     fprintf(f, "  \"width\": %d,\n  \"height\": %d,\n  \"frames\": %d,\n", r->options->width, r->options->height,
             r->frames);
-    if (r->traced) {
+    if (r->traced)
         print_traced(f, r);
-    } else {
+    else
         print_settings(f, r);
-    }
     print_passes(f, r);
     if (r->reached) {
         fprintf(f, "  \"estimates\": %d,\n  \"sampling_error\": %.6g,\n", r->reached->estimates,
                 r->reached->sampling_error);
     }
-    if (r->bench) {
+    if (r->bench)
         print_bench(f, r->bench);
-    }
     fputs("  \"ms\": {", f);
     for (int i = 0; i < PHASE_COUNT; i++) {
         print_ms(f, phase_names[i], r->times->ms[i]);
@@ -247,8 +235,7 @@ bool report_write(const report *r, const char *path, char *error, size_t error_s
     print_ms(f, "cpu", r->cpu_ms);
     fputs("}\n}\n", f);
     const bool written = !ferror(f);
-    if (!written) {
+    if (!written)
         snprintf(error, error_size, "%s: it could not be written in full", path);
-    }
     return whole_file_close(&file, written, error, error_size);
 }

@@ -14,9 +14,8 @@ enum { WARM_UP_FRAMES = 3 };
 bool session_open(session *s, const options *o, char *error, size_t error_size)
 {
     s->context = context_create(&(context_options){.kind = (context_kind)o->context}, error, error_size);
-    if (!s->context || !gl_load(context_load, s->context, error, error_size)) {
+    if (!s->context || !gl_load(context_load, s->context, error, error_size))
         return false;
-    }
     s->writer = writer_create();
     s->readback = s->writer ? readback_create(s->writer) : NULL;
     if (!s->readback) {
@@ -32,9 +31,8 @@ void session_close(session *s)
     readback_destroy(s->readback);
     writer_destroy(s->writer);
     bench_destroy(&s->bench);
-    if (s->readback) { /* then GL is there */
+    if (s->readback) /* then GL is there */
         pipeline_destroy(&s->pipeline);
-    }
     context_destroy(s->context);
     *s = (session){.context = NULL};
 }
@@ -57,9 +55,8 @@ static pipeline_wants choose_wants(const options *o)
 static bool find_view(session *s, float angle_rad, scene_view *out_view, char *error, size_t error_size)
 {
     const options *o = s->options;
-    if (!viewpoint_view(&s->viewpoint, s->scene, angle_rad, o->width, o->height, out_view, error, error_size)) {
+    if (!viewpoint_view(&s->viewpoint, s->scene, angle_rad, o->width, o->height, out_view, error, error_size))
         return false;
-    }
     *out_view = camera_widened_view(out_view, o->margin);
     return true;
 }
@@ -75,33 +72,28 @@ bool session_begin(session *s, const options *o, stage *st, char *error, size_t 
     }
     scene_view view;
     stopwatch_start(&s->times);
-    if (!viewpoint_choose(o, s->scene, &s->viewpoint, error, error_size) ||
-        !find_view(s, 0, &view, error, error_size)) {
+    if (!viewpoint_choose(o, s->scene, &s->viewpoint, error, error_size) || !find_view(s, 0, &view, error, error_size))
         return false;
-    }
     if (!pipeline_prepare(&s->pipeline, st, context_load, s->context, o, choose_wants(o), error, error_size)) {
         pipeline_destroy(&s->pipeline);
         return false;
     }
     stopwatch_lap(&s->times, PHASE_SETUP);
-    if (o->plan) {
+    if (o->plan)
         pipeline_print_plan(&s->pipeline, &view);
-    }
     return true;
 }
 
 static bool draw(session *s, float angle_rad, scene_view *out_view, char *error, size_t error_size)
 {
-    if (!find_view(s, angle_rad, out_view, error, error_size)) {
+    if (!find_view(s, angle_rad, out_view, error, error_size))
         return false;
-    }
     if (!pipeline_draw(&s->pipeline, out_view, &s->times, error, error_size)) {
         pipeline_destroy(&s->pipeline);
         return false;
     }
-    if (s->pipeline.reached.estimates > 0) {
+    if (s->pipeline.reached.estimates > 0)
         progressive_print(&s->pipeline.reached, &s->pipeline.goal);
-    }
     return true;
 }
 
@@ -119,15 +111,13 @@ bool session_bench(session *s, char *error, size_t error_size)
     for (int i = -WARM_UP_FRAMES; i < frames; i++) {
         scene_view view;
         const double wall = clock_wall_ms(), cpu = clock_cpu_ms();
-        if (!draw(s, 0, &view, error, error_size)) {
+        if (!draw(s, 0, &view, error, error_size))
             return false;
-        }
         gl.Finish();
         const double wall_ms = clock_wall_ms() - wall, cpu_ms = clock_cpu_ms() - cpu;
         stats = glssao_get_stats(s->pipeline.effect);
-        if (i >= 0) {
+        if (i >= 0)
             bench_record(&s->bench, wall_ms, cpu_ms, &stats);
-        }
     }
     *times = before;
     bench_print(&s->bench, &stats, context_is_software(s->context));
@@ -144,22 +134,18 @@ bool session_draw(session *s, bool shows_progress, writer_slip *slip, char *erro
         scene_view view;
         stopwatch_start(&s->times);
         if (!draw(s, full_turn * (float)i / (float)count, &view, error, error_size) ||
-            !outputs_take(o, &s->pipeline, &view, o->frames ? i + 1 : 0, s->readback, slip, error, error_size)) {
+            !outputs_take(o, &s->pipeline, &view, o->frames ? i + 1 : 0, s->readback, slip, error, error_size))
             return false;
-        }
-        if (s->times.finish) { /* the phase is to hold all of it */
+        if (s->times.finish) /* the phase is to hold all of it */
             readback_drain(s->readback);
-        } else {
+        else
             readback_poll(s->readback);
-        }
         stopwatch_lap(&s->times, PHASE_READBACK);
         s->frames_drawn++;
-        if (writer_has_failed(s->writer, slip)) { /* the rest would fail too */
+        if (writer_has_failed(s->writer, slip)) /* the rest would fail too */
             return session_finish(s, slip, error, error_size);
-        }
-        if (shows_progress && o->frames) {
+        if (shows_progress && o->frames)
             progress_count(&shown, i + 1, count);
-        }
     }
     return true;
 }
@@ -169,9 +155,8 @@ bool session_finish(session *s, writer_slip *slip, char *error, size_t error_siz
     readback_drain(s->readback);
     const bool done = writer_wait(s->writer, slip);
     s->times.ms[PHASE_ENCODE] = slip->ms;
-    if (!done) {
+    if (!done)
         snprintf(error, error_size, "%s", slip->error);
-    }
     return done;
 }
 

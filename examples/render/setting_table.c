@@ -61,16 +61,14 @@ static bool take(const setting *s, const char *text, size_t length, glssao_setti
         *(bool *)at = value >= 0 ? value > 0 : *(bool *)at;
         return value >= 0;
     }
-    if (length == 0 || length >= sizeof number || !strchr("-.0123456789", text[0])) {
+    if (length == 0 || length >= sizeof number || !strchr("-.0123456789", text[0]))
         return false;
-    }
     memcpy(number, text, length);
     number[length] = '\0';
     char *end;
     const double value = strtod(number, &end);
-    if (*end != '\0' || strpbrk(number, "xX") || !((float)value >= s->low && (float)value <= s->high)) {
+    if (*end != '\0' || strpbrk(number, "xX") || !((float)value >= s->low && (float)value <= s->high))
         return false;
-    }
     if (s->kind == SETTING_NUMBER) {
         *(float *)at = (float)value;
         return true;
@@ -84,11 +82,9 @@ bool setting_apply(const char *text, glssao_settings *settings, char *error, siz
     while (*text) {
         const size_t length = strcspn(text, ","), name_length = strcspn(text, "=,");
         const setting *found = NULL;
-        for (int i = 0; i < setting_count; i++) {
-            if (strlen(setting_table[i].name) == name_length && !memcmp(setting_table[i].name, text, name_length)) {
+        for (int i = 0; i < setting_count; i++)
+            if (strlen(setting_table[i].name) == name_length && !memcmp(setting_table[i].name, text, name_length))
                 found = &setting_table[i];
-            }
-        }
         if (!found || text[name_length] != '=') {
             snprintf(error, error_size, "\"%.*s\": no setting of that name; NAME=VALUE is wanted", (int)length, text);
             return false;
@@ -115,23 +111,20 @@ bool setting_differences(const glssao_settings *from, const glssao_settings *to,
     for (int i = 0; i < setting_count; i++) {
         const setting *s = &setting_table[i];
         const void *at = (const char *)to + s->offset;
-        if (is_same(s, from, to)) {
+        if (is_same(s, from, to))
             continue;
-        }
         char value[64];
-        if (s->kind == SETTING_NUMBER) {
+        if (s->kind == SETTING_NUMBER)
             snprintf(value, sizeof value, "%.9g", (double)*(const float *)at);
-        } else if (s->kind == SETTING_WHOLE) {
+        else if (s->kind == SETTING_WHOLE)
             snprintf(value, sizeof value, "%d", *(const int *)at);
-        } else if (s->kind == SETTING_SWITCH) {
+        else if (s->kind == SETTING_SWITCH)
             snprintf(value, sizeof value, "%s", *(const bool *)at ? "on" : "off");
-        } else {
+        else
             snprintf(value, sizeof value, "%s", words_at(s->words, *(const int *)at).text);
-        }
         const int written = snprintf(out + used, out_size - used, "%s%s=%s", used ? "," : "", s->name, value);
-        if (written < 0 || (size_t)written >= out_size - used) {
+        if (written < 0 || (size_t)written >= out_size - used)
             return false;
-        }
         used += (size_t)written;
     }
     return true;
@@ -140,10 +133,8 @@ bool setting_differences(const glssao_settings *from, const glssao_settings *to,
 void setting_scale_radius(glssao_settings *settings, float radius)
 {
     const float scale = radius > 0 && settings->radius > 0 ? radius / settings->radius : 1;
-    for (int i = 0; i < setting_count; i++) {
-        if (setting_table[i].length) {
+    for (int i = 0; i < setting_count; i++)
+        if (setting_table[i].length)
             *(float *)((char *)settings + setting_table[i].offset) *= scale;
-        }
-    }
     settings->radius = radius;
 }

@@ -6,9 +6,8 @@
 
 scene *stage_load_scene(const options *o, char *error, size_t error_size)
 {
-    if (!o->scene_path) {
+    if (!o->scene_path)
         return scene_make(o->scene_name, error, error_size);
-    }
     return o->time_s.given ? scene_load_at(o->scene_path, (double)o->time_s.value, error, error_size)
                            : scene_load(o->scene_path, error, error_size);
 }
@@ -35,8 +34,7 @@ void stage_close(stage *st)
 
 bool stage_trace(stage *st, char *error, size_t error_size)
 {
-    if (!st->traced) {
+    if (!st->traced)
         st->traced = trace_scene_create(st->scene, error, error_size);
-    }
     return st->traced;
 }

@@ -41,9 +41,8 @@ struct stage_cache {
 stage_cache *stage_cache_create(size_t most_bytes)
 {
     stage_cache *c = calloc(1, sizeof *c);
-    if (c) {
+    if (c)
         c->most_bytes = most_bytes;
-    }
     return c;
 }
 
@@ -52,9 +51,8 @@ static key make_key(const options *o)
 {
     key k = {
         .name = strdup(o->scene_path ? o->scene_path : o->scene_name), .is_file = o->scene_path, .time_s = o->time_s};
-    if (k.is_file && stat(o->scene_path, &k.status) != 0) {
+    if (k.is_file && stat(o->scene_path, &k.status) != 0)
         memset(&k.status, 0, sizeof k.status); /* loading will say what is wrong */
-    }
     return k;
 }
 
@@ -104,9 +102,8 @@ static void drop_loading(loading *l)
 static entry **find(stage_cache *c, const key *k)
 {
     entry **at = &c->first;
-    while (*at && !is_same(&(*at)->key, k)) {
+    while (*at && !is_same(&(*at)->key, k))
         at = &(*at)->next;
-    }
     return at;
 }
 
@@ -121,9 +118,8 @@ bool stage_cache_load_ahead(stage_cache *c, const options *o)
     l->used = true;
     l->key = k;
     l->running = pthread_create(&l->thread, NULL, load, l) == 0;
-    if (!l->running) { /* no more threads: when it is asked for */
+    if (!l->running) /* no more threads: when it is asked for */
         drop_loading(l);
-    }
     return l->used;
 }
 
@@ -132,9 +128,8 @@ static scene *load_scene(stage_cache *c, key *k, char *error, size_t error_size)
 {
     loading *ahead = &c->ahead, here = {.key = *k};
     if (ahead->used && !is_same(&ahead->key, k) && strcmp(ahead->key.name, k->name) == 0 &&
-        is_same_time(&ahead->key, k)) {
+        is_same_time(&ahead->key, k))
         drop_loading(ahead); /* the file has changed since */
-    }
     loading *l = ahead->used && is_same(&ahead->key, k) ? ahead : &here;
     if (l == ahead) {
         finish_loading(l);
@@ -168,9 +163,8 @@ static size_t count_bytes(const entry *e)
     const size_t geometry = s->vertex_count * (sizeof *s->vertices + (s->tangents ? sizeof *s->tangents : 0)) +
                             s->index_count * sizeof *s->indices + s->instance_count * sizeof *s->instances;
     size_t images = 0;
-    for (uint32_t i = 0; i < s->image_count; i++) {
+    for (uint32_t i = 0; i < s->image_count; i++)
         images += (size_t)s->images[i].width * (size_t)s->images[i].height * 4;
-    }
     int shadow_size = 0;
     scene_shadow_map(e->stage.renderer, &shadow_size);
     return geometry * (e->stage.traced ? 4 : 2) + images * 7 / 3 + (size_t)shadow_size * (size_t)shadow_size * 4;
@@ -203,18 +197,16 @@ stage *stage_cache_get(stage_cache *c, const options *o, char *error, size_t err
     } else {
         scene *s = k.name ? load_scene(c, &k, error, error_size) : NULL;
         if (!s) {
-            if (!k.name) {
+            if (!k.name)
                 snprintf(error, error_size, "out of memory");
-            }
             return NULL;
         }
         e = calloc(1, sizeof *e);
         if (!e || !stage_open(&e->stage, s, c->first ? &c->first->stage : NULL, error, error_size)) {
-            if (e) {
+            if (e)
                 stage_close(&e->stage);
-            } else {
+            else
                 snprintf(error, error_size, "out of memory");
-            }
             free(e);
             scene_destroy(s);
             free(k.name);
@@ -231,9 +223,8 @@ stage *stage_cache_get(stage_cache *c, const options *o, char *error, size_t err
 
 void stage_cache_destroy(stage_cache *c)
 {
-    if (!c) {
+    if (!c)
         return;
-    }
     drop_loading(&c->ahead);
     while (c->first) {
         entry *e = c->first;

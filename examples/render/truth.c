@@ -11,9 +11,8 @@ bool truth_open(truth *t, const trace_scene *s, int width, int height, char *err
 {
     t->scene = s;
     t->stats = (trace_stats){0};
-    if (t->map && t->width == width && t->height == height) {
+    if (t->map && t->width == width && t->height == height)
         return true;
-    }
     truth_close(t);
     *t = (truth){.scene = s, .width = width, .height = height};
     t->accessibility = malloc((size_t)width * (size_t)height * sizeof *t->accessibility);
@@ -31,9 +30,8 @@ bool truth_open(truth *t, const trace_scene *s, int width, int height, char *err
 
 void truth_close(truth *t)
 {
-    if (t->map) {
+    if (t->map)
         gl.DeleteTextures(1, &t->map);
-    }
     free(t->accessibility);
     *t = (truth){0};
 }
@@ -48,16 +46,14 @@ bool truth_trace(truth *t, const scene_view *view, const glssao_settings *settin
                                    .progress = progress_share,
                                    .progress_user = &bar};
     trace_stats stats;
-    if (!trace_accessibility(t->scene, view, &options, t->accessibility, NULL, &stats, error, error_size)) {
+    if (!trace_accessibility(t->scene, view, &options, t->accessibility, NULL, &stats, error, error_size))
         return false;
-    }
     progress_clear();
     t->stats.rays += stats.rays;
     t->stats.seconds += stats.seconds;
     const size_t count = (size_t)t->width * (size_t)t->height;
-    for (size_t i = 0; settings->power != 1 && i < count; i++) {
+    for (size_t i = 0; settings->power != 1 && i < count; i++)
         t->accessibility[i] = powf(t->accessibility[i], settings->power);
-    }
     gl.BindTexture(GL_TEXTURE_2D, t->map);
     gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, t->width, t->height, 0, GL_RED, GL_FLOAT, t->accessibility);
     gl.BindTexture(GL_TEXTURE_2D, 0);

@@ -21,9 +21,8 @@ static void from_scene_camera(const scene_camera *c, const scene *s, viewpoint *
         const float middle = 0.5f * s->bounds_min[i] + 0.5f * s->bounds_max[i];
         distance += (middle - m[12 + i]) * (-m[8 + i] / length);
     }
-    if (!(distance > 0)) {
+    if (!(distance > 0))
         distance = 1;
-    }
     for (int i = 0; i < 3; i++) {
         out->base.eye[i] = m[12 + i];
         out->base.target[i] = m[12 + i] - m[8 + i] / length * distance;
@@ -43,27 +42,23 @@ bool viewpoint_choose(const options *o, const scene *s, viewpoint *out, char *er
                  s->camera_count == 1 ? "" : "s");
         return false;
     }
-    if (s->camera_count > 0) {
+    if (s->camera_count > 0)
         from_scene_camera(&s->cameras[o->camera > 0 ? o->camera - 1 : 0], s, out);
-    } else {
+    else
         out->base = camera_frame_scene(s, (float)o->width / (float)o->height);
-    }
     const struct {
         const option_vector *from;
         float *to;
     } vectors[] = {{&o->eye, out->base.eye}, {&o->target, out->base.target}, {&o->up, out->base.up}};
-    for (size_t i = 0; i < sizeof vectors / sizeof vectors[0]; i++) {
-        if (vectors[i].from->given) {
+    for (size_t i = 0; i < sizeof vectors / sizeof vectors[0]; i++)
+        if (vectors[i].from->given)
             memcpy(vectors[i].to, vectors[i].from->value, sizeof vectors[i].from->value);
-        }
-    }
     if (o->fov_deg.given) {
         out->base.fov_y_rad = o->fov_deg.value * rad_per_deg;
         out->half_height = 0;
     }
-    if (o->eye.given || o->target.given || o->fov_deg.given) {
+    if (o->eye.given || o->target.given || o->fov_deg.given)
         out->clip_near = out->clip_far = 0; /* the file's planes belong to the file's view */
-    }
     return true;
 }
 
@@ -77,12 +72,10 @@ static void fit_planes(const viewpoint *v, const scene *s, camera *c)
         c->near_plane = near_plane;
         c->far_plane = far_plane;
     }
-    if (v->near_plane.given) {
+    if (v->near_plane.given)
         c->near_plane = v->near_plane.value;
-    }
-    if (v->far_plane.given) {
+    if (v->far_plane.given)
         c->far_plane = v->far_plane.value;
-    }
 }
 
 /* clip_from_view, column-major, as glOrtho defines it for a frustum about the axis. */
@@ -101,9 +94,8 @@ bool viewpoint_view(const viewpoint *v, const scene *s, float angle_rad, int wid
 {
     camera c = angle_rad == 0 ? v->base : camera_turned(&v->base, angle_rad);
     fit_planes(v, s, &c);
-    if (!camera_check(&c, error, error_size)) {
+    if (!camera_check(&c, error, error_size))
         return false;
-    }
     *out = camera_view(&c, width, height);
     if (v->half_height > 0) {
         orthographic(v->half_height * (float)width / (float)height, v->half_height, c.near_plane, c.far_plane,
