@@ -20,6 +20,9 @@ typedef struct fault {
     bool set; /* the first fault stays; later ones are its consequences */
 } fault;
 
+/* A fault that goes into an array of characters, for a call: work(FAULT(error)). */
+#define FAULT(array) (&(fault){.text = (array), .size = sizeof(array)})
+
 /* Writes "file: message" and returns false: `return fault_set(f, "...");`. */
 #ifdef __GNUC__
 __attribute__((format(printf, 2, 3)))

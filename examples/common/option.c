@@ -140,20 +140,19 @@ static const option *find(const option_set *set, const char *argument, const cha
 }
 
 /* One option with its value, which may be the next argument; *at moves past what was read. */
-static bool parse_option(const option_set *set, int argc, char **argv, int *at, void *out, char *error,
-                         size_t error_size)
+static bool parse_option(const option_set *set, int argc, char **argv, int *at, void *out, fault *why)
 {
     const char *argument = argv[(*at)++], *rest;
     const option *o = find(set, argument, &rest);
     const char *value = *rest ? rest + (argument[1] == '-') : NULL;
     if (!o)
-        snprintf(error, error_size, "unknown option %s", argument);
+        fault_set(why, "unknown option %s", argument);
     else if (refusal(set, o))
-        snprintf(error, error_size, "--%s: %s", o->name, refusal(set, o));
+        fault_set(why, "--%s: %s", o->name, refusal(set, o));
     else if (o->kind == OPTION_FLAG && value)
-        snprintf(error, error_size, "--%s takes no value, but got \"%s\"", o->name, value);
+        fault_set(why, "--%s takes no value, but got \"%s\"", o->name, value);
     else if (o->kind != OPTION_FLAG && !value && *at >= argc)
-        snprintf(error, error_size, "--%s: its value %s is missing", o->name, o->value);
+        fault_set(why, "--%s: its value %s is missing", o->name, o->value);
     else {
         value = value || o->kind == OPTION_FLAG ? value : argv[(*at)++];
         if (take(o, value, out))
@@ -162,12 +161,12 @@ static bool parse_option(const option_set *set, int argc, char **argv, int *at, 
                            : o->kind == OPTION_FILE               ? "a file name"
                            : o->kind == OPTION_WORD               ? "one of "
                                                                   : "";
-        snprintf(error, error_size, "--%s \"%s\": must be %s%s", o->name, value, form, o->wanted);
+        fault_set(why, "--%s \"%s\": must be %s%s", o->name, value, form, o->wanted);
     }
     return false;
 }
 
-bool option_parse(const option_set *set, int argc, char **argv, void *out, char *error, size_t error_size)
+bool option_parse(const option_set *set, int argc, char **argv, void *out, fault *why)
 {
     bool options_end = false;
     for (int at = 1; at < argc;) {
@@ -176,14 +175,12 @@ bool option_parse(const option_set *set, int argc, char **argv, void *out, char 
             options_end = true;
             at++;
         } else if (!options_end && argv[at][0] == '-' && argv[at][1] != '\0') {
-            if (!parse_option(set, argc, argv, &at, out, error, error_size))
+            if (!parse_option(set, argc, argv, &at, out, why))
                 return false;
         } else if (!set->operand) {
-            snprintf(error, error_size, "%s is no option", argv[at]);
-            return false;
+            return fault_set(why, "%s is no option", argv[at]);
         } else if (*operand) {
-            snprintf(error, error_size, "two %s files, %s and %s", set->operand, *operand, argv[at]);
-            return false;
+            return fault_set(why, "two %s files, %s and %s", set->operand, *operand, argv[at]);
         } else {
             *operand = argv[at++];
         }

@@ -6,6 +6,8 @@
 #ifndef GLSSAO_EXAMPLES_OPTION_H
 #define GLSSAO_EXAMPLES_OPTION_H
 
+#include "fault.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -55,8 +57,8 @@ typedef struct option_set {
 } option_set;
 
 /* Sets what the arguments from argv[1] on say in the structure at `out`; its strings live as long as argv. False, with
- * one line in `error` that names the option and the value. */
-bool option_parse(const option_set *set, int argc, char **argv, void *out, char *error, size_t error_size);
+ * one line in `why` that names the option and the value. */
+bool option_parse(const option_set *set, int argc, char **argv, void *out, fault *why);
 
 /* Prints a line to stdout for each option that is not refused. */
 void option_print(const option_set *set);

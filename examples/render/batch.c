@@ -109,20 +109,20 @@ static bool draw_job(batch *b, size_t index, flight *f)
     const options *o = &b->list.jobs[index].options;
     const double start_ms = clock_wall_ms(), start_cpu_ms = clock_cpu_ms();
     s->times = (stopwatch){.last_ms = start_ms};
-    stage *st = stage_cache_get(b->stages, o, f->error, sizeof f->error); /* first: it may have been loaded ahead */
-    if (!st || !outputs_check(o, f->error, sizeof f->error))
+    stage *st = stage_cache_get(b->stages, o, FAULT(f->error)); /* first: it may have been loaded ahead */
+    if (!st || !outputs_check(o, FAULT(f->error)))
         return false;
     stopwatch_lap(&s->times, PHASE_LOAD);
     load_ahead(b, index + 1);
     if (o->plan)
         printf("%s:%d:\n", list_name(b), f->job->line);
-    if (!session_begin(s, o, st, f->error, sizeof f->error))
+    if (!session_begin(s, o, st, FAULT(f->error)))
         return false;
     const bool wants_frame = o->output || o->ao || o->normals || o->depth || o->stats;
-    if (wants_frame && !session_draw(s, false, &f->slip, f->error, sizeof f->error))
+    if (wants_frame && !session_draw(s, false, &f->slip, FAULT(f->error)))
         return false;
-    return !o->stats || (session_finish(s, &f->slip, f->error, sizeof f->error) &&
-                         session_write_stats(s, start_ms, start_cpu_ms, f->error, sizeof f->error));
+    return !o->stats || (session_finish(s, &f->slip, FAULT(f->error)) &&
+                         session_write_stats(s, start_ms, start_cpu_ms, FAULT(f->error)));
 }
 
 static void print_summary(const batch *b, double start_ms)
@@ -136,19 +136,18 @@ static void print_summary(const batch *b, double start_ms)
             shard, b->done, b->mine, b->failed, b->pictures, seconds, seconds > 0 ? (double)b->pictures / seconds : 0);
 }
 
-/* False, with one line in `error`, where none can be drawn. */
-static bool run(batch *b, char *error, size_t error_size)
+/* False, with one line in `why`, where none can be drawn. */
+static bool run(batch *b, fault *why)
 {
-    if (!batch_list_read(&b->list, b->options, error, error_size))
+    if (!batch_list_read(&b->list, b->options, why))
         return false;
     for (size_t i = 0; i < b->list.count; i++)
         b->mine += is_mine(b, i);
-    if (b->mine && !session_open(&b->session, b->options, error, error_size))
+    if (b->mine && !session_open(&b->session, b->options, why))
         return false;
     b->stages = stage_cache_create((size_t)b->options->cache_mib << 20);
     if (!b->stages) {
-        snprintf(error, error_size, "out of memory");
-        return false;
+        return fault_set(why, "out of memory");
     }
     b->shown = progress_start("job");
     int drawn = 0;
@@ -174,7 +173,7 @@ bool batch_run(const options *o)
     char error[ERROR_LENGTH];
     static batch b; /* large, and zero */
     b.options = o;
-    const bool ran = run(&b, error, sizeof error);
+    const bool ran = run(&b, FAULT(error));
     stage_cache_destroy(b.stages);
     session_close(&b.session);
     if (ran)

@@ -83,16 +83,16 @@ static char *read_text(const char *path, size_t *out_size, const char **out_reas
 static bool add_job(batch_list *list, const options *defaults, int number, char *line)
 {
     char error[8192];
-    const char *fault = NULL;
+    const char *reason = NULL;
     batch_job job = {.line = number};
     char **words = malloc((strlen(line) / 2 + 3) * sizeof *words);
     if (!words)
         return false;
     words[0] = line; /* where a program's name would stand */
-    const int count = split_line(line, words + 1, &fault);
+    const int count = split_line(line, words + 1, &reason);
     if (count < 0)
-        job.error = strdup(fault);
-    else if (count > 0 && !options_parse_job(defaults, count + 1, words, &job.options, error, sizeof error))
+        job.error = strdup(reason);
+    else if (count > 0 && !options_parse_job(defaults, count + 1, words, &job.options, FAULT(error)))
         job.error = strdup(error);
     free(words);
     if (count == 0)
@@ -109,19 +109,17 @@ static bool add_job(batch_list *list, const options *defaults, int number, char 
     return true;
 }
 
-bool batch_list_read(batch_list *list, const options *defaults, char *error, size_t error_size)
+bool batch_list_read(batch_list *list, const options *defaults, fault *why)
 {
     size_t size = 0;
     *list = (batch_list){.count = 0};
     const char *reason;
     list->text = read_text(defaults->batch, &size, &reason);
     if (!list->text) {
-        snprintf(error, error_size, "%s: %s", defaults->batch, reason);
-        return false;
+        return fault_set(why, "%s: %s", defaults->batch, reason);
     }
     if (strlen(list->text) != size) {
-        snprintf(error, error_size, "%s: holds a byte of 0: it is no text", defaults->batch);
-        return false;
+        return fault_set(why, "%s: holds a byte of 0: it is no text", defaults->batch);
     }
     int number = 1;
     bool room = true;
@@ -133,8 +131,7 @@ bool batch_list_read(batch_list *list, const options *defaults, char *error, siz
         line = next;
     }
     if (!room || !batch_find_clashes(list)) {
-        snprintf(error, error_size, "%s: out of memory", defaults->batch);
-        return false;
+        return fault_set(why, "%s: out of memory", defaults->batch);
     }
     return true;
 }

@@ -32,8 +32,7 @@ static void print_help(options_program program)
                                    : "\nExit code: 0 done, 1 could not render (of a batch: all of it), 2 wrong usage.");
 }
 
-static options_result parse(int argc, char **argv, options_program program, options *out, char *error,
-                            size_t error_size)
+static options_result parse(int argc, char **argv, options_program program, options *out, fault *why)
 {
     *out = (options){.width = 1280,
                      .height = 720,
@@ -42,7 +41,7 @@ static options_result parse(int argc, char **argv, options_program program, opti
                      .blur_rounds = -1,
                      .cache_mib = 1024};
     const option_set set = options_set(program);
-    if (!option_parse(&set, argc, argv, out, error, error_size))
+    if (!option_parse(&set, argc, argv, out, why))
         return OPTIONS_WRONG;
     if (out->help) {
         print_help(program);
@@ -54,33 +53,33 @@ static options_result parse(int argc, char **argv, options_program program, opti
                GLSSAO_VERSION_MAJOR, GLSSAO_VERSION_MINOR, GLSSAO_VERSION_PATCH, v >> 16, v >> 8 & 255, v & 255);
         return OPTIONS_DONE;
     }
-    if (!options_check(out, program, error, error_size))
+    if (!options_check(out, program, why))
         return OPTIONS_WRONG;
     if (!out->scene_path && !out->scene_name)
         out->scene_name = "columns";
     return OPTIONS_RUN;
 }
 
-options_result options_parse(int argc, char **argv, options *out, char *error, size_t error_size)
+options_result options_parse(int argc, char **argv, options *out, fault *why)
 {
-    return parse(argc, argv, OPTIONS_RENDER, out, error, error_size);
+    return parse(argc, argv, OPTIONS_RENDER, out, why);
 }
 
-options_result options_parse_for_viewer(int argc, char **argv, options *out, char *error, size_t error_size)
+options_result options_parse_for_viewer(int argc, char **argv, options *out, fault *why)
 {
-    return parse(argc, argv, OPTIONS_VIEWER, out, error, error_size);
+    return parse(argc, argv, OPTIONS_VIEWER, out, why);
 }
 
-bool options_parse_job(const options *defaults, int argc, char **argv, options *out, char *error, size_t error_size)
+bool options_parse_job(const options *defaults, int argc, char **argv, options *out, fault *why)
 {
     *out = *defaults;
     out->scene_path = out->scene_name = NULL;
     const option_set set = options_set(OPTIONS_JOB);
-    if (!option_parse(&set, argc, argv, out, error, error_size))
+    if (!option_parse(&set, argc, argv, out, why))
         return false;
     if (!out->scene_path && !out->scene_name) {
         out->scene_path = defaults->scene_path;
         out->scene_name = defaults->scene_name;
     }
-    return options_check(out, OPTIONS_JOB, error, error_size);
+    return options_check(out, OPTIONS_JOB, why);
 }

@@ -6,6 +6,7 @@
 #define GLSSAO_EXAMPLES_OPTIONS_H
 
 #include "context.h"
+#include "fault.h"
 #include "option.h"
 
 #include <glssao/glssao.h>
@@ -57,15 +58,15 @@ typedef enum options_map {
 
 typedef enum options_result { OPTIONS_RUN, OPTIONS_DONE, OPTIONS_WRONG } options_result;
 
-/* OPTIONS_DONE: help or version was asked for and printed to stdout. OPTIONS_WRONG: one line in `error` names the
+/* OPTIONS_DONE: help or version was asked for and printed to stdout. OPTIONS_WRONG: one line in `why` names the
  * option and the value. The strings live as long as argv. */
-options_result options_parse(int argc, char **argv, options *out, char *error, size_t error_size);
+options_result options_parse(int argc, char **argv, options *out, fault *why);
 
 /* One line of a batch, argv[0] left out, over `defaults`, the command line's: a scene on the line takes the place of
- * theirs. False, with one line in `error`. */
-bool options_parse_job(const options *defaults, int argc, char **argv, options *out, char *error, size_t error_size);
+ * theirs. False, with one line in `why`. */
+bool options_parse_job(const options *defaults, int argc, char **argv, options *out, fault *why);
 
 /* The same command line for glssao-view, which needs no output and takes none of the options that are about files. */
-options_result options_parse_for_viewer(int argc, char **argv, options *out, char *error, size_t error_size);
+options_result options_parse_for_viewer(int argc, char **argv, options *out, fault *why);
 
 #endif

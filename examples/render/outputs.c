@@ -45,7 +45,7 @@ static int writing_error(const char *path)
     return access(name, W_OK | X_OK) == 0 ? 0 : errno;
 }
 
-bool outputs_check(const options *o, char *error, size_t error_size)
+bool outputs_check(const options *o, fault *why)
 {
     const char *const files[] = {o->output, o->ao, o->normals, o->depth, o->stats};
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
@@ -56,15 +56,14 @@ bool outputs_check(const options *o, char *error, size_t error_size)
         const int code =
             number_path(files[i], numbered ? 1 : 0, path, sizeof path) ? writing_error(path) : ENAMETOOLONG;
         if (code) {
-            snprintf(error, error_size, "%s: can't be written: %s", files[i], strerror(code));
-            return false;
+            return fault_set(why, "%s: can't be written: %s", files[i], strerror(code));
         }
     }
     return true;
 }
 
 bool outputs_take(const options *o, pipeline *p, const scene_view *view, int number, readback *r, writer_slip *slip,
-                  char *error, size_t error_size)
+                  fault *why)
 {
     const pixel_kind ao_kind = o->ao && strcmp(strrchr(o->ao, '.'), ".pfm") == 0 ? PIXELS_FLOAT : PIXELS_GREY8;
     const struct {
@@ -80,7 +79,7 @@ bool outputs_take(const options *o, pipeline *p, const scene_view *view, int num
         if (!outputs[i].file)
             continue;
         number_path(outputs[i].file, number, path, sizeof path); /* outputs_check saw that it fits */
-        if (!readback_take(r, p, outputs[i].output, outputs[i].kind, view, path, slip, error, error_size))
+        if (!readback_take(r, p, outputs[i].output, outputs[i].kind, view, path, slip, why))
             return false;
     }
     return true;

@@ -32,7 +32,7 @@ static bool make_framebuffer(GLuint color, GLuint depth, GLuint *out)
     return gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
 }
 
-static bool check_size(int width, int height, char *error, size_t error_size)
+static bool check_size(int width, int height, fault *why)
 {
     GLint max_size = 0;
     GLint max_viewport[2] = {0, 0};
@@ -41,9 +41,7 @@ static bool check_size(int width, int height, char *error, size_t error_size)
     const int max_width = max_size < max_viewport[0] ? max_size : max_viewport[0];
     const int max_height = max_size < max_viewport[1] ? max_size : max_viewport[1];
     if (width > max_width || height > max_height) {
-        snprintf(error, error_size, "--size %dx%d: this context draws up to %dx%d", width, height, max_width,
-                 max_height);
-        return false;
+        return fault_set(why, "--size %dx%d: this context draws up to %dx%d", width, height, max_width, max_height);
     }
     return true;
 }
@@ -65,7 +63,7 @@ void pipeline_free_targets(pipeline *p)
     map_view_free(p);
 }
 
-bool pipeline_make_targets(pipeline *p, char *error, size_t error_size)
+bool pipeline_make_targets(pipeline *p, fault *why)
 {
     bool complete = true;
     if (!p->depth)
@@ -83,9 +81,8 @@ bool pipeline_make_targets(pipeline *p, char *error, size_t error_size)
     }
     const GLenum gl_error = gl.GetError();
     if (!complete || gl_error != GL_NO_ERROR) {
-        snprintf(error, error_size, "--size %dx%d: no framebuffer of that size (OpenGL error 0x%04x)", p->width,
-                 p->height, gl_error);
-        return false;
+        return fault_set(why, "--size %dx%d: no framebuffer of that size (OpenGL error 0x%04x)", p->width, p->height,
+                         gl_error);
     }
     return true;
 }
@@ -109,12 +106,12 @@ GLuint pipeline_map_framebuffer(pipeline *p, pixel_kind kind)
     return p->map_framebuffers[kind];
 }
 
-bool pipeline_change_size(pipeline *p, int width, int height, char *error, size_t error_size)
+bool pipeline_change_size(pipeline *p, int width, int height, fault *why)
 {
-    if (!check_size(width, height, error, error_size))
+    if (!check_size(width, height, why))
         return false;
     const glssao_result result = p->kept ? glssao_resize(p->kept, width, height) : GLSSAO_OK;
-    if (!pipeline_check(result, "glssao_resize", error, error_size))
+    if (!pipeline_check(result, "glssao_resize", why))
         return false;
     pipeline_free_targets(p);
     p->width = width;
@@ -122,7 +119,7 @@ bool pipeline_change_size(pipeline *p, int width, int height, char *error, size_
     return true;
 }
 
-bool pipeline_resize(pipeline *p, int width, int height, char *error, size_t error_size)
+bool pipeline_resize(pipeline *p, int width, int height, fault *why)
 {
-    return pipeline_change_size(p, width, height, error, error_size) && pipeline_make_targets(p, error, error_size);
+    return pipeline_change_size(p, width, height, why) && pipeline_make_targets(p, why);
 }

@@ -101,27 +101,21 @@ void readback_destroy(readback *r)
     free(r);
 }
 
-static bool fail(const char *path, const char *why, char *error, size_t error_size)
-{
-    snprintf(error, error_size, "%s: %s", path, why);
-    return false;
-}
-
-static bool check_gl(const char *path, char *error, size_t error_size)
+static bool check_gl(const char *path, fault *why)
 {
     const GLenum code = gl.GetError();
     if (code != GL_NO_ERROR)
-        snprintf(error, error_size, "%s: not written: OpenGL error 0x%04x while drawing", path, code);
+        fault_set(why, "%s: not written: OpenGL error 0x%04x while drawing", path, code);
     return code == GL_NO_ERROR;
 }
 
 /* What is in memory already. */
 static bool take_from_memory(readback *r, pipeline *p, pipeline_output output, pixel_kind kind, const char *path,
-                             writer_slip *slip, char *error, size_t error_size)
+                             writer_slip *slip, fault *why)
 {
     void *pixels = malloc(pipeline_output_size(p, kind));
     if (!pixels)
-        return fail(path, "out of memory for its pixels", error, error_size);
+        return fault_set(why, "%s: out of memory for its pixels", path);
     pipeline_read(p, output, kind, NULL, pixels);
     writer_expect(r->writer, slip);
     writer_submit(r->writer, slip, path, p->width - 2 * p->margin, p->height - 2 * p->margin, kind, pixels);
@@ -144,10 +138,10 @@ static bool start_reading(slot *s, pipeline *p, pipeline_output output, const sc
 }
 
 bool readback_take(readback *r, pipeline *p, pipeline_output output, pixel_kind kind, const scene_view *view,
-                   const char *path, writer_slip *slip, char *error, size_t error_size)
+                   const char *path, writer_slip *slip, fault *why)
 {
     if (pipeline_is_in_memory(p, output, kind))
-        return check_gl(path, error, error_size) && take_from_memory(r, p, output, kind, path, slip, error, error_size);
+        return check_gl(path, why) && take_from_memory(r, p, output, kind, path, slip, why);
     const size_t size = pipeline_output_size(p, kind);
     while (r->count == SLOT_COUNT || (r->count && r->bytes + size > most_bytes))
         wait_for_first(r);
@@ -155,7 +149,7 @@ bool readback_take(readback *r, pipeline *p, pipeline_output output, pixel_kind 
     const size_t path_size = strlen(path) + 1;
     s->path = malloc(path_size);
     if (!s->path)
-        return fail(path, "out of memory", error, error_size);
+        return fault_set(why, "%s: out of memory", path);
     memcpy(s->path, path, path_size);
     s->size = size;
     s->width = p->width - 2 * p->margin;
@@ -163,11 +157,11 @@ bool readback_take(readback *r, pipeline *p, pipeline_output output, pixel_kind 
     s->kind = kind;
     s->slip = slip;
     const bool read = start_reading(s, p, output, view);
-    if (!check_gl(path, error, error_size) || !read) {
+    if (!check_gl(path, why) || !read) {
         free(s->path);
         s->path = NULL;
         s->capacity = 0; /* whatever it holds */
-        return read ? false : fail(path, "no framebuffer to read it from", error, error_size);
+        return read ? false : fault_set(why, "%s: no framebuffer to read it from", path);
     }
     s->fence = gl.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     r->count++;

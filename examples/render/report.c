@@ -199,12 +199,12 @@ static void print_bench(FILE *f, const bench *b)
     fputs("},\n", f);
 }
 
-bool report_write(const report *r, const char *path, char *error, size_t error_size)
+bool report_write(const report *r, const char *path, fault *why)
 {
     static const char *const phase_names[PHASE_COUNT] = {"load", "context", "setup",    "prepass",
                                                          "ao",   "main",    "readback", "encode"};
     whole_file file;
-    if (!whole_file_open(&file, path, error, error_size))
+    if (!whole_file_open(&file, path, why->text, why->size))
         return false;
     FILE *f = file.file;
     const uint32_t v = glssao_version();
@@ -236,6 +236,6 @@ bool report_write(const report *r, const char *path, char *error, size_t error_s
     fputs("}\n}\n", f);
     const bool written = !ferror(f);
     if (!written)
-        snprintf(error, error_size, "%s: it could not be written in full", path);
-    return whole_file_close(&file, written, error, error_size);
+        fault_set(why, "%s: it could not be written in full", path);
+    return whole_file_close(&file, written, why->text, why->size);
 }

@@ -77,7 +77,7 @@ static bool take(const setting *s, const char *text, size_t length, glssao_setti
     return value == floor(value);
 }
 
-bool setting_apply(const char *text, glssao_settings *settings, char *error, size_t error_size)
+bool setting_apply(const char *text, glssao_settings *settings, fault *why)
 {
     while (*text) {
         const size_t length = strcspn(text, ","), name_length = strcspn(text, "=,");
@@ -86,12 +86,10 @@ bool setting_apply(const char *text, glssao_settings *settings, char *error, siz
             if (strlen(setting_table[i].name) == name_length && !memcmp(setting_table[i].name, text, name_length))
                 found = &setting_table[i];
         if (!found || text[name_length] != '=') {
-            snprintf(error, error_size, "\"%.*s\": no setting of that name; NAME=VALUE is wanted", (int)length, text);
-            return false;
+            return fault_set(why, "\"%.*s\": no setting of that name; NAME=VALUE is wanted", (int)length, text);
         }
         if (!take(found, text + name_length + 1, length - name_length - 1, settings)) {
-            snprintf(error, error_size, "\"%.*s\": not a value that %s can have", (int)length, text, found->name);
-            return false;
+            return fault_set(why, "\"%.*s\": not a value that %s can have", (int)length, text, found->name);
         }
         text += length + (text[length] == ',');
     }

@@ -76,7 +76,7 @@ static void *load(void *argument)
     const options o = {.scene_path = l->key.is_file ? l->key.name : NULL,
                        .scene_name = l->key.is_file ? NULL : l->key.name,
                        .time_s = l->key.time_s};
-    l->scene = stage_load_scene(&o, l->error, sizeof l->error);
+    l->scene = stage_load_scene(&o, FAULT(l->error));
     return NULL;
 }
 
@@ -124,7 +124,7 @@ bool stage_cache_load_ahead(stage_cache *c, const options *o)
 }
 
 /* Takes `k` over, also on failure. */
-static scene *load_scene(stage_cache *c, key *k, char *error, size_t error_size)
+static scene *load_scene(stage_cache *c, key *k, fault *why)
 {
     loading *ahead = &c->ahead, here = {.key = *k};
     if (ahead->used && !is_same(&ahead->key, k) && strcmp(ahead->key.name, k->name) == 0 &&
@@ -142,7 +142,7 @@ static scene *load_scene(stage_cache *c, key *k, char *error, size_t error_size)
     scene *s = l->scene;
     l->scene = NULL;
     if (!s) {
-        snprintf(error, error_size, "%s", l->error);
+        fault_set(why, "%s", l->error);
         free(k->name);
     }
     return s;
@@ -186,7 +186,7 @@ static void shrink(stage_cache *c)
     }
 }
 
-stage *stage_cache_get(stage_cache *c, const options *o, char *error, size_t error_size)
+stage *stage_cache_get(stage_cache *c, const options *o, fault *why)
 {
     key k = make_key(o);
     entry **at = k.name ? find(c, &k) : NULL;
@@ -195,18 +195,18 @@ stage *stage_cache_get(stage_cache *c, const options *o, char *error, size_t err
         *at = e->next;
         free(k.name);
     } else {
-        scene *s = k.name ? load_scene(c, &k, error, error_size) : NULL;
+        scene *s = k.name ? load_scene(c, &k, why) : NULL;
         if (!s) {
             if (!k.name)
-                snprintf(error, error_size, "out of memory");
+                fault_set(why, "out of memory");
             return NULL;
         }
         e = calloc(1, sizeof *e);
-        if (!e || !stage_open(&e->stage, s, c->first ? &c->first->stage : NULL, error, error_size)) {
+        if (!e || !stage_open(&e->stage, s, c->first ? &c->first->stage : NULL, why)) {
             if (e)
                 stage_close(&e->stage);
             else
-                snprintf(error, error_size, "out of memory");
+                fault_set(why, "out of memory");
             free(e);
             scene_destroy(s);
             free(k.name);

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-bool truth_open(truth *t, const trace_scene *s, int width, int height, char *error, size_t error_size)
+bool truth_open(truth *t, const trace_scene *s, int width, int height, fault *why)
 {
     t->scene = s;
     t->stats = (trace_stats){0};
@@ -17,8 +17,7 @@ bool truth_open(truth *t, const trace_scene *s, int width, int height, char *err
     *t = (truth){.scene = s, .width = width, .height = height};
     t->accessibility = malloc((size_t)width * (size_t)height * sizeof *t->accessibility);
     if (!t->accessibility) {
-        snprintf(error, error_size, "--size %dx%d: out of memory", width, height);
-        return false;
+        return fault_set(why, "--size %dx%d: out of memory", width, height);
     }
     gl.GenTextures(1, &t->map);
     gl.BindTexture(GL_TEXTURE_2D, t->map);
@@ -36,8 +35,7 @@ void truth_close(truth *t)
     *t = (truth){0};
 }
 
-bool truth_trace(truth *t, const scene_view *view, const glssao_settings *settings, uint32_t seed, char *error,
-                 size_t error_size)
+bool truth_trace(truth *t, const scene_view *view, const glssao_settings *settings, uint32_t seed, fault *why)
 {
     progress bar = progress_start("tracing");
     const trace_options options = {.radius = settings->radius,
@@ -46,7 +44,7 @@ bool truth_trace(truth *t, const scene_view *view, const glssao_settings *settin
                                    .progress = progress_share,
                                    .progress_user = &bar};
     trace_stats stats;
-    if (!trace_accessibility(t->scene, view, &options, t->accessibility, NULL, &stats, error, error_size))
+    if (!trace_accessibility(t->scene, view, &options, t->accessibility, NULL, &stats, why->text, why->size))
         return false;
     progress_clear();
     t->stats.rays += stats.rays;

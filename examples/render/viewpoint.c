@@ -34,13 +34,12 @@ static void from_scene_camera(const scene_camera *c, const scene *s, viewpoint *
     out->clip_far = c->far_plane;
 }
 
-bool viewpoint_choose(const options *o, const scene *s, viewpoint *out, char *error, size_t error_size)
+bool viewpoint_choose(const options *o, const scene *s, viewpoint *out, fault *why)
 {
     *out = (viewpoint){.near_plane = o->near_plane, .far_plane = o->far_plane};
     if (o->camera > 0 && (uint32_t)o->camera > s->camera_count) {
-        snprintf(error, error_size, "--camera %d: %s has %u camera%s", o->camera, s->name, s->camera_count,
-                 s->camera_count == 1 ? "" : "s");
-        return false;
+        return fault_set(why, "--camera %d: %s has %u camera%s", o->camera, s->name, s->camera_count,
+                         s->camera_count == 1 ? "" : "s");
     }
     if (s->camera_count > 0)
         from_scene_camera(&s->cameras[o->camera > 0 ? o->camera - 1 : 0], s, out);
@@ -90,11 +89,11 @@ static void orthographic(float half_width, float half_height, float near_plane, 
 }
 
 bool viewpoint_view(const viewpoint *v, const scene *s, float angle_rad, int width, int height, scene_view *out,
-                    char *error, size_t error_size)
+                    fault *why)
 {
     camera c = angle_rad == 0 ? v->base : camera_turned(&v->base, angle_rad);
     fit_planes(v, s, &c);
-    if (!camera_check(&c, error, error_size))
+    if (!camera_check(&c, why->text, why->size))
         return false;
     *out = camera_view(&c, width, height);
     if (v->half_height > 0) {

@@ -6,6 +6,7 @@
 #define GLSSAO_EXAMPLES_VIEWPOINT_H
 
 #include "camera.h"
+#include "fault.h"
 #include "options.h"
 
 typedef struct viewpoint {
@@ -15,11 +16,11 @@ typedef struct viewpoint {
     option_number near_plane, far_plane; /* from the command line */
 } viewpoint;
 
-/* False, with one line in `error`, where the scene has no such camera. */
-bool viewpoint_choose(const options *o, const scene *s, viewpoint *out, char *error, size_t error_size);
+/* False, with one line in `why`, where the scene has no such camera. */
+bool viewpoint_choose(const options *o, const scene *s, viewpoint *out, fault *why);
 
 /* The view turned by `angle_rad` about the vertical through the target. False, with one line, if it is degenerate. */
 bool viewpoint_view(const viewpoint *v, const scene *s, float angle_rad, int width, int height, scene_view *out,
-                    char *error, size_t error_size);
+                    fault *why);
 
 #endif

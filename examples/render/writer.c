@@ -7,6 +7,7 @@
 #include "writer.h"
 
 #include "clock.h"
+#include "fault.h"
 #include "picture.h"
 
 #include <pthread.h>
@@ -51,12 +52,12 @@ static size_t pixel_bytes(const entry *e)
     return (size_t)e->width * (size_t)e->height * (e->kind == PIXELS_GREY8 ? 1 : 4);
 }
 
-static bool encode(const entry *e, char *error, size_t error_size)
+static bool encode(const entry *e, fault *why)
 {
     if (e->kind == PIXELS_FLOAT)
-        return picture_write_pfm(e->path, e->width, e->height, 1, e->pixels, error, error_size);
+        return picture_write_pfm(e->path, e->width, e->height, 1, e->pixels, why->text, why->size);
     if (e->kind == PIXELS_GREY8)
-        return picture_write_png(e->path, e->width, e->height, 1, e->pixels, error, error_size);
+        return picture_write_png(e->path, e->width, e->height, 1, e->pixels, why->text, why->size);
     uint8_t *pixels = e->pixels;
     const size_t count = (size_t)e->width * (size_t)e->height;
     for (size_t i = 1; i < count; i++) { /* in place: writing never overtakes reading */
@@ -64,7 +65,7 @@ static bool encode(const entry *e, char *error, size_t error_size)
         pixels[3 * i + 1] = pixels[4 * i + 1];
         pixels[3 * i + 2] = pixels[4 * i + 2];
     }
-    return picture_write_png(e->path, e->width, e->height, 3, pixels, error, error_size);
+    return picture_write_png(e->path, e->width, e->height, 3, pixels, why->text, why->size);
 }
 
 /* With the lock held. */
@@ -85,7 +86,7 @@ static void work_on(writer *w, entry e)
     char error[sizeof e.slip->error] = "";
     pthread_mutex_unlock(&w->lock);
     const double start = clock_wall_ms();
-    const bool ok = e.path && encode(&e, error, sizeof error);
+    const bool ok = e.path && encode(&e, FAULT(error));
     const double ms = clock_wall_ms() - start;
     free(e.pixels);
     free(e.path);

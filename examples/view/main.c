@@ -136,7 +136,7 @@ static void run(viewer *v)
 int main(int argc, char **argv)
 {
     static viewer v; /* large, and zero */
-    switch (options_parse_for_viewer(argc, argv, &v.options, v.error, sizeof v.error)) {
+    switch (options_parse_for_viewer(argc, argv, &v.options, FAULT(v.error))) {
     case OPTIONS_DONE:
         return EXIT_DONE;
     case OPTIONS_WRONG:

@@ -58,7 +58,7 @@ void viewer_frame_scene(viewer *v)
                              .far_plane = o.far_plane};
     if (v->moved) { /* once more: the whole scene, whatever the file's camera shows */
         v->viewpoint = whole;
-    } else if (!viewpoint_choose(&o, v->scene, &v->viewpoint, v->error, sizeof v->error)) {
+    } else if (!viewpoint_choose(&o, v->scene, &v->viewpoint, FAULT(v->error))) {
         viewer_say(v, true, "%s", v->error);
         v->viewpoint = whole;
         v->moved = true;
@@ -78,7 +78,7 @@ static bool make_pipeline(viewer *v, pipeline *p, const scene *s)
     options o = v->options;
     o.width = v->width;
     o.height = v->height;
-    return pipeline_create(p, s, load_function, NULL, &o, wants, v->error, sizeof v->error);
+    return pipeline_create(p, s, load_function, NULL, &o, wants, FAULT(v->error));
 }
 
 bool viewer_open(viewer *v, const char *path, const char *name)
@@ -93,7 +93,7 @@ bool viewer_open(viewer *v, const char *path, const char *name)
         v->options.radius.given = v->options.near_plane.given = v->options.far_plane.given = false;
         v->options.time_s.given = false;
     }
-    scene *s = stage_load_scene(&v->options, v->error, sizeof v->error);
+    scene *s = stage_load_scene(&v->options, FAULT(v->error));
     if (!s || !make_pipeline(v, &made, s)) {
         v->options = before;
         pipeline_destroy(&made);
@@ -138,7 +138,7 @@ static bool is_picture(const char *path)
 
 static bool surround(viewer *v, const char *path)
 {
-    if (!pipeline_surround(&v->pipeline, &v->pipeline.own, path, v->error, sizeof v->error)) {
+    if (!pipeline_surround(&v->pipeline, &v->pipeline.own, path, FAULT(v->error))) {
         viewer_say(v, true, "%s", v->error);
         return false;
     }
@@ -182,7 +182,7 @@ void viewer_set_technique(viewer *v, int technique, int quality)
     v->settings = viewer_standard(v);
     v->pipeline.draw_options.layers =
         technique == GLSSAO_HORIZON && v->options.layers == 2; /* nobody else reads them */
-    if (!pipeline_make_targets(&v->pipeline, v->error, sizeof v->error))
+    if (!pipeline_make_targets(&v->pipeline, FAULT(v->error)))
         viewer_say(v, true, "%s", v->error);
     viewer_configure(v);
 }
