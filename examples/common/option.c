@@ -86,6 +86,11 @@ static bool take(const option *o, const char *text, void *out)
     case OPTION_FLAG:
         *(bool *)target = true;
         return true;
+    case OPTION_INT_OR_NONE:
+        if (strcmp(text, "none") == 0) {
+            *(int *)target = -1;
+            return true;
+        } /* fall through */
     case OPTION_INT:
         if (!parse_whole(text, o->min, o->max, &whole))
             return false;

@@ -23,17 +23,18 @@ typedef struct option_vector {
 
 /* The type of the member that an option sets. */
 typedef enum option_kind {
-    OPTION_FLAG,   /* bool */
-    OPTION_INT,    /* int, min to max */
-    OPTION_SEED,   /* uint32_t, min to max */
-    OPTION_FLOAT,  /* float, min to max */
-    OPTION_NUMBER, /* option_number, min to max */
-    OPTION_VECTOR, /* option_vector */
-    OPTION_SIZE,   /* int[2], both min to max: "640x480" */
-    OPTION_SHARD,  /* int[2], the second min to max, the first below it: "0/4" */
-    OPTION_WORD,   /* int: index into the words that `wanted` lists */
-    OPTION_TEXT,   /* const char * */
-    OPTION_FILE    /* const char *, ending in one of the words that `wanted` lists; "": in anything */
+    OPTION_FLAG,        /* bool */
+    OPTION_INT,         /* int, min to max */
+    OPTION_INT_OR_NONE, /* the same, or -1 for "none" */
+    OPTION_SEED,        /* uint32_t, min to max */
+    OPTION_FLOAT,       /* float, min to max */
+    OPTION_NUMBER,      /* option_number, min to max */
+    OPTION_VECTOR,      /* option_vector */
+    OPTION_SIZE,        /* int[2], both min to max: "640x480" */
+    OPTION_SHARD,       /* int[2], the second min to max, the first below it: "0/4" */
+    OPTION_WORD,        /* int: index into the words that `wanted` lists */
+    OPTION_TEXT,        /* const char * */
+    OPTION_FILE         /* const char *, ending in one of the words that `wanted` lists; "": in anything */
 } option_kind;
 
 typedef struct option {

@@ -24,13 +24,14 @@ typedef struct options {
     int blur_rounds;   /* -1: the quality's own */
     int margin;        /* pixels on each side */
     int layers;        /* 1 or 2; 0: not given */
-    int camera;        /* the scene's N-th, counted from 1; 0: not given */
+    int camera;        /* the file's N-th, counted from 1; 0: not given; -1: none of the file's */
+    const char *view;  /* direction to see the scene from; NULL: not given */
     int frames, bench; /* 0: not given */
     uint32_t seed;
     bool no_shadows, mapped_normals, specular_occlusion, multi_bounce;
     int shadow_size; /* texels; 0: not given */
     int debug_map;   /* options_map; OPTIONS_MAP_NONE: not given */
-    bool plan, no_ao, help, version;
+    bool orthographic, plan, no_ao, help, version;
     const char *environment;      /* picture of the surroundings; NULL: the built-in light */
     const char *program_cache;    /* folder of linked programs; NULL: none */
     const char *batch;            /* list file, "-": standard input; NULL: one picture, or turntable */

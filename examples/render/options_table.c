@@ -3,6 +3,7 @@
  * Every option, once: the parser and the help text read this.
  */
 #include "options_internal.h"
+#include "viewpoint.h"
 #include "words.h"
 
 #include <float.h>
@@ -46,18 +47,24 @@ static const option table[] = {
      OPTION_INT, AT(layers), 1, 2, "1 or 2", SCOPE_PICTURE},
     {0, "set", "NAME=V,...", "any of the settings that --help lists at its end", OPTION_TEXT, AT(set), 0, 0, "",
      SCOPE_PICTURE},
-    {0, "eye", "X,Y,Z", "where the camera stands (default: frames the scene)", OPTION_VECTOR, AT(eye), 0, 0,
+    {0, "camera", "N|none", "the file's N-th camera (1), or none: a view that fits the scene", OPTION_INT_OR_NONE,
+     AT(camera), 1, 1e9, "a whole number from 1, or none", SCOPE_PICTURE},
+    {0, "view", "A,E|NAME",
+     "fits the scene, seen from A degrees right of its front and E degrees above, or from NAME: " VIEW_WORDS,
+     OPTION_TEXT, AT(view), 0, 0, "", SCOPE_PICTURE},
+    {0, "ortho", NULL, "parallel projection", OPTION_FLAG, AT(orthographic), 0, 0, NULL, SCOPE_PICTURE},
+    {0, "eye", "X,Y,Z", "position of the camera, in place of the fitted one", OPTION_VECTOR, AT(eye), 0, 0,
      "three numbers X,Y,Z", SCOPE_PICTURE},
-    {0, "target", "X,Y,Z", "what it looks at", OPTION_VECTOR, AT(target), 0, 0, "three numbers X,Y,Z", SCOPE_PICTURE},
-    {0, "up", "X,Y,Z", "which way is up", OPTION_VECTOR, AT(up), 0, 0, "three numbers X,Y,Z", SCOPE_PICTURE},
-    {0, "fov", "DEGREES", "vertical field of view", OPTION_NUMBER, AT(fov_deg), 0.01, 179, "a number from 0.01 to 179",
-     SCOPE_PICTURE},
-    {0, "near", "N", "near plane in scene units (fitted to the scene)", OPTION_NUMBER, AT(near_plane), FLT_MIN, FLT_MAX,
+    {0, "target", "X,Y,Z", "the point that the camera looks at (middle of the scene)", OPTION_VECTOR, AT(target), 0, 0,
+     "three numbers X,Y,Z", SCOPE_PICTURE},
+    {0, "up", "X,Y,Z", "direction that is up in the scene and in the picture (0,1,0)", OPTION_VECTOR, AT(up), 0, 0,
+     "three numbers X,Y,Z", SCOPE_PICTURE},
+    {0, "fov", "DEGREES", "vertical field of view (45)", OPTION_NUMBER, AT(fov_deg), 0.01, 179,
+     "a number from 0.01 to 179", SCOPE_PICTURE},
+    {0, "near", "N", "near plane in scene units (fits the scene)", OPTION_NUMBER, AT(near_plane), FLT_MIN, FLT_MAX,
      "a number above 0", SCOPE_PICTURE},
-    {0, "far", "F", "far plane in scene units (fitted to the scene)", OPTION_NUMBER, AT(far_plane), FLT_MIN, FLT_MAX,
+    {0, "far", "F", "far plane in scene units (fits the scene)", OPTION_NUMBER, AT(far_plane), FLT_MIN, FLT_MAX,
      "a number above 0", SCOPE_PICTURE},
-    {0, "camera", "N", "the scene's N-th camera (the first, where it has one)", OPTION_INT, AT(camera), 1, 1e9,
-     "a whole number from 1", SCOPE_PICTURE},
     {0, "time", "SECONDS", "the file's first animation at this time (the file as it stands)", OPTION_NUMBER, AT(time_s),
      0, 1e9, "a number of seconds from 0 to 1e9", SCOPE_PICTURE},
     {0, "scene", "NAME", "built-in scene: columns, cornell, steps or plane (columns)", OPTION_TEXT, AT(scene_name), 0,

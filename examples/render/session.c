@@ -71,7 +71,7 @@ bool session_begin(session *s, const options *o, stage *st, fault *why)
     }
     scene_view view;
     stopwatch_start(&s->times);
-    if (!viewpoint_choose(o, s->scene, &s->viewpoint, why) || !find_view(s, 0, &view, why))
+    if (!viewpoint_choose(o, s->scene, 0, &s->viewpoint, why) || !find_view(s, 0, &view, why))
         return false;
     if (!pipeline_prepare(&s->pipeline, st, context_load, s->context, o, choose_wants(o), why)) {
         pipeline_destroy(&s->pipeline);

@@ -161,11 +161,12 @@ int main(int argc, char **argv)
     glfwGetWindowSize(v.window, &window_width, &window_height);
     v.width = v.width < 1 ? 1 : v.width;
     v.height = v.height < 1 ? 1 : v.height;
+    /* Where screen coordinates are larger than pixels, as on macOS, they are scaled already. */
+    v.gui_scale = v.width > window_width ? 1 : scale;
     const bool opened = viewer_open(&v, v.options.scene_path, v.options.scene_name);
     if (opened) {
         input_start(&v);
-        /* Where screen coordinates are larger than pixels, as on macOS, they are scaled already. */
-        gui_start(v.window, v.width > window_width ? 1 : scale);
+        gui_start(v.window, v.gui_scale);
         run(&v);
         gui_stop();
     }

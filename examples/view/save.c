@@ -83,16 +83,23 @@ static void add_camera(line *l, const viewer *v)
 {
     const options *o = &v->options;
     const camera *c = &v->viewpoint.base;
-    if (o->camera)
+    const bool placed = v->moved || (v->viewpoint.fitted && v->panel_open); /* glssao-render has no panel */
+    if (o->camera > 0 && !placed)
         add(l, " --camera %d", o->camera);
-    if (v->moved || o->eye.given)
+    if (o->camera < 0)
+        add(l, " --camera none");
+    if (o->view && !placed)
+        add(l, " --view %s", o->view);
+    if (o->orthographic && c->half_height > 0)
+        add(l, " --ortho");
+    if (placed || o->eye.given)
         add_vector(l, "eye", c->eye);
-    if (v->moved || o->target.given)
+    if (placed || o->target.given)
         add_vector(l, "target", c->target);
-    if (v->moved || o->up.given)
-        add_vector(l, "up", c->up);
-    if (v->moved || o->fov_deg.given)
-        add(l, " --fov %.9g", (double)c->fov_y_rad * 57.295779513);
+    if (placed || o->up.given)
+        add_vector(l, "up", placed ? c->up : o->up.value);
+    if (placed || o->fov_deg.given)
+        add(l, " --fov %.9g", (double)viewpoint_fov_deg(&v->viewpoint));
     if (o->near_plane.given)
         add(l, " --near %.9g", (double)o->near_plane.value);
     if (o->far_plane.given)
