@@ -34,7 +34,8 @@ typedef enum option_kind {
     OPTION_SHARD,       /* int[2], the second min to max, the first below it: "0/4" */
     OPTION_WORD,        /* int: index into the words that `wanted` lists */
     OPTION_TEXT,        /* const char * */
-    OPTION_FILE         /* const char *, ending in one of the words that `wanted` lists; "": in anything */
+    OPTION_FILE /* const char *, ending in one of the words that `wanted` lists; "": in anything. The word "-" allows
+                   "-" */
 } option_kind;
 
 typedef struct option {

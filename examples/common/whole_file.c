@@ -39,6 +39,11 @@ bool whole_file_open(whole_file *f, const char *path, char *error, size_t error_
     struct stat status;
     const bool exists = stat(path, &status) == 0;
     *f = (whole_file){.name = path};
+    if (strcmp(path, "-") == 0) {
+        f->name = "standard output";
+        f->file = stdout;
+        return true;
+    }
     f->path = exists ? realpath(path, NULL) : NULL;
     if (!f->path) {
         f->path = malloc(strlen(path) + 1);
@@ -68,6 +73,12 @@ bool whole_file_open(whole_file *f, const char *path, char *error, size_t error_
 bool whole_file_close(whole_file *f, bool written, char *error, size_t error_size)
 {
     struct stat status;
+    if (f->file == stdout) {
+        if (fflush(stdout) == 0 || !written)
+            return written;
+        snprintf(error, error_size, "%s: %s", f->name, strerror(errno));
+        return false;
+    }
     const bool is_regular = fstat(fileno(f->file), &status) == 0 && S_ISREG(status.st_mode);
     if (fclose(f->file) != 0 && written) {
         snprintf(error, error_size, "%s: %s", f->name, strerror(errno));

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * Files that appear whole or not at all: written under another name in the same folder, and renamed at the end. What is
- * no regular file (a device, a pipe) is written as it is, and so is a file whose folder takes no new one.
+ * no regular file (a device, a pipe) is written as it is, and so is a file whose folder takes no new one. The path "-"
+ * is standard output.
  */
 #ifndef GLSSAO_EXAMPLES_WHOLE_FILE_H
 #define GLSSAO_EXAMPLES_WHOLE_FILE_H

@@ -18,7 +18,8 @@ enum {
 
 #define AT(member) offsetof(options, member)
 static const option table[] = {
-    {'o', "output", "FILE.png", "shaded picture", OPTION_FILE, AT(output), 0, 0, ".png", SCOPE_PICTURE},
+    {'o', "output", "FILE", "shaded picture: .png, .jpg, .webp, or - (a PNG to standard output)", OPTION_FILE,
+     AT(output), 0, 0, ".png|.jpg|.jpeg|.webp|-", SCOPE_PICTURE},
     {0, "ao", "FILE.png|.pfm", "accessibility (pfm: float32, linear), full size", OPTION_FILE, AT(ao), 0, 0,
      ".png|.pfm", SCOPE_RENDERED},
     {0, "normals", "FILE.png", "view-space normals, n * 0.5 + 0.5", OPTION_FILE, AT(normals), 0, 0, ".png",
@@ -93,6 +94,10 @@ static const option table[] = {
      SCOPE_PICTURE},
     {0, "environment", "FILE", "equirectangular picture (.hdr, .png, .jpg) that lights the scene, and its sky",
      OPTION_FILE, AT(environment), 0, 0, ".hdr|.pic|.png|.jpg|.jpeg", SCOPE_PICTURE},
+    {0, "background", "sky|none|#RRGGBB", "what is seen behind the scene; none: transparent (sky)", OPTION_TEXT,
+     AT(background), 0, 0, "", SCOPE_RENDERED},
+    {0, "samples-per-pixel", "N", "anti-aliasing: averages N pictures, 1 to 64 (4 on a GPU, 1 without)", OPTION_INT,
+     AT(samples_per_pixel), 1, 64, "a whole number from 1 to 64", SCOPE_RENDERED},
     {0, "debug-map", "NAME", "in the picture's lower right: ao, normals, depth, random, shadow or tiles", OPTION_WORD,
      AT(debug_map), 0, 0, OPTIONS_MAP_WORDS, SCOPE_PICTURE},
     {0, "batch", "LIST", "renders each line of LIST (-: standard input), which holds options and a scene as here",

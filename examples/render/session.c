@@ -36,10 +36,21 @@ void session_close(session *s)
     *s = (session){.context = NULL};
 }
 
-static pipeline_wants choose_wants(const options *o)
+/* Four samples a pixel by default where a frame takes a GPU a millisecond, one where it takes the processor a hundred.
+ */
+static int choose_samples(const session *s)
 {
+    const options *o = s->options;
+    return o->samples_per_pixel ? o->samples_per_pixel : o->bench || context_is_software(s->context) ? 1 : 4;
+}
+
+static pipeline_wants choose_wants(const session *s)
+{
+    const options *o = s->options;
     const bool maps_alone = !o->output && (o->ao || o->normals || o->depth);
     pipeline_wants wants = {.picture = o->bench || !maps_alone};
+    wants.maps = o->ao || o->normals || o->depth || o->debug_map;
+    wants.samples = choose_samples(s);
     wants.ao = !o->no_ao && (wants.picture || o->ao);
     wants.ao_map = o->ao || o->debug_map == OPTIONS_MAP_AO || o->debug_map == OPTIONS_MAP_TILES;
     wants.traced = wants.ao && o->technique == OPTIONS_RAYTRACE;
@@ -73,7 +84,7 @@ bool session_begin(session *s, const options *o, stage *st, fault *why)
     stopwatch_start(&s->times);
     if (!viewpoint_choose(o, s->scene, 0, &s->viewpoint, why) || !find_view(s, 0, &view, why))
         return false;
-    if (!pipeline_prepare(&s->pipeline, st, context_load, s->context, o, choose_wants(o), why)) {
+    if (!pipeline_prepare(&s->pipeline, st, context_load, s->context, o, choose_wants(s), why)) {
         pipeline_destroy(&s->pipeline);
         return false;
     }
@@ -92,7 +103,8 @@ static bool draw(session *s, float angle_rad, scene_view *out_view, fault *why)
         return false;
     }
     if (s->pipeline.reached.estimates > 0)
-        progressive_print(&s->pipeline.reached, &s->pipeline.goal);
+        progressive_print(s->options->output && strcmp(s->options->output, "-") == 0 ? stderr : stdout,
+                          &s->pipeline.reached, &s->pipeline.goal);
     return true;
 }
 
@@ -171,6 +183,7 @@ bool session_write_stats(session *s, double start_ms, double start_cpu_ms, fault
                           .traced = p->wants.traced ? &p->truth.stats : NULL,
                           .bench = s->bench.recorded ? &s->bench : NULL,
                           .frames = s->frames_drawn,
+                          .samples_per_pixel = p->wants.samples,
                           .wall_ms = clock_wall_ms() - start_ms,
                           .cpu_ms = clock_cpu_ms() - start_cpu_ms};
     return report_write(&facts, s->options->stats, why);

@@ -87,6 +87,7 @@ void viewer_toggle_panel(viewer *v)
 static bool make_pipeline(viewer *v, pipeline *p, const scene *s)
 {
     const pipeline_wants wants = {.picture = true,
+                                  .samples = 1,
                                   .ao = true,
                                   .ao_map = true,
                                   .prepass = true,
