@@ -372,6 +372,109 @@ static void what_is_left_out_is_named(void **state)
     scene_destroy(s);
 }
 
+static double distance_of(const float a[3], const float b[3])
+{
+    double sum = 0;
+    for (int i = 0; i < 3; ++i)
+        sum += ((double)a[i] - (double)b[i]) * ((double)a[i] - (double)b[i]);
+    return sqrt(sum);
+}
+
+/* How far a vertex lies from the one of the reference that is nearest by position and normal together. */
+static double distance_to(const scene *reference, const float position[3], const float normal[3])
+{
+    double least = INFINITY;
+    for (uint32_t k = 0; k < reference->vertex_count; ++k) {
+        const scene_vertex *v = &reference->vertices[k];
+        least = fmin(least, distance_of(position, v->position) + distance_of(normal, v->normal));
+    }
+    return least;
+}
+
+static double worst_distance(const scene *s, const scene *reference)
+{
+    double worst = 0;
+    const float *m = s->instances[0].world_from_mesh; /* no turn, and one scale */
+    for (uint32_t i = 0; i < s->vertex_count; ++i) {
+        const float *p = s->vertices[i].position;
+        float at[3];
+        for (int r = 0; r < 3; ++r)
+            at[r] = m[r] * p[0] + m[4 + r] * p[1] + m[8 + r] * p[2] + m[12 + r];
+        worst = fmax(worst, distance_to(reference, at, s->vertices[i].normal));
+    }
+    return worst;
+}
+
+/* Both are far-from-origin-reference.glb, 80 units wide, packed by gltf-transform: 14 bits a coordinate, and an
+ * octahedral filter for the normals of the second. */
+static void packed_geometry_is_unpacked(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        bool built;
+        const char *package;
+    } files[] = {{"packed-draco.glb", GLSSAO_HAS_DRACO, "without Draco (Debian: libdraco-dev)"},
+                 {"packed-meshopt.glb", GLSSAO_HAS_MESHOPT, "without meshoptimizer (Debian: libmeshoptimizer-dev)"}};
+    scene *reference = load("far-from-origin-reference.glb");
+    for (size_t i = 0; i < sizeof files / sizeof *files; ++i) {
+        char path[1024], error[1024] = "";
+        snprintf(path, sizeof path, "%s/%s", folder, files[i].name);
+        if (!files[i].built) {
+            assert_null(scene_load(path, error, sizeof error));
+            assert_non_null(strstr(error, files[i].package));
+            continue;
+        }
+        scene *s = load(files[i].name);
+        assert_warning(s, NULL);
+        assert_in_range(scene_count_triangles(s), 4000, 4194); /* Draco drops those without area */
+        const double distance = worst_distance(s, reference);
+        print_message("%s: a vertex and its normal off by %g at most\n", files[i].name, distance);
+        assert_true(distance < 80.0 / 16384 + 2.0 / 128); /* a step of a position and two of a normal of 8 bits */
+        scene_destroy(s);
+    }
+    scene_destroy(reference);
+}
+
+static void webp_textures_are_decoded(void **state)
+{
+    (void)state;
+    scene *s = load("texture-webp.glb");
+    if (GLSSAO_HAS_WEBP) {
+        assert_warning(s, NULL);
+        assert_int_equal(s->images[0].width, 64);
+        assert_int_equal(s->images[0].height, 64);
+        /* As the PNG that it was made of, within what a lossy picture loses. */
+        scene *png = load("data-jpgmime.gltf");
+        for (int i = 0; i < 4 * 64 * 64; ++i)
+            assert_true(abs(s->images[0].rgba[i] - png->images[0].rgba[i]) <= 8);
+        scene_destroy(png);
+    } else {
+        assert_int_equal(s->image_count, 0);
+        assert_true(s->warning_count >= 1 && strstr(s->warnings[0], "libwebp"));
+    }
+    scene_destroy(s);
+}
+
+static void textures_without_a_decoder_are_left_out(void **state)
+{
+    (void)state;
+    gltf_writer w = {0};
+    gltf_put_floats(&w, "VEC3", 3, triangle);
+    scene *s = load_path(
+        gltf_write(&w, "basis.gltf",
+                   "\"extensionsRequired\":[\"KHR_texture_basisu\"],\"images\":[{\"uri\":\"data:image/ktx2;base64,"
+                   "q0tUWCAyMLsNChoKAAAAAAEAAAAAAAAA\"}],\"textures\":[{\"extensions\":{\"KHR_texture_basisu\":{"
+                   "\"source\":0}}}],\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}],"
+                   "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}]," ONE_NODE),
+        NULL);
+    assert_int_equal(s->image_count, 0);
+    assert_int_equal(s->warning_count, 2);
+    assert_non_null(strstr(s->warnings[0], "KHR_texture_basisu, and is drawn without its textures"));
+    assert_non_null(strstr(s->warnings[1], "image 0: KTX 2 with Basis Universal"));
+    scene_destroy(s);
+}
+
 static void solid_pictures_fit_the_budget_by_their_decoded_size(void **state)
 {
     (void)state;
@@ -385,14 +488,6 @@ static void solid_pictures_fit_the_budget_by_their_decoded_size(void **state)
 }
 
 /* ---- Coordinates ---- */
-
-static double dot_of_differences(const float a[3], const float b[3])
-{
-    double sum = 0;
-    for (int i = 0; i < 3; ++i)
-        sum += ((double)a[i] - (double)b[i]) * ((double)a[i] - (double)b[i]);
-    return sqrt(sum);
-}
 
 /* World positions of all corners, relative to the scene's own origin and middle, are those of the reference. */
 static void assert_same_shape(const scene *s, const scene *reference, double most)
@@ -418,7 +513,7 @@ static void assert_same_shape(const scene *s, const scene *reference, double mos
                         at[n][r] = matrix[r] * v[0] + matrix[4 + r] * v[1] + matrix[8 + r] * v[2] + matrix[12 + r] -
                                    middle[n][r];
                 }
-                worst = fmax(worst, dot_of_differences(at[0], at[1]));
+                worst = fmax(worst, distance_of(at[0], at[1]));
             }
     print_message("farthest corner off by %g\n", worst);
     assert_true(worst < most);
@@ -513,6 +608,9 @@ int main(int argc, char **argv)
         cmocka_unit_test(four_uv_sets_are_kept_apart),
         cmocka_unit_test(points_and_lines_arrive),
         cmocka_unit_test(what_is_left_out_is_named),
+        cmocka_unit_test(packed_geometry_is_unpacked),
+        cmocka_unit_test(webp_textures_are_decoded),
+        cmocka_unit_test(textures_without_a_decoder_are_left_out),
         cmocka_unit_test(solid_pictures_fit_the_budget_by_their_decoded_size),
         cmocka_unit_test(a_node_far_away_keeps_its_vertices),
         cmocka_unit_test(vertices_stored_far_away_are_centred),
