@@ -5,8 +5,8 @@
  */
 #include "bake.h"
 
+#include "progress.h"
 #include "trace.h"
-#include "trace_progress.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -19,7 +19,7 @@ typedef struct caster {
     const trace_scene *scene;
     scene_fault *fault;
     const double *origin;
-    trace_progress bar;
+    progress bar;
     double triangles_per_area;
     size_t steps, steps_done; /* an instance of a triangle each */
     size_t step;              /* of the part being cast */
@@ -31,7 +31,7 @@ typedef struct caster {
 static void report(double done, void *user)
 {
     caster *c = user;
-    trace_progress_report(((double)c->steps_done + done * (double)c->step) / (double)c->steps, &c->bar);
+    progress_share(((double)c->steps_done + done * (double)c->step) / (double)c->steps, &c->bar);
 }
 
 static bool cast_points(caster *c, const bake_points *p, float *out)
@@ -132,7 +132,7 @@ bool bake_cast(bake_model *m, const bake_options *o, bake_stats *out, scene_faul
         scene_destroy(s);
         return scene_fail(fault, "%s", error);
     }
-    caster c = {.options = o, .scene = t, .fault = fault, .bar = trace_progress_start("casting")};
+    caster c = {.options = o, .scene = t, .fault = fault, .bar = progress_start("casting")};
     c.origin = m->origin;
     for (int i = 0; i < 3; i++) {
         m->origin[i] = s->origin[i];
@@ -149,7 +149,7 @@ bool bake_cast(bake_model *m, const bake_options *o, bake_stats *out, scene_faul
     for (size_t i = 0; ok && i < m->part_count; i++) {
         ok = cast_part(&c, &m->parts[i]);
     }
-    trace_progress_end(&c.bar);
+    progress_clear();
     trace_scene_destroy(t);
     scene_destroy(s);
     *out = c.stats;

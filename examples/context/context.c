@@ -40,9 +40,8 @@ static context *try_way(context_way w, const context_options *options, char *err
 
 static void release_current(void)
 {
-    if (current) {
+    if (current)
         current->release(current);
-    }
     current = NULL;
 }
 
@@ -57,9 +56,8 @@ context *context_create(const context_options *options, char *error, size_t erro
     char reasons[WAY_COUNT][256];
     bool tried[WAY_COUNT] = {false};
     for (int w = 0; w < WAY_COUNT; w++) {
-        if ((wanted.kind == CONTEXT_EGL && w == WAY_OSMESA) || (wanted.kind == CONTEXT_OSMESA && w != WAY_OSMESA)) {
+        if ((wanted.kind == CONTEXT_EGL && w == WAY_OSMESA) || (wanted.kind == CONTEXT_OSMESA && w != WAY_OSMESA))
             continue;
-        }
         release_current();
         tried[w] = true;
         context *c = try_way((context_way)w, &wanted, reasons[w], sizeof reasons[w]);
@@ -69,9 +67,8 @@ context *context_create(const context_options *options, char *error, size_t erro
         }
     }
 
-    if (error_size == 0) {
+    if (error_size == 0)
         return NULL;
-    }
     int length = snprintf(error, error_size, "no OpenGL %d.%d %s context:", wanted.major, wanted.minor,
                           wanted.compatibility ? "compatibility" : "core");
     const char *separator = "";
@@ -87,26 +84,21 @@ context *context_create(const context_options *options, char *error, size_t erro
 
 void context_destroy(context *c)
 {
-    if (!c) {
+    if (!c)
         return;
-    }
-    if (current == c) {
+    if (current == c)
         release_current();
-    }
     c->destroy(c);
 }
 
 bool context_make_current(context *c)
 {
-    if (current == c) {
+    if (current == c)
         return true;
-    }
-    if (current && current->make_current != c->make_current) {
+    if (current && current->make_current != c->make_current)
         release_current();
-    }
-    if (!c->make_current(c)) {
+    if (!c->make_current(c))
         return false;
-    }
     current = c;
     return true;
 }
@@ -130,11 +122,9 @@ void *context_load(const char *name, void *user)
 static bool renderer_is_software(const char *renderer)
 {
     static const char *const names[] = {"llvmpipe", "softpipe", "swrast", "Software Rasterizer", "SwiftShader", "SWR"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        if (strstr(renderer, names[i])) {
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (strstr(renderer, names[i]))
             return true;
-        }
-    }
     return false;
 }
 

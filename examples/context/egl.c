@@ -51,11 +51,9 @@ enum { MAX_DEVICES = 64 };
 static bool has_extension(const char *list, const char *name)
 {
     size_t length = strlen(name);
-    for (const char *at = list; at && (at = strstr(at, name)); at += length) {
-        if ((at == list || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0')) {
+    for (const char *at = list; at && (at = strstr(at, name)); at += length)
+        if ((at == list || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0'))
             return true;
-        }
-    }
     return false;
 }
 
@@ -110,12 +108,10 @@ static void *load(context *c, const char *name)
 static void destroy(context *c)
 {
     egl_context *e = (egl_context *)c;
-    if (e->surface != EGL_NO_SURFACE) {
+    if (e->surface != EGL_NO_SURFACE)
         e->egl.DestroySurface(e->display, e->surface);
-    }
-    if (e->handle != EGL_NO_CONTEXT) {
+    if (e->handle != EGL_NO_CONTEXT)
         e->egl.DestroyContext(e->display, e->handle);
-    }
     free(e);
 }
 
@@ -217,17 +213,15 @@ static context *create_on_display(const struct egl_functions *egl, EGLDisplay di
     if (!egl_1_5 && !has_extension(extensions, "EGL_KHR_get_all_proc_addresses") &&
         !has_extension(egl->QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS), "EGL_KHR_client_get_all_proc_addresses")) {
         e->gl_library = dlopen("libOpenGL.so.0", RTLD_NOW | RTLD_LOCAL);
-        if (!e->gl_library) {
+        if (!e->gl_library)
             e->gl_library = dlopen("libGL.so.1", RTLD_NOW | RTLD_LOCAL);
-        }
     }
-    if (!make_current(&e->base)) {
+    if (!make_current(&e->base))
         snprintf(error, error_size, "eglMakeCurrent failed (%s)", error_name(egl->GetError()));
-    } else if (context__describe(&e->base, way, options, error, error_size)) {
+    else if (context__describe(&e->base, way, options, error, error_size))
         return &e->base;
-    } else {
+    else
         release(&e->base);
-    }
     destroy(&e->base);
     return NULL;
 }
@@ -247,9 +241,8 @@ static context *create_on_device(const struct egl_functions *egl, PFNEGLGETPLATF
     }
     snprintf(error, error_size, "none of the devices that EGL lists (%d) is one", (int)count);
     for (EGLint i = 0; i < count; i++) {
-        if (has_extension(query_device_string(devices[i], EGL_EXTENSIONS), "EGL_MESA_device_software") != software) {
+        if (has_extension(query_device_string(devices[i], EGL_EXTENSIONS), "EGL_MESA_device_software") != software)
             continue;
-        }
         EGLDisplay display = get_display(EGL_PLATFORM_DEVICE_EXT, devices[i], NULL);
         context *c = create_on_display(egl, display, "EGL device", options, error, error_size);
         if (c && !software && c->software) {
@@ -258,9 +251,8 @@ static context *create_on_device(const struct egl_functions *egl, PFNEGLGETPLATF
             destroy(c);
             c = NULL;
         }
-        if (c) {
+        if (c)
             return c;
-        }
     }
     return NULL;
 }
@@ -268,15 +260,13 @@ static context *create_on_device(const struct egl_functions *egl, PFNEGLGETPLATF
 context *context__egl_create(egl_way way, const context_options *options, char *error, size_t error_size)
 {
     struct egl_functions egl;
-    if (!open_library(&egl, error, error_size)) {
+    if (!open_library(&egl, error, error_size))
         return NULL;
-    }
     /* NULL before EGL 1.5 where EGL_EXT_client_extensions is missing too. */
     const char *extensions = egl.QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     PFNEGLGETPLATFORMDISPLAYEXTPROC get_display = NULL;
-    if (has_extension(extensions, "EGL_EXT_platform_base")) {
+    if (has_extension(extensions, "EGL_EXT_platform_base"))
         get_display = (PFNEGLGETPLATFORMDISPLAYEXTPROC)egl.GetProcAddress("eglGetPlatformDisplayEXT");
-    }
     if (!get_display) {
         egl.GetError(); /* the query above may have left one */
         snprintf(error, error_size, "libEGL has no EGL_EXT_platform_base");

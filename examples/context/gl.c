@@ -13,12 +13,12 @@ bool gl_load(void *(*load)(const char *name, void *user), void *user, char *erro
 {
     void *address;
 /* ISO C has no cast from an object pointer to a function pointer; POSIX promises that the bytes agree. */
-#define GL_LOAD(type, name) \
-    address = load("gl" #name, user); \
-    if (!address) { \
-        snprintf(error, error_size, "the context has no function gl" #name); \
-        return false; \
-    } \
+#define GL_LOAD(type, name)                                                                                            \
+    address = load("gl" #name, user);                                                                                  \
+    if (!address) {                                                                                                    \
+        snprintf(error, error_size, "the context has no function gl" #name);                                           \
+        return false;                                                                                                  \
+    }                                                                                                                  \
     memcpy(&gl.name, &address, sizeof address);
     GL_FUNCTIONS(GL_LOAD)
 #undef GL_LOAD

@@ -51,9 +51,8 @@ static void *load(context *c, const char *name)
 static void destroy(context *c)
 {
     osmesa_context *o = (osmesa_context *)c;
-    if (o->handle) {
+    if (o->handle)
         o->destroy(o->handle);
-    }
     free(o);
 }
 
@@ -63,9 +62,8 @@ static void *open_library(void)
     static const char *const names[] = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         void *library = dlopen(names[i], RTLD_NOW | RTLD_LOCAL);
-        if (library) {
+        if (library)
             return library;
-        }
     }
     return NULL;
 }
@@ -105,17 +103,16 @@ context *context__osmesa_create(const context_options *options, char *error, siz
     const osmesa_context *share = (const osmesa_context *)options->share;
     const bool alike = !share || share->base.make_current == make_current;
     o->handle = alike ? o->create(attributes, share ? share->handle : NULL) : NULL;
-    if (!alike) {
+    if (!alike)
         snprintf(error, error_size, "the context to share with is not OSMesa's");
-    } else if (!o->handle) {
+    else if (!o->handle)
         snprintf(error, error_size, "OSMesaCreateContextAttribs refuses this version");
-    } else if (!make_current(&o->base)) {
+    else if (!make_current(&o->base))
         snprintf(error, error_size, "OSMesaMakeCurrent failed");
-    } else if (context__describe(&o->base, "OSMesa", options, error, error_size)) {
+    else if (context__describe(&o->base, "OSMesa", options, error, error_size))
         return &o->base;
-    } else {
+    else
         release(&o->base);
-    }
     destroy(&o->base);
     return NULL;
 }

@@ -59,7 +59,7 @@ static void land_first(batch *b)
     b->done += !f->failed;
     b->failed += f->failed;
     if (f->failed) {
-        progress_wipe(&b->shown);
+        progress_clear();
         fprintf(stderr, "glssao-render: %s:%d: %s\n", list_name(b), f->job->line, f->error);
     }
     b->first = (b->first + 1) % FLIGHTS;
@@ -69,17 +69,15 @@ static void land_first(batch *b)
 static void land_those_done(batch *b)
 {
     readback_poll(b->session.readback);
-    while (b->count && writer_is_done(b->session.writer, &b->flights[b->first].slip)) {
+    while (b->count && writer_is_done(b->session.writer, &b->flights[b->first].slip))
         land_first(b);
-    }
 }
 
 static void land_all(batch *b)
 {
     readback_drain(b->session.readback);
-    while (b->count) {
+    while (b->count)
         land_first(b);
-    }
 }
 
 static flight *take_off(batch *b, const batch_job *job)
@@ -111,73 +109,61 @@ static bool draw_job(batch *b, size_t index, flight *f)
     const options *o = &b->list.jobs[index].options;
     const double start_ms = clock_wall_ms(), start_cpu_ms = clock_cpu_ms();
     s->times = (stopwatch){.last_ms = start_ms};
-    stage *st = stage_cache_get(b->stages, o, f->error, sizeof f->error); /* first: it may have been loaded ahead */
-    if (!st || !outputs_check(o, f->error, sizeof f->error)) {
+    stage *st = stage_cache_get(b->stages, o, FAULT(f->error)); /* first: it may have been loaded ahead */
+    if (!st || !outputs_check(o, FAULT(f->error)))
         return false;
-    }
     stopwatch_lap(&s->times, PHASE_LOAD);
     load_ahead(b, index + 1);
-    if (o->plan) {
+    if (o->plan)
         printf("%s:%d:\n", list_name(b), f->job->line);
-    }
-    if (!session_begin(s, o, st, f->error, sizeof f->error)) {
+    if (!session_begin(s, o, st, FAULT(f->error)))
         return false;
-    }
     const bool wants_frame = o->output || o->ao || o->normals || o->depth || o->stats;
-    if (wants_frame && !session_draw(s, false, &f->slip, f->error, sizeof f->error)) {
+    if (wants_frame && !session_draw(s, false, &f->slip, FAULT(f->error)))
         return false;
-    }
-    return !o->stats || (session_finish(s, &f->slip, f->error, sizeof f->error) &&
-                         session_write_stats(s, start_ms, start_cpu_ms, f->error, sizeof f->error));
+    return !o->stats || (session_finish(s, &f->slip, FAULT(f->error)) &&
+                         session_write_stats(s, start_ms, start_cpu_ms, FAULT(f->error)));
 }
 
 static void print_summary(const batch *b, double start_ms)
 {
     const double seconds = (clock_wall_ms() - start_ms) / 1e3;
     char shard[48] = "";
-    if (b->options->shard_count) {
+    if (b->options->shard_count)
         snprintf(shard, sizeof shard, ", shard %d/%d", b->options->shard_index, b->options->shard_count);
-    }
-    progress_wipe(&b->shown);
+    progress_clear();
     fprintf(stderr, "%s%s: %zu of %zu jobs done, %zu failed; %zu pictures in %.2f s, %.1f a second\n", list_name(b),
             shard, b->done, b->mine, b->failed, b->pictures, seconds, seconds > 0 ? (double)b->pictures / seconds : 0);
 }
 
-/* False, with one line in `error`, where none can be drawn. */
-static bool run(batch *b, char *error, size_t error_size)
+/* False, with one line in `why`, where none can be drawn. */
+static bool run(batch *b, fault *why)
 {
-    if (!batch_list_read(&b->list, b->options, error, error_size)) {
+    if (!batch_list_read(&b->list, b->options, why))
         return false;
-    }
-    for (size_t i = 0; i < b->list.count; i++) {
+    for (size_t i = 0; i < b->list.count; i++)
         b->mine += is_mine(b, i);
-    }
-    if (b->mine && !session_open(&b->session, b->options, error, error_size)) {
+    if (b->mine && !session_open(&b->session, b->options, why))
         return false;
-    }
     b->stages = stage_cache_create((size_t)b->options->cache_mib << 20);
     if (!b->stages) {
-        snprintf(error, error_size, "out of memory");
-        return false;
+        return fault_set(why, "out of memory");
     }
-    b->shown = progress_start("job", (int)b->mine);
+    b->shown = progress_start("job");
     int drawn = 0;
     for (size_t i = 0; i < b->list.count; i++) {
         const batch_job *job = &b->list.jobs[i];
-        if (!is_mine(b, i)) {
+        if (!is_mine(b, i))
             continue;
-        }
         flight *f = take_off(b, job);
-        if (job->error) {
+        if (job->error)
             snprintf(f->error, sizeof f->error, "%s", job->error);
-        }
         f->failed = job->error || !draw_job(b, i, f);
         land_those_done(b);
-        progress_show(&b->shown, ++drawn);
+        progress_count(&b->shown, ++drawn, (int)b->mine);
     }
-    if (b->mine) {
+    if (b->mine)
         land_all(b);
-    }
     return true;
 }
 
@@ -187,14 +173,13 @@ bool batch_run(const options *o)
     char error[ERROR_LENGTH];
     static batch b; /* large, and zero */
     b.options = o;
-    const bool ran = run(&b, error, sizeof error);
+    const bool ran = run(&b, FAULT(error));
     stage_cache_destroy(b.stages);
     session_close(&b.session);
-    if (ran) {
+    if (ran)
         print_summary(&b, start_ms);
-    } else {
+    else
         fprintf(stderr, "glssao-render: %s\n", error);
-    }
     batch_list_free(&b.list);
     return ran && b.failed == 0;
 }

@@ -5,6 +5,7 @@
 #ifndef GLSSAO_EXAMPLES_BATCH_LIST_H
 #define GLSSAO_EXAMPLES_BATCH_LIST_H
 
+#include "fault.h"
 #include "options.h"
 
 #include <stddef.h>
@@ -24,7 +25,7 @@ typedef struct batch_list {
 /* Reads the list of defaults->batch ("-": standard input) and parses its lines over `defaults`; lines that are wrong
  * become jobs with an error, and so does every line that writes a file which an earlier one writes. False, with one
  * line in `error`, where the list can't be read; batch_list_free is due in either case. */
-bool batch_list_read(batch_list *list, const options *defaults, char *error, size_t error_size);
+bool batch_list_read(batch_list *list, const options *defaults, fault *why);
 void batch_list_free(batch_list *list);
 
 /* batch_names.c: gives an error to every job that writes a file which an earlier one writes. False where memory is

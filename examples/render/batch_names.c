@@ -28,28 +28,23 @@ typedef struct written_list {
 static char *plain_name(const char *path)
 {
     char *name = realpath(path, NULL);
-    if (name) {
+    if (name)
         return name;
-    }
     const char *slash = strrchr(path, '/');
     char *folder = slash ? strdup(path) : strdup(".");
-    if (!folder) {
+    if (!folder)
         return NULL;
-    }
-    if (slash) {
+    if (slash)
         folder[slash == path ? 1 : slash - path] = '\0';
-    }
     char *real = realpath(folder, NULL);
     free(folder);
-    if (!real) {
+    if (!real)
         return strdup(path); /* it can't be written: the job will say so */
-    }
     const char *file = slash ? slash + 1 : path;
     const size_t size = strlen(real) + strlen(file) + 2;
     name = malloc(size);
-    if (name) {
+    if (name)
         snprintf(name, size, "%s/%s", real, file);
-    }
     free(real);
     return name;
 }
@@ -58,22 +53,19 @@ static bool add_file(const char *path, void *user)
 {
     written_list *list = user;
     struct stat status;
-    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
         return true; /* any number may write to a device */
-    }
     if (list->count == list->room) {
         const size_t room = list->room ? 2 * list->room : 256;
         written *grown = realloc(list->files, room * sizeof *grown);
-        if (!grown) {
+        if (!grown)
             return false;
-        }
         list->files = grown;
         list->room = room;
     }
     written w = {plain_name(path), list->job};
-    if (w.name) {
+    if (w.name)
         list->files[list->count++] = w;
-    }
     return w.name;
 }
 
@@ -118,9 +110,8 @@ bool batch_find_clashes(batch_list *list)
         qsort(files.files, files.count, sizeof *files.files, compare);
         room = mark(list, &files);
     }
-    for (size_t i = 0; i < files.count; i++) {
+    for (size_t i = 0; i < files.count; i++)
         free(files.files[i].name);
-    }
     free(files.files);
     return room;
 }

@@ -6,18 +6,10 @@
 #define GLSSAO_EXAMPLES_OPTIONS_H
 
 #include "context.h"
+#include "fault.h"
+#include "option.h"
 
 #include <glssao/glssao.h>
-
-typedef struct options_number {
-    bool given;
-    float value;
-} options_number;
-
-typedef struct options_vector {
-    bool given;
-    float value[3];
-} options_vector;
 
 typedef struct options {
     const char *scene_path;                            /* NULL: the built-in scene */
@@ -26,19 +18,20 @@ typedef struct options {
     const char *output, *ao, *normals, *depth, *stats; /* NULL: not wanted */
     int width, height;
     int quality, technique, context, path; /* glssao_quality, glssao_technique, context_kind, glssao_path */
-    options_number radius, power, fov_deg, near_plane, far_plane, error, budget_ms, time_s;
-    options_vector eye, target, up;
+    option_number radius, power, fov_deg, near_plane, far_plane, error, budget_ms, time_s;
+    option_vector eye, target, up;
     int sample_count;  /* 0: the quality's own */
     int blur_rounds;   /* -1: the quality's own */
     int margin;        /* pixels on each side */
     int layers;        /* 1 or 2; 0: not given */
-    int camera;        /* the scene's N-th, counted from 1; 0: not given */
+    int camera;        /* the file's N-th, counted from 1; 0: not given; -1: none of the file's */
+    const char *view;  /* direction to see the scene from; NULL: not given */
     int frames, bench; /* 0: not given */
     uint32_t seed;
     bool no_shadows, mapped_normals, specular_occlusion, multi_bounce;
     int shadow_size; /* texels; 0: not given */
     int debug_map;   /* options_map; OPTIONS_MAP_NONE: not given */
-    bool plan, no_ao, help, version;
+    bool orthographic, plan, no_ao, help, version;
     const char *environment;      /* picture of the surroundings; NULL: the built-in light */
     const char *program_cache;    /* folder of linked programs; NULL: none */
     const char *batch;            /* list file, "-": standard input; NULL: one picture, or turntable */
@@ -52,6 +45,7 @@ typedef enum options_program { OPTIONS_RENDER, OPTIONS_JOB, OPTIONS_VIEWER } opt
 /* Of options.technique, behind the library's own. */
 enum { OPTIONS_RAYTRACE = GLSSAO_HORIZON + 1 };
 
+#define OPTIONS_MAP_WORDS "none|ao|normals|depth|random|shadow|tiles"
 /* Of options.debug_map; the shadow map only where one is drawn. */
 typedef enum options_map {
     OPTIONS_MAP_NONE = 0,
@@ -65,15 +59,15 @@ typedef enum options_map {
 
 typedef enum options_result { OPTIONS_RUN, OPTIONS_DONE, OPTIONS_WRONG } options_result;
 
-/* OPTIONS_DONE: help or version was asked for and printed to stdout. OPTIONS_WRONG: one line in `error` names the
+/* OPTIONS_DONE: help or version was asked for and printed to stdout. OPTIONS_WRONG: one line in `why` names the
  * option and the value. The strings live as long as argv. */
-options_result options_parse(int argc, char **argv, options *out, char *error, size_t error_size);
+options_result options_parse(int argc, char **argv, options *out, fault *why);
 
 /* One line of a batch, argv[0] left out, over `defaults`, the command line's: a scene on the line takes the place of
- * theirs. False, with one line in `error`. */
-bool options_parse_job(const options *defaults, int argc, char **argv, options *out, char *error, size_t error_size);
+ * theirs. False, with one line in `why`. */
+bool options_parse_job(const options *defaults, int argc, char **argv, options *out, fault *why);
 
 /* The same command line for glssao-view, which needs no output and takes none of the options that are about files. */
-options_result options_parse_for_viewer(int argc, char **argv, options *out, char *error, size_t error_size);
+options_result options_parse_for_viewer(int argc, char **argv, options *out, fault *why);
 
 #endif

@@ -28,9 +28,8 @@ static int writing_error(const char *path)
 {
     struct stat info;
     if (stat(path, &info) == 0) {
-        if (S_ISDIR(info.st_mode)) {
+        if (S_ISDIR(info.st_mode))
             return EISDIR;
-        }
         return access(path, W_OK) == 0 ? 0 : errno;
     }
     char folder[PATH_LENGTH];
@@ -39,36 +38,32 @@ static int writing_error(const char *path)
     memcpy(folder, path, length);
     folder[length] = '\0';
     const char *name = length ? folder : slash ? "/" : ".";
-    if (stat(name, &info) != 0) {
+    if (stat(name, &info) != 0)
         return errno;
-    }
-    if (!S_ISDIR(info.st_mode)) {
+    if (!S_ISDIR(info.st_mode))
         return ENOTDIR;
-    }
     return access(name, W_OK | X_OK) == 0 ? 0 : errno;
 }
 
-bool outputs_check(const options *o, char *error, size_t error_size)
+bool outputs_check(const options *o, fault *why)
 {
     const char *const files[] = {o->output, o->ao, o->normals, o->depth, o->stats};
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
-        if (!files[i]) {
+        if (!files[i])
             continue;
-        }
         char path[PATH_LENGTH];
         const bool numbered = o->frames && files[i] != o->stats;
         const int code =
             number_path(files[i], numbered ? 1 : 0, path, sizeof path) ? writing_error(path) : ENAMETOOLONG;
         if (code) {
-            snprintf(error, error_size, "%s: can't be written: %s", files[i], strerror(code));
-            return false;
+            return fault_set(why, "%s: can't be written: %s", files[i], strerror(code));
         }
     }
     return true;
 }
 
 bool outputs_take(const options *o, pipeline *p, const scene_view *view, int number, readback *r, writer_slip *slip,
-                  char *error, size_t error_size)
+                  fault *why)
 {
     const pixel_kind ao_kind = o->ao && strcmp(strrchr(o->ao, '.'), ".pfm") == 0 ? PIXELS_FLOAT : PIXELS_GREY8;
     const struct {
@@ -81,13 +76,11 @@ bool outputs_take(const options *o, pipeline *p, const scene_view *view, int num
                    {o->depth, PIPELINE_VIEW_DISTANCE, PIXELS_FLOAT}};
     for (size_t i = 0; i < sizeof outputs / sizeof outputs[0]; i++) {
         char path[PATH_LENGTH];
-        if (!outputs[i].file) {
+        if (!outputs[i].file)
             continue;
-        }
         number_path(outputs[i].file, number, path, sizeof path); /* outputs_check saw that it fits */
-        if (!readback_take(r, p, outputs[i].output, outputs[i].kind, view, path, slip, error, error_size)) {
+        if (!readback_take(r, p, outputs[i].output, outputs[i].kind, view, path, slip, why))
             return false;
-        }
     }
     return true;
 }
@@ -99,9 +92,8 @@ bool outputs_each(const options *o, bool (*visit)(const char *path, void *user),
         const int last = o->frames ? o->frames : 1;
         for (int frame = 1; files[i] && frame <= last; frame++) {
             char path[PATH_LENGTH];
-            if (number_path(files[i], o->frames ? frame : 0, path, sizeof path) && !visit(path, user)) {
+            if (number_path(files[i], o->frames ? frame : 0, path, sizeof path) && !visit(path, user))
                 return false;
-            }
         }
     }
     return true;

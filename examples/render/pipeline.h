@@ -7,6 +7,7 @@
 #define GLSSAO_EXAMPLES_PIPELINE_H
 
 #include "draw.h"
+#include "fault.h"
 #include "gl.h"
 #include "options.h"
 #include "pixel_kind.h"
@@ -54,25 +55,25 @@ typedef struct pipeline {
     GLuint maps[PIXEL_KIND_COUNT], map_framebuffers[PIXEL_KIND_COUNT]; /* where maps are drawn to be read back */
 } pipeline;
 
-/* False, with one line in `error`; pipeline_destroy is due in either case. */
+/* False, with one line in `why`; pipeline_destroy is due in either case. */
 bool pipeline_create(pipeline *p, const scene *s, glssao_load_fn load, void *load_user, const options *o,
-                     pipeline_wants wants, char *error, size_t error_size);
+                     pipeline_wants wants, fault *why);
 
 /* Makes it draw a stage, which must outlive that, as the options say, from zero or from whatever it drew before: what
- * fits of the effect, its shaders and the targets stays. False, with one line in `error`; only pipeline_destroy may
+ * fits of the effect, its shaders and the targets stays. False, with one line in `why`; only pipeline_destroy may
  * follow then. */
 bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_user, const options *o,
-                      pipeline_wants wants, char *error, size_t error_size);
+                      pipeline_wants wants, fault *why);
 
 /* Light from the picture in that file, or the built-in one (NULL); a picture that is there already is not read again.
- * scene_renderer_configure is due after it. False, with one line in `error`, on failure, where the light stays. */
-bool pipeline_surround(pipeline *p, const stage *st, const char *path, char *error, size_t error_size);
+ * scene_renderer_configure is due after it. False, with one line in `why`, on failure, where the light stays. */
+bool pipeline_surround(pipeline *p, const stage *st, const char *path, fault *why);
 
 /* The settings that the command line asks for. */
 glssao_settings pipeline_settings(const options *o, const scene *s);
 
 /* Makes the targets anew; pipeline_destroy is due in either case. Not where rays are traced. */
-bool pipeline_resize(pipeline *p, int width, int height, char *error, size_t error_size);
+bool pipeline_resize(pipeline *p, int width, int height, fault *why);
 
 /* The accessibility map of the last frame. */
 GLuint pipeline_ambient_map(const pipeline *p);
@@ -81,7 +82,7 @@ GLuint pipeline_ambient_map(const pipeline *p);
 void pipeline_destroy(pipeline *p);
 
 /* Draws all that is wanted, and ends the phases of `times` as it goes. `view` has the margin on it. */
-bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, char *error, size_t error_size);
+bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, fault *why);
 
 /* The picture of the frame last drawn once more, with another accessibility map (0: none), into another framebuffer of
  * the pipeline's size whose depth attachment is the pipeline's `depth`. */
@@ -113,11 +114,11 @@ void pipeline_print_plan(const pipeline *p, const scene_view *view);
 /* ---- Between the pipeline's own files: pipeline_targets.c, pipeline.c */
 
 /* False, with what failed and the library's last error in `error`, where the result is not GLSSAO_OK. */
-bool pipeline_check(glssao_result result, const char *what, char *error, size_t error_size);
-/* Frees the targets. False, with one line in `error`, where the context has no framebuffers of that size. */
-bool pipeline_change_size(pipeline *p, int width, int height, char *error, size_t error_size);
+bool pipeline_check(glssao_result result, const char *what, fault *why);
+/* Frees the targets. False, with one line in `why`, where the context has no framebuffers of that size. */
+bool pipeline_change_size(pipeline *p, int width, int height, fault *why);
 /* Makes those that are wanted and not there. */
-bool pipeline_make_targets(pipeline *p, char *error, size_t error_size);
+bool pipeline_make_targets(pipeline *p, fault *why);
 void pipeline_free_targets(pipeline *p);
 /* Where a map is drawn to be read back; 0 where GL has none. */
 GLuint pipeline_map_framebuffer(pipeline *p, pixel_kind kind);

@@ -25,9 +25,8 @@ static GLuint draw_output(pipeline *p, pipeline_output output, pixel_kind kind, 
     const int m = p->margin;
     const scene_rectangle whole = {0, 0, p->width, p->height}, delivered = {m, m, p->width - 2 * m, p->height - 2 * m};
     const GLuint framebuffer = pipeline_map_framebuffer(p, kind);
-    if (!framebuffer) {
+    if (!framebuffer)
         return 0;
-    }
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl.Viewport(0, 0, p->width, p->height);
     if (output == PIPELINE_VIEW_DISTANCE) {
@@ -53,9 +52,8 @@ bool pipeline_read(pipeline *p, pipeline_output output, pixel_kind kind, const s
         return true;
     }
     const GLuint framebuffer = output == PIPELINE_PICTURE ? p->color_framebuffer : draw_output(p, output, kind, view);
-    if (!framebuffer) {
+    if (!framebuffer)
         return false;
-    }
     gl.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
     gl.ReadPixels(p->margin, p->margin, p->width - 2 * p->margin, p->height - 2 * p->margin, layouts[kind].format,

@@ -35,9 +35,8 @@ glssao_result progressive_run(glssao_effect *effect, const glssao_frame *frame, 
         out->estimates = stats.estimates;
         out->sampling_error = stats.sampling_error;
         out->ms = now - start;
-        if (i > 0 && now - before > dearest_ms) { /* the first compiles shaders */
+        if (i > 0 && now - before > dearest_ms) /* the first compiles shaders */
             dearest_ms = now - before;
-        }
         time_is_left = goal->budget_ms <= 0 || out->ms + dearest_ms <= goal->budget_ms;
     }
     out->reached = goal->error <= 0 || is_done(out, goal);
@@ -47,16 +46,13 @@ glssao_result progressive_run(glssao_effect *effect, const glssao_frame *frame, 
 void progressive_print(const progressive_report *r, const progressive_goal *goal)
 {
     printf("%d estimates in %.1f ms, sampling error ", r->estimates, r->ms);
-    if (r->sampling_error >= 0) {
+    if (r->sampling_error >= 0)
         printf("%.5f", r->sampling_error);
-    } else {
+    else
         printf("not known of a single one");
-    }
-    if (goal->error > 0) {
+    if (goal->error > 0)
         printf(" (%s %g)", r->reached ? "at most" : "did not reach", goal->error);
-    }
-    if (goal->budget_ms > 0) {
+    if (goal->budget_ms > 0)
         printf(" (budget %g ms)", goal->budget_ms);
-    }
     putchar('\n');
 }

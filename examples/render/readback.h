@@ -6,6 +6,7 @@
 #ifndef GLSSAO_EXAMPLES_READBACK_H
 #define GLSSAO_EXAMPLES_READBACK_H
 
+#include "fault.h"
 #include "pipeline.h"
 #include "writer.h"
 
@@ -17,9 +18,9 @@ readback *readback_create(writer *w);
 void readback_destroy(readback *r);
 
 /* Has an output of the frame last drawn written to `path`; what becomes of it, the slip tells, which must live until it
- * is done. False, with one line in `error`, where it can't be read. */
+ * is done. False, with one line in `why`, where it can't be read. */
 bool readback_take(readback *r, pipeline *p, pipeline_output output, pixel_kind kind, const scene_view *view,
-                   const char *path, writer_slip *slip, char *error, size_t error_size);
+                   const char *path, writer_slip *slip, fault *why);
 
 /* Hands over what the GPU is done with. */
 void readback_poll(readback *r);

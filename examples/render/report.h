@@ -5,6 +5,7 @@
 #ifndef GLSSAO_EXAMPLES_REPORT_H
 #define GLSSAO_EXAMPLES_REPORT_H
 
+#include "fault.h"
 #include "options.h"
 #include "progressive.h"
 #include "scene.h"
@@ -58,7 +59,7 @@ typedef struct report {
     double wall_ms, cpu_ms; /* of the whole run, up to writing this */
 } report;
 
-/* Writes JSON. False, with one line in `error`, where the file can't be written. */
-bool report_write(const report *r, const char *path, char *error, size_t error_size);
+/* Writes JSON. False, with one line in `why`, where the file can't be written. */
+bool report_write(const report *r, const char *path, fault *why);
 
 #endif

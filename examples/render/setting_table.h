@@ -5,6 +5,8 @@
 #ifndef GLSSAO_EXAMPLES_SETTING_TABLE_H
 #define GLSSAO_EXAMPLES_SETTING_TABLE_H
 
+#include "fault.h"
+
 #include <glssao/glssao.h>
 #include <stddef.h>
 
@@ -23,8 +25,8 @@ typedef struct setting {
 extern const setting setting_table[];
 extern const int setting_count;
 
-/* "name=value,name=value" into *settings. False, with one line in `error`, where a name or value is wrong. */
-bool setting_apply(const char *text, glssao_settings *settings, char *error, size_t error_size);
+/* "name=value,name=value" into *settings. False, with one line in `why`, where a name or value is wrong. */
+bool setting_apply(const char *text, glssao_settings *settings, fault *why);
 
 /* Writes what differs between the two as such a text, "" where nothing does; false where it does not fit. */
 bool setting_differences(const glssao_settings *from, const glssao_settings *to, char *out, size_t out_size);

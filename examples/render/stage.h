@@ -6,6 +6,7 @@
 #define GLSSAO_EXAMPLES_STAGE_H
 
 #include "draw.h"
+#include "fault.h"
 #include "options.h"
 #include "scene.h"
 #include "trace.h"
@@ -18,15 +19,15 @@ typedef struct stage {
     trace_scene *traced; /* NULL: not yet */
 } stage;
 
-/* The options' scene: NULL, with one line in `error`, on failure. Any thread. */
-scene *stage_load_scene(const options *o, char *error, size_t error_size);
+/* The options' scene: NULL, with one line in `why`, on failure. Any thread. */
+scene *stage_load_scene(const options *o, fault *why);
 
 /* Uploads the scene, which must outlive the stage; its programs are shared with those of `like` (may be NULL). False,
- * with one line in `error`; stage_close is due in either case. */
-bool stage_open(stage *st, const scene *s, const stage *like, char *error, size_t error_size);
+ * with one line in `why`; stage_close is due in either case. */
+bool stage_open(stage *st, const scene *s, const stage *like, fault *why);
 void stage_close(stage *st);
 
 /* Builds Embree's side where it is not there yet. */
-bool stage_trace(stage *st, char *error, size_t error_size);
+bool stage_trace(stage *st, fault *why);
 
 #endif

@@ -12,7 +12,7 @@
 typedef struct key {
     char *name; /* path, or name of a built-in scene */
     bool is_file;
-    options_number time_s;
+    option_number time_s;
     struct stat status; /* of the file, where it has one */
 } key;
 
@@ -41,9 +41,8 @@ struct stage_cache {
 stage_cache *stage_cache_create(size_t most_bytes)
 {
     stage_cache *c = calloc(1, sizeof *c);
-    if (c) {
+    if (c)
         c->most_bytes = most_bytes;
-    }
     return c;
 }
 
@@ -52,9 +51,8 @@ static key make_key(const options *o)
 {
     key k = {
         .name = strdup(o->scene_path ? o->scene_path : o->scene_name), .is_file = o->scene_path, .time_s = o->time_s};
-    if (k.is_file && stat(o->scene_path, &k.status) != 0) {
+    if (k.is_file && stat(o->scene_path, &k.status) != 0)
         memset(&k.status, 0, sizeof k.status); /* loading will say what is wrong */
-    }
     return k;
 }
 
@@ -78,7 +76,7 @@ static void *load(void *argument)
     const options o = {.scene_path = l->key.is_file ? l->key.name : NULL,
                        .scene_name = l->key.is_file ? NULL : l->key.name,
                        .time_s = l->key.time_s};
-    l->scene = stage_load_scene(&o, l->error, sizeof l->error);
+    l->scene = stage_load_scene(&o, FAULT(l->error));
     return NULL;
 }
 
@@ -104,9 +102,8 @@ static void drop_loading(loading *l)
 static entry **find(stage_cache *c, const key *k)
 {
     entry **at = &c->first;
-    while (*at && !is_same(&(*at)->key, k)) {
+    while (*at && !is_same(&(*at)->key, k))
         at = &(*at)->next;
-    }
     return at;
 }
 
@@ -121,20 +118,18 @@ bool stage_cache_load_ahead(stage_cache *c, const options *o)
     l->used = true;
     l->key = k;
     l->running = pthread_create(&l->thread, NULL, load, l) == 0;
-    if (!l->running) { /* no more threads: when it is asked for */
+    if (!l->running) /* no more threads: when it is asked for */
         drop_loading(l);
-    }
     return l->used;
 }
 
 /* Takes `k` over, also on failure. */
-static scene *load_scene(stage_cache *c, key *k, char *error, size_t error_size)
+static scene *load_scene(stage_cache *c, key *k, fault *why)
 {
     loading *ahead = &c->ahead, here = {.key = *k};
     if (ahead->used && !is_same(&ahead->key, k) && strcmp(ahead->key.name, k->name) == 0 &&
-        is_same_time(&ahead->key, k)) {
+        is_same_time(&ahead->key, k))
         drop_loading(ahead); /* the file has changed since */
-    }
     loading *l = ahead->used && is_same(&ahead->key, k) ? ahead : &here;
     if (l == ahead) {
         finish_loading(l);
@@ -147,7 +142,7 @@ static scene *load_scene(stage_cache *c, key *k, char *error, size_t error_size)
     scene *s = l->scene;
     l->scene = NULL;
     if (!s) {
-        snprintf(error, error_size, "%s", l->error);
+        fault_set(why, "%s", l->error);
         free(k->name);
     }
     return s;
@@ -168,9 +163,8 @@ static size_t count_bytes(const entry *e)
     const size_t geometry = s->vertex_count * (sizeof *s->vertices + (s->tangents ? sizeof *s->tangents : 0)) +
                             s->index_count * sizeof *s->indices + s->instance_count * sizeof *s->instances;
     size_t images = 0;
-    for (uint32_t i = 0; i < s->image_count; i++) {
+    for (uint32_t i = 0; i < s->image_count; i++)
         images += (size_t)s->images[i].width * (size_t)s->images[i].height * 4;
-    }
     int shadow_size = 0;
     scene_shadow_map(e->stage.renderer, &shadow_size);
     return geometry * (e->stage.traced ? 4 : 2) + images * 7 / 3 + (size_t)shadow_size * (size_t)shadow_size * 4;
@@ -192,7 +186,7 @@ static void shrink(stage_cache *c)
     }
 }
 
-stage *stage_cache_get(stage_cache *c, const options *o, char *error, size_t error_size)
+stage *stage_cache_get(stage_cache *c, const options *o, fault *why)
 {
     key k = make_key(o);
     entry **at = k.name ? find(c, &k) : NULL;
@@ -201,20 +195,18 @@ stage *stage_cache_get(stage_cache *c, const options *o, char *error, size_t err
         *at = e->next;
         free(k.name);
     } else {
-        scene *s = k.name ? load_scene(c, &k, error, error_size) : NULL;
+        scene *s = k.name ? load_scene(c, &k, why) : NULL;
         if (!s) {
-            if (!k.name) {
-                snprintf(error, error_size, "out of memory");
-            }
+            if (!k.name)
+                fault_set(why, "out of memory");
             return NULL;
         }
         e = calloc(1, sizeof *e);
-        if (!e || !stage_open(&e->stage, s, c->first ? &c->first->stage : NULL, error, error_size)) {
-            if (e) {
+        if (!e || !stage_open(&e->stage, s, c->first ? &c->first->stage : NULL, why)) {
+            if (e)
                 stage_close(&e->stage);
-            } else {
-                snprintf(error, error_size, "out of memory");
-            }
+            else
+                fault_set(why, "out of memory");
             free(e);
             scene_destroy(s);
             free(k.name);
@@ -231,9 +223,8 @@ stage *stage_cache_get(stage_cache *c, const options *o, char *error, size_t err
 
 void stage_cache_destroy(stage_cache *c)
 {
-    if (!c) {
+    if (!c)
         return;
-    }
     drop_loading(&c->ahead);
     while (c->first) {
         entry *e = c->first;

@@ -6,6 +6,7 @@
 #ifndef GLSSAO_EXAMPLES_STAGE_CACHE_H
 #define GLSSAO_EXAMPLES_STAGE_CACHE_H
 
+#include "fault.h"
 #include "options.h"
 #include "stage.h"
 
@@ -16,8 +17,8 @@ stage_cache *stage_cache_create(size_t most_bytes);
 void stage_cache_destroy(stage_cache *c);
 
 /* The stage of the options' scene: a file is the same as one loaded before if its path, size and times are, those of
- * the files that it names are not looked at. Valid until the next call; NULL, with one line in `error`, on failure. */
-stage *stage_cache_get(stage_cache *c, const options *o, char *error, size_t error_size);
+ * the files that it names are not looked at. Valid until the next call; NULL, with one line in `why`, on failure. */
+stage *stage_cache_get(stage_cache *c, const options *o, fault *why);
 
 /* Starts loading the options' scene where it is not there and no other is being loaded; true where it did. */
 bool stage_cache_load_ahead(stage_cache *c, const options *o);

@@ -7,6 +7,7 @@
 #include "writer.h"
 
 #include "clock.h"
+#include "fault.h"
 #include "picture.h"
 
 #include <pthread.h>
@@ -51,14 +52,12 @@ static size_t pixel_bytes(const entry *e)
     return (size_t)e->width * (size_t)e->height * (e->kind == PIXELS_GREY8 ? 1 : 4);
 }
 
-static bool encode(const entry *e, char *error, size_t error_size)
+static bool encode(const entry *e, fault *why)
 {
-    if (e->kind == PIXELS_FLOAT) {
-        return picture_write_pfm(e->path, e->width, e->height, 1, e->pixels, error, error_size);
-    }
-    if (e->kind == PIXELS_GREY8) {
-        return picture_write_png(e->path, e->width, e->height, 1, e->pixels, error, error_size);
-    }
+    if (e->kind == PIXELS_FLOAT)
+        return picture_write_pfm(e->path, e->width, e->height, 1, e->pixels, why->text, why->size);
+    if (e->kind == PIXELS_GREY8)
+        return picture_write_png(e->path, e->width, e->height, 1, e->pixels, why->text, why->size);
     uint8_t *pixels = e->pixels;
     const size_t count = (size_t)e->width * (size_t)e->height;
     for (size_t i = 1; i < count; i++) { /* in place: writing never overtakes reading */
@@ -66,7 +65,7 @@ static bool encode(const entry *e, char *error, size_t error_size)
         pixels[3 * i + 1] = pixels[4 * i + 1];
         pixels[3 * i + 2] = pixels[4 * i + 2];
     }
-    return picture_write_png(e->path, e->width, e->height, 3, pixels, error, error_size);
+    return picture_write_png(e->path, e->width, e->height, 3, pixels, why->text, why->size);
 }
 
 /* With the lock held. */
@@ -87,7 +86,7 @@ static void work_on(writer *w, entry e)
     char error[sizeof e.slip->error] = "";
     pthread_mutex_unlock(&w->lock);
     const double start = clock_wall_ms();
-    const bool ok = e.path && encode(&e, error, sizeof error);
+    const bool ok = e.path && encode(&e, FAULT(error));
     const double ms = clock_wall_ms() - start;
     free(e.pixels);
     free(e.path);
@@ -125,9 +124,8 @@ static void *run_thread(void *argument)
 writer *writer_create(void)
 {
     writer *w = calloc(1, sizeof *w);
-    if (!w) {
+    if (!w)
         return NULL;
-    }
     pthread_mutex_init(&w->lock, NULL);
     pthread_cond_init(&w->changed, NULL);
     w->wanted = count_cores();
@@ -137,16 +135,14 @@ writer *writer_create(void)
 
 void writer_destroy(writer *w)
 {
-    if (!w) {
+    if (!w)
         return;
-    }
     pthread_mutex_lock(&w->lock);
     w->ending = true;
     pthread_cond_broadcast(&w->changed);
     pthread_mutex_unlock(&w->lock);
-    for (int i = 0; i < w->thread_count; i++) {
+    for (int i = 0; i < w->thread_count; i++)
         pthread_join(w->threads[i], NULL);
-    }
     pthread_cond_destroy(&w->changed);
     pthread_mutex_destroy(&w->lock);
     free(w);
@@ -163,18 +159,15 @@ void writer_submit(writer *w, writer_slip *slip, const char *path, int width, in
 {
     const size_t length = strlen(path) + 1;
     entry e = {.path = malloc(length), .width = width, .height = height, .kind = kind, .pixels = pixels, .slip = slip};
-    if (e.path) {
+    if (e.path)
         memcpy(e.path, path, length);
-    }
     pthread_mutex_lock(&w->lock);
-    while (w->thread_count && w->bytes && (w->length >= w->limit || w->bytes + pixel_bytes(&e) > most_bytes)) {
+    while (w->thread_count && w->bytes && (w->length >= w->limit || w->bytes + pixel_bytes(&e) > most_bytes))
         pthread_cond_wait(&w->changed, &w->lock);
-    }
     w->bytes += pixel_bytes(&e);
     if (w->length >= w->idle && w->thread_count < w->wanted &&
-        pthread_create(&w->threads[w->thread_count], NULL, run_thread, w) == 0) {
+        pthread_create(&w->threads[w->thread_count], NULL, run_thread, w) == 0)
         w->thread_count++;
-    }
     if (w->thread_count) {
         w->queue[(w->first + w->length++) % QUEUE_LENGTH] = e;
         pthread_cond_broadcast(&w->changed);
@@ -194,9 +187,8 @@ void writer_give_up(writer *w, writer_slip *slip, const char *error)
 bool writer_wait(writer *w, writer_slip *slip)
 {
     pthread_mutex_lock(&w->lock);
-    while (slip->pending) {
+    while (slip->pending)
         pthread_cond_wait(&w->changed, &w->lock);
-    }
     const bool ok = !slip->failed;
     pthread_mutex_unlock(&w->lock);
     return ok;

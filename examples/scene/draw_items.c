@@ -3,6 +3,7 @@
  * Decides which draw calls a scene takes, in which order, and which of them a view shows.
  */
 #include "draw_internal.h"
+#include "matrix.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,25 +11,10 @@
 
 bool draw_normal_matrix(const float affine[16], float out[3][3])
 {
-    double m[3][3], cofactors[3][3];
-    for (int c = 0; c < 3; c++)
-        for (int r = 0; r < 3; r++)
-            m[c][r] = affine[4 * c + r];
-    /* The cofactor matrix is the determinant times the inverse transpose, and exists where the inverse does not. */
-    for (int c = 0; c < 3; c++) {
-        const double *a = m[(c + 1) % 3], *b = m[(c + 2) % 3];
-        for (int r = 0; r < 3; r++)
-            cofactors[c][r] = a[(r + 1) % 3] * b[(r + 2) % 3] - a[(r + 2) % 3] * b[(r + 1) % 3];
-    }
-    double determinant = 0.0, largest = 0.0;
-    for (int r = 0; r < 3; r++)
-        determinant += m[0][r] * cofactors[0][r];
+    double normals[9];
+    const bool mirrors = matrix_for_normals(affine, normals);
     for (int i = 0; i < 9; i++)
-        largest = fmax(largest, fabs(cofactors[i / 3][i % 3]));
-    bool mirrors = determinant < 0.0;
-    double scale = largest > 0.0 ? (mirrors ? -1.0 : 1.0) / largest : 0.0;
-    for (int i = 0; i < 9; i++)
-        out[i / 3][i % 3] = (float)(scale * cofactors[i / 3][i % 3]);
+        out[i / 3][i % 3] = (float)normals[i];
     return mirrors;
 }
 

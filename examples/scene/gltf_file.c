@@ -2,17 +2,13 @@
  *
  * Reads files, finds the chunks of a GLB, and checks how deep and how full the JSON is before it is parsed.
  */
-#ifndef _POSIX_C_SOURCE
-#define _POSIX_C_SOURCE 200809L /* fstat: a FIFO or a device must not be read */
-#endif
 #include "gltf_file.h"
 
-#include <errno.h>
-#include <fcntl.h>
+#include "read_file.h"
+
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 enum { CHUNK_HEADER = 8, MOST_JSON_DEPTH = 64, JSON_VALUE_BYTES = 200 };
@@ -37,68 +33,14 @@ static const char *find_mistake(const uint8_t *data, size_t size)
     return NULL;
 }
 
-/* Standard input, whose size nobody knows beforehand. */
-static uint8_t *read_stream(int file, uint64_t limit, size_t *out_size, const char **out_reason)
-{
-    size_t room = 1 << 16;
-    uint8_t *data = malloc(room);
-    *out_reason = data ? NULL : "not enough memory";
-    while (data) {
-        const ssize_t got = read(file, data + *out_size, room - *out_size);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got == 0)
-            return data;
-        *out_size += got > 0 ? (size_t)got : 0;
-        *out_reason = got < 0 ? strerror(errno) : *out_size > limit ? "too large" : NULL;
-        uint8_t *grown = *out_reason || *out_size < room ? data : realloc(data, room *= 2);
-        if (*out_reason || !grown) {
-            *out_reason = *out_reason ? *out_reason : "not enough memory";
-            free(data);
-            return NULL;
-        }
-        data = grown;
-    }
-    return NULL;
-}
-
-static uint8_t *read_regular(int file, uint64_t limit, size_t *out_size, const char **out_reason)
-{
-    struct stat about;
-    uint8_t *data = NULL;
-    if (file < 0 || fstat(file, &about) != 0)
-        *out_reason = strerror(errno);
-    else if (!S_ISREG(about.st_mode))
-        *out_reason = "not a regular file";
-    else if ((uintmax_t)about.st_size > limit)
-        *out_reason = "too large";
-    else if (!(data = malloc((size_t)about.st_size + 1)))
-        *out_reason = "not enough memory";
-    while (data && *out_size < (size_t)about.st_size) {
-        const ssize_t got = read(file, data + *out_size, (size_t)about.st_size - *out_size);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got <= 0) {
-            *out_reason = got < 0 ? strerror(errno) : "the file became shorter while it was read";
-            free(data);
-            return NULL;
-        }
-        *out_size += (size_t)got;
-    }
-    return data;
-}
-
 uint8_t *gltf_read_file(const char *path, uint64_t limit, size_t *out_size, const char **out_reason)
 {
-    *out_size = 0;
-    *out_reason = NULL;
-    if (!strcmp(path, "-"))
-        return read_stream(STDIN_FILENO, limit, out_size, out_reason);
-    const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    uint8_t *data = read_regular(file, limit, out_size, out_reason);
-    if (file >= 0)
-        close(file);
-    if (data && (*out_reason = find_mistake(data, *out_size))) {
+    const size_t most = limit < SIZE_MAX / 4 ? (size_t)limit : SIZE_MAX / 4;
+    uint8_t *data = strcmp(path, "-") != 0 ? read_file(path, most, out_size, out_reason)
+                                           : read_stream(STDIN_FILENO, most, out_size, out_reason);
+    const char *mistake = data ? find_mistake(data, *out_size) : NULL;
+    if (mistake) {
+        *out_reason = mistake;
         free(data);
         data = NULL;
     }

@@ -4,6 +4,8 @@
 // callbacks, from the file's own folder only; images stay encoded.
 #include "gltf_parse.h"
 
+#include "read_file.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -70,7 +72,7 @@ bool read_external(std::vector<unsigned char> *out, std::string *err, const std:
     const char *reason = nullptr;
     const bool again = !files->read.insert(path).second;
     const size_t limit = again ? most_repeated_bytes - files->bytes_repeated : most_external_bytes - files->bytes_read;
-    uint8_t *data = gltf_read_file(path.c_str(), limit, &size, &reason);
+    uint8_t *data = read_file(path.c_str(), limit, &size, &reason);
     if (!data) {
         *err += reason;
         return false;

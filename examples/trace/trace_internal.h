@@ -118,6 +118,5 @@ float trace_point_accessibility(const trace_scene *t, const trace_samples *sampl
  * many as there are cores. */
 void trace_run_jobs(int threads, size_t count, void (*work)(size_t job, void *user), void *user,
                     trace_progress_fn progress, void *progress_user);
-double trace_clock(void); /* seconds */
 
 #endif

@@ -5,32 +5,17 @@
  */
 #include "trace_internal.h"
 
+#include "matrix.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The inverse transpose of the upper 3x3 up to a positive factor, so that it is there for flat matrices too. */
 static void prepare_instance(const float m[16], trace_instance *out)
 {
-    double determinant = 0, largest = 0;
-    double *n = out->normal_from_mesh;
-    for (int c = 0; c < 3; c++) {
-        const float *a = m + 4 * ((c + 1) % 3), *b = m + 4 * ((c + 2) % 3);
-        for (int r = 0; r < 3; r++) {
-            n[3 * c + r] =
-                (double)a[(r + 1) % 3] * (double)b[(r + 2) % 3] - (double)a[(r + 2) % 3] * (double)b[(r + 1) % 3];
-            largest = fmax(largest, fabs(n[3 * c + r]));
-        }
-    }
-    for (int r = 0; r < 3; r++) {
-        determinant += (double)m[r] * n[r];
-    }
     out->world_from_mesh = m;
-    out->mirrored = determinant < 0;
-    for (int i = 0; i < 9 && largest > 0; i++) {
-        n[i] *= (out->mirrored ? -1 : 1) / largest;
-    }
+    out->mirrored = matrix_for_normals(m, out->normal_from_mesh);
 }
 
 /* Embree takes rays to mesh space and back: not through a matrix that is flat, or so uneven that the inverse would lose

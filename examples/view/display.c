@@ -46,7 +46,7 @@ bool viewer_resize(viewer *v, int width, int height)
     v->width = width;
     v->height = height;
     v->frame_due = true;
-    if (!pipeline_resize(&v->pipeline, width, height, v->error, sizeof v->error)) {
+    if (!pipeline_resize(&v->pipeline, width, height, FAULT(v->error))) {
         viewer_say(v, true, "%s", v->error);
         return false;
     }
@@ -107,13 +107,13 @@ static bool draw_frame(viewer *v)
     v->pipeline.settings = frame_settings(v);
     v->pipeline.goal = frame_goal(v);
     stopwatch_start(&times);
-    if (!viewpoint_view(&v->viewpoint, v->scene, 0, v->width, v->height, &v->view, v->error, sizeof v->error)) {
+    if (!viewpoint_view(&v->viewpoint, v->scene, 0, v->width, v->height, &v->view, FAULT(v->error))) {
         viewer_say(v, true, "%s", v->error);
         return false;
     }
     /* Where it has to be waited for, a picture without occlusion comes first. */
     v->pipeline.wants.ao = v->updates > 0 || compiles_quickly(v);
-    if (!pipeline_draw(&v->pipeline, &v->view, &times, v->error, sizeof v->error)) {
+    if (!pipeline_draw(&v->pipeline, &v->view, &times, FAULT(v->error))) {
         viewer_say(v, true, "%s", v->error);
         return false;
     }

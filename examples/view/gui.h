@@ -25,6 +25,8 @@ bool gui_wants_mouse(void);    /* the pointer is over the panel, or drags someth
 bool gui_wants_keyboard(void); /* keys go to the panel: a text field, or moving about in it */
 void gui_leave(void);          /* gives the keyboard back */
 
+/* In pixels. */
+float gui_panel_width(float scale);
 /* Fixed to the left edge of the window, over its height; `focus`: keys go to it. Ended in any case. */
 void gui_begin_panel(const char *title, bool focus);
 void gui_end_panel(void);

@@ -70,9 +70,9 @@ static void on_pointer(GLFWwindow *window, double x, double y)
     if (dragging.across)
         navigate_pan(&v->viewpoint.base, -right, -up);
     else if (dragging.button == GLFW_MOUSE_BUTTON_LEFT)
-        navigate_orbit(&v->viewpoint.base, -turn_rad_per_height * right, -turn_rad_per_height * up);
+        navigate_orbit(&v->viewpoint.base, v->viewpoint.axis, -turn_rad_per_height * right, -turn_rad_per_height * up);
     else
-        navigate_look(&v->viewpoint.base, turn_rad_per_height * right, turn_rad_per_height * up);
+        navigate_look(&v->viewpoint.base, v->viewpoint.axis, turn_rad_per_height * right, turn_rad_per_height * up);
     viewer_camera_moved(v);
 }
 
@@ -118,7 +118,7 @@ bool input_walk(viewer *v, double seconds)
     /* Through the suggested radius, of which a scene is twenty long, five times a second. */
     const float faster = glfwGetKey(v->window, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS ? 4 : 1;
     const float step = 5 * camera_suggest_radius(v->scene) * faster * (float)seconds;
-    navigate_walk(&v->viewpoint.base, step * ahead, step * right, step * up);
+    navigate_walk(&v->viewpoint.base, v->viewpoint.axis, step * ahead, step * right, step * up);
     viewer_camera_moved(v);
     return true;
 }

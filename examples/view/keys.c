@@ -55,7 +55,7 @@ static void step_quality(viewer *v)
 static void set_radius(viewer *v, float radius)
 {
     setting_scale_radius(&v->settings, radius);
-    v->options.radius = (options_number){true, radius};
+    v->options.radius = (option_number){true, radius};
     viewer_change(v);
 }
 
@@ -124,11 +124,11 @@ static bool key_of_view(viewer *v, int key)
         return true;
     case GLFW_KEY_LEFT:
     case GLFW_KEY_RIGHT:
-        navigate_orbit(&v->viewpoint.base, key == GLFW_KEY_LEFT ? -step : step, 0);
+        navigate_orbit(&v->viewpoint.base, v->viewpoint.axis, key == GLFW_KEY_LEFT ? -step : step, 0);
         break;
     case GLFW_KEY_UP:
     case GLFW_KEY_DOWN:
-        navigate_orbit(&v->viewpoint.base, 0, key == GLFW_KEY_DOWN ? -step : step);
+        navigate_orbit(&v->viewpoint.base, v->viewpoint.axis, 0, key == GLFW_KEY_DOWN ? -step : step);
         break;
     case GLFW_KEY_EQUAL:
     case GLFW_KEY_KP_ADD:
@@ -222,7 +222,9 @@ void keys_press(viewer *v, int key, int modifiers)
     if (key == GLFW_KEY_F1) {
         v->help_open = !v->help_open;
     } else if (key == GLFW_KEY_F2) {
-        v->panel_open = v->panel_focus_due = true;
+        if (!v->panel_open)
+            viewer_toggle_panel(v);
+        v->panel_focus_due = true;
     } else if (key == GLFW_KEY_ESCAPE) {
         v->help_open = v->opening = false;
         gui_leave();
@@ -232,7 +234,7 @@ void keys_press(viewer *v, int key, int modifiers)
     } else if (gui_wants_keyboard()) {
         return;
     } else if (key == GLFW_KEY_G) {
-        v->panel_open = !v->panel_open;
+        viewer_toggle_panel(v);
     } else if (key == GLFW_KEY_PAGE_UP || key == GLFW_KEY_PAGE_DOWN) {
         step_scene(v, key == GLFW_KEY_PAGE_UP ? -1 : 1);
     } else if (!key_of_view(v, key) && !key_of_show(v, key, shift)) {

@@ -3,6 +3,7 @@
  * glssao-view: a window, and a loop that waits until something happens.
  */
 #include "gui.h"
+#include "statistics.h"
 #include "viewer.h"
 
 #include <GLFW/glfw3.h>
@@ -90,20 +91,14 @@ static double quiet_time(const viewer *v, bool walking)
     return walking ? 0.001 : quiet;
 }
 
-static int compare_floats(const void *a, const void *b)
-{
-    const float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
 /* Of the frames that the graph remembers. */
 static double median_frame_ms(const viewer *v)
 {
-    float sorted[GRAPH_LENGTH];
-    memcpy(sorted, v->frame_ms, sizeof sorted);
-    qsort(sorted, GRAPH_LENGTH, sizeof *sorted, compare_floats);
-    const unsigned count = v->frames < GRAPH_LENGTH ? v->frames : GRAPH_LENGTH; /* what was not drawn is 0, in front */
-    return (double)sorted[GRAPH_LENGTH - 1 - count / 2];
+    const int count = v->frames < GRAPH_LENGTH ? (int)v->frames : GRAPH_LENGTH;
+    double ms[GRAPH_LENGTH] = {0};
+    for (int i = 0; i < count; i++)
+        ms[i] = (double)v->frame_ms[i];
+    return statistics_percentile(ms, count > 0 ? count : 1, 50);
 }
 
 static void run(viewer *v)
@@ -141,7 +136,7 @@ static void run(viewer *v)
 int main(int argc, char **argv)
 {
     static viewer v; /* large, and zero */
-    switch (options_parse_for_viewer(argc, argv, &v.options, v.error, sizeof v.error)) {
+    switch (options_parse_for_viewer(argc, argv, &v.options, FAULT(v.error))) {
     case OPTIONS_DONE:
         return EXIT_DONE;
     case OPTIONS_WRONG:
@@ -166,11 +161,12 @@ int main(int argc, char **argv)
     glfwGetWindowSize(v.window, &window_width, &window_height);
     v.width = v.width < 1 ? 1 : v.width;
     v.height = v.height < 1 ? 1 : v.height;
+    /* Where screen coordinates are larger than pixels, as on macOS, they are scaled already. */
+    v.gui_scale = v.width > window_width ? 1 : scale;
     const bool opened = viewer_open(&v, v.options.scene_path, v.options.scene_name);
     if (opened) {
         input_start(&v);
-        /* Where screen coordinates are larger than pixels, as on macOS, they are scaled already. */
-        gui_start(v.window, v.width > window_width ? 1 : scale);
+        gui_start(v.window, v.gui_scale);
         run(&v);
         gui_stop();
     }

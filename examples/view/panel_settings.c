@@ -5,6 +5,7 @@
 #include "gui.h"
 #include "setting_table.h"
 #include "viewer.h"
+#include "words.h"
 
 #include <math.h>
 
@@ -89,8 +90,8 @@ void panel_draw_settings(viewer *v)
     if (!gui_section("Occlusion", true))
         return;
     int technique = v->options.technique, quality = v->options.quality;
-    const bool chosen = gui_choice("technique (Tab)", &technique, "classic|hemisphere|horizon");
-    if (gui_choice("quality (Shift+Tab)", &quality, "low|medium|high|ultra") || chosen)
+    const bool chosen = gui_choice("technique (Tab)", &technique, TECHNIQUE_WORDS);
+    if (gui_choice("quality (Shift+Tab)", &quality, QUALITY_WORDS) || chosen)
         viewer_set_technique(v, technique, quality);
     const glssao_settings standard = viewer_standard(v);
     bool changed = false;
@@ -107,7 +108,7 @@ void panel_draw_settings(viewer *v)
         changed = true;
     }
     if (changed) {
-        v->options.radius = (options_number){true, v->settings.radius};
+        v->options.radius = (option_number){true, v->settings.radius};
         viewer_change(v);
     }
 }

@@ -6,6 +6,7 @@
 #include "picture.h"
 #include "setting_table.h"
 #include "viewer.h"
+#include "words.h"
 
 #include <GLFW/glfw3.h>
 
@@ -82,16 +83,23 @@ static void add_camera(line *l, const viewer *v)
 {
     const options *o = &v->options;
     const camera *c = &v->viewpoint.base;
-    if (o->camera)
+    const bool placed = v->moved || (v->viewpoint.fitted && v->panel_open); /* glssao-render has no panel */
+    if (o->camera > 0 && !placed)
         add(l, " --camera %d", o->camera);
-    if (v->moved || o->eye.given)
+    if (o->camera < 0)
+        add(l, " --camera none");
+    if (o->view && !placed)
+        add(l, " --view %s", o->view);
+    if (o->orthographic && c->half_height > 0)
+        add(l, " --ortho");
+    if (placed || o->eye.given)
         add_vector(l, "eye", c->eye);
-    if (v->moved || o->target.given)
+    if (placed || o->target.given)
         add_vector(l, "target", c->target);
-    if (v->moved || o->up.given)
-        add_vector(l, "up", c->up);
-    if (v->moved || o->fov_deg.given)
-        add(l, " --fov %.9g", (double)c->fov_y_rad * 57.295779513);
+    if (placed || o->up.given)
+        add_vector(l, "up", placed ? c->up : o->up.value);
+    if (placed || o->fov_deg.given)
+        add(l, " --fov %.9g", (double)viewpoint_fov_deg(&v->viewpoint));
     if (o->near_plane.given)
         add(l, " --near %.9g", (double)o->near_plane.value);
     if (o->far_plane.given)
@@ -101,7 +109,6 @@ static void add_camera(line *l, const viewer *v)
 /* What glssao-render takes with the technique of the moment, and with occlusion alone. */
 static void add_occlusion(line *l, const viewer *v)
 {
-    static const char *const paths[] = {"auto", "fragment", "compute"};
     const options *o = &v->options;
     const bool horizon = v->settings.technique == GLSSAO_HORIZON;
     if (v->mode == MODE_OFF)
@@ -113,29 +120,27 @@ static void add_occlusion(line *l, const viewer *v)
     if (o->budget_ms.given && horizon && v->mode != MODE_OFF)
         add(l, " --budget %.9g", (double)o->budget_ms.value);
     if (o->path)
-        add(l, " --path %s", paths[o->path]);
+        add(l, " --path %s", words_at(PATH_WORDS, o->path).text);
 }
 
 /* The map in the corner, where glssao-render has it too. */
 static void add_debug_map(line *l, const viewer *v)
 {
-    static const char *const maps[] = {"none", "ao", "normals", "depth", "random", "shadow", "tiles"};
     const int map = v->options.debug_map;
     const bool is_of_occlusion = map == OPTIONS_MAP_AO || map == OPTIONS_MAP_TILES;
     if (map && !(is_of_occlusion && v->mode == MODE_OFF) && !(map == OPTIONS_MAP_SHADOW && v->options.no_shadows))
-        add(l, " --debug-map %s", maps[map]);
+        add(l, " --debug-map %s", words_at(OPTIONS_MAP_WORDS, map).text);
 }
 
 bool viewer_command_line(const viewer *v, char *out, size_t out_size)
 {
-    static const char *const techniques[] = {"classic", "hemisphere", "horizon"};
-    static const char *const qualities[] = {"low", "medium", "high", "ultra"};
     const options *o = &v->options;
     char settings[1024];
     line l = {out, out_size, 0, false};
     out[0] = '\0';
     add(&l, "glssao-render -o picture.png -s %dx%d -t %s -q %s --radius %.9g", v->width, v->height,
-        techniques[v->settings.technique], qualities[o->quality], (double)v->settings.radius);
+        words_at(TECHNIQUE_WORDS, (int)v->settings.technique).text, words_at(QUALITY_WORDS, o->quality).text,
+        (double)v->settings.radius);
     const glssao_settings standard = viewer_standard(v);
     glssao_settings rest = v->settings;
     rest.radius = standard.radius;

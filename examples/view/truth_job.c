@@ -107,14 +107,14 @@ truth_job *truth_job_start(const scene *s, const scene_view *view, float radius,
     return j;
 }
 
-int truth_job_read(truth_job *j, float *out, char *error, size_t error_size)
+int truth_job_read(truth_job *j, float *out, fault *why)
 {
     pthread_mutex_lock(&j->lock);
     const int rounds = j->rounds;
     if (rounds > 0 && out)
         memcpy(out, j->mean, pixel_count(j) * sizeof *out);
     if (rounds < 0)
-        snprintf(error, error_size, "%s", j->error);
+        fault_set(why, "%s", j->error);
     pthread_mutex_unlock(&j->lock);
     return rounds;
 }

@@ -7,6 +7,7 @@
 #define GLSSAO_EXAMPLES_TRUTH_JOB_H
 
 #include "draw.h"
+#include "fault.h"
 #include "scene.h"
 
 #include <stdbool.h>
@@ -22,7 +23,7 @@ truth_job *truth_job_start(const scene *s, const scene_view *view, float radius,
 
 /* How many of TRUTH_ROUNDS are done, and their mean, rows bottom to top, into out[width * height] where there is one
  * (out may be NULL). Negative: it failed, for the reason in `error`. */
-int truth_job_read(truth_job *j, float *out, char *error, size_t error_size);
+int truth_job_read(truth_job *j, float *out, fault *why);
 
 /* Ends it, within moments. NULL is fine. */
 void truth_job_stop(truth_job *j);

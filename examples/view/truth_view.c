@@ -71,7 +71,7 @@ void viewer_draw_truth(viewer *v)
         v->shown = SHOWN_PICTURE;
         return;
     }
-    v->truth_rounds = truth_job_read(v->truth, NULL, v->error, sizeof v->error);
+    v->truth_rounds = truth_job_read(v->truth, NULL, FAULT(v->error));
     if (v->truth_rounds < 0) {
         viewer_say(v, true, "ray tracing failed: %s", v->error);
         viewer_drop_truth(v);
@@ -82,7 +82,7 @@ void viewer_draw_truth(viewer *v)
     float *ao = pipeline_read_ao(&v->pipeline, PIXELS_FLOAT);
     uint8_t(*pixels)[4] = calloc(count, sizeof *pixels);
     if (ao && pixels && v->truth_rounds > 0) {
-        truth_job_read(v->truth, v->truth_mean, v->error, sizeof v->error);
+        truth_job_read(v->truth, v->truth_mean, FAULT(v->error));
         paint(v, ao, pixels);
     }
     if (ao && pixels) { /* black until the first round is there */

@@ -51,8 +51,9 @@ typedef struct viewer {
 
     viewer_mode mode;
     viewer_shown shown;
-    float split;    /* of the width, from the left */
-    bool blink_off; /* this half of the blink shows no occlusion */
+    float split;     /* of the width, from the left */
+    bool blink_off;  /* this half of the blink shows no occlusion */
+    float gui_scale; /* pixels a point of a screen of usual density */
     bool panel_open, panel_focus_due, help_open, opening, about_to_open;
     char typed_path[4096];
 
@@ -84,6 +85,7 @@ void viewer_close(viewer *v);
 void viewer_say(viewer *v, bool is_error, const char *format, ...);
 /* The camera that frames the scene, or the command line's. */
 void viewer_frame_scene(viewer *v);
+void viewer_toggle_panel(viewer *v);
 /* The settings that the technique, quality and radius of the moment come with. */
 glssao_settings viewer_standard(const viewer *v);
 void viewer_set_technique(viewer *v, int technique, int quality);

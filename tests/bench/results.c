@@ -4,6 +4,8 @@
  */
 #include "results.h"
 
+#include "words.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -17,9 +19,8 @@ const config_result *results_find(const results *r, const char *id)
 
 const config_result *results_level(const results *r, glssao_technique technique, glssao_quality level)
 {
-    static const char *const names[] = {"low", "medium", "high", "ultra"};
     char id[48];
-    snprintf(id, sizeof id, "%s-%s", bench_technique_name(technique), names[level]);
+    snprintf(id, sizeof id, "%s-%s", bench_technique_name(technique), words_at(QUALITY_WORDS, (int)level).text);
     return results_find(r, id);
 }
 

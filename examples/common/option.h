@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Command lines from tables: each row says where in a structure an option's value goes and what it may be. Long options
+ * take "--name value" and "--name=value", short ones "-n value" and "-nvalue". "--" ends the options.
+ */
+#ifndef GLSSAO_EXAMPLES_OPTION_H
+#define GLSSAO_EXAMPLES_OPTION_H
+
+#include "fault.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct option_number {
+    bool given;
+    float value;
+} option_number;
+
+typedef struct option_vector {
+    bool given;
+    float value[3];
+} option_vector;
+
+/* The type of the member that an option sets. */
+typedef enum option_kind {
+    OPTION_FLAG,        /* bool */
+    OPTION_INT,         /* int, min to max */
+    OPTION_INT_OR_NONE, /* the same, or -1 for "none" */
+    OPTION_SEED,        /* uint32_t, min to max */
+    OPTION_FLOAT,       /* float, min to max */
+    OPTION_NUMBER,      /* option_number, min to max */
+    OPTION_VECTOR,      /* option_vector */
+    OPTION_SIZE,        /* int[2], both min to max: "640x480" */
+    OPTION_SHARD,       /* int[2], the second min to max, the first below it: "0/4" */
+    OPTION_WORD,        /* int: index into the words that `wanted` lists */
+    OPTION_TEXT,        /* const char * */
+    OPTION_FILE         /* const char *, ending in one of the words that `wanted` lists; "": in anything */
+} option_kind;
+
+typedef struct option {
+    char letter; /* 0: none */
+    const char *name;
+    const char *value; /* the help's word for the value; NULL for a flag */
+    const char *help;
+    option_kind kind;
+    size_t offset; /* of the member that it sets */
+    double min, max;
+    const char *wanted; /* completes "must be ..." */
+    int scope;          /* index into option_set.refused */
+} option;
+
+typedef struct option_set {
+    const option *table;
+    int count;
+    const char *const *refused; /* why options of each scope are refused here, NULL: they are not; NULL: none is */
+    const char *operand;        /* "scene": what the argument that is no option names; NULL: there is none */
+    size_t operand_offset;      /* of a const char * */
+} option_set;
+
+/* Sets what the arguments from argv[1] on say in the structure at `out`; its strings live as long as argv. False, with
+ * one line in `why` that names the option and the value. */
+bool option_parse(const option_set *set, int argc, char **argv, void *out, fault *why);
+
+/* Prints a line to stdout for each option that is not refused. */
+void option_print(const option_set *set);
+
+#endif

@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Every option, once: the parser and the help text read this.
+ */
+#include "options_internal.h"
+#include "viewpoint.h"
+#include "words.h"
+
+#include <float.h>
+
+enum {
+    SCOPE_PICTURE,      /* belongs to one picture: also in a batch's lines */
+    SCOPE_RENDERED,     /* the same, without the viewer */
+    SCOPE_RUN,          /* belongs to the whole run: on the command line only */
+    SCOPE_RENDERED_RUN, /* the same, without the viewer */
+    SCOPE_COUNT
+};
+
+#define AT(member) offsetof(options, member)
+static const option table[] = {
+    {'o', "output", "FILE.png", "shaded picture", OPTION_FILE, AT(output), 0, 0, ".png", SCOPE_PICTURE},
+    {0, "ao", "FILE.png|.pfm", "accessibility (pfm: float32, linear), full size", OPTION_FILE, AT(ao), 0, 0,
+     ".png|.pfm", SCOPE_RENDERED},
+    {0, "normals", "FILE.png", "view-space normals, n * 0.5 + 0.5", OPTION_FILE, AT(normals), 0, 0, ".png",
+     SCOPE_RENDERED},
+    {0, "depth", "FILE.pfm", "view distance, 0 where nothing is", OPTION_FILE, AT(depth), 0, 0, ".pfm", SCOPE_RENDERED},
+    {'s', "size", "WxH", "picture size in pixels (1280x720)", OPTION_SIZE, AT(width), 1, 16384,
+     "WxH with sides from 1 to 16384", SCOPE_PICTURE},
+    {'q', "quality", "NAME", "low, medium, high or ultra (high)", OPTION_WORD, AT(quality), 0, 0, QUALITY_WORDS,
+     SCOPE_PICTURE},
+    {'t', "technique", "NAME", "classic, hemisphere, horizon or raytrace (horizon)", OPTION_WORD, AT(technique), 0, 0,
+     TECHNIQUE_WORDS "|raytrace", SCOPE_PICTURE},
+    {0, "radius", "R", "occlusion radius in scene units (suits the scene)", OPTION_NUMBER, AT(radius), 0, 1e11,
+     "a number from 0 to 1e11", SCOPE_PICTURE},
+    {0, "power", "P", "contrast, 0 to 64", OPTION_NUMBER, AT(power), 0, 64, "a number from 0 to 64", SCOPE_PICTURE},
+    {0, "samples", "N", "classic 1 to 14, hemisphere 1 to 64, horizon 12, 16, 24, 32, 48 or 64, raytrace rays (512)",
+     OPTION_INT, AT(sample_count), 1, 65536, "a whole number from 1 to 65536", SCOPE_PICTURE},
+    {0, "blur-rounds", "N", "0 to 16", OPTION_INT, AT(blur_rounds), 0, 16, "a whole number from 0 to 16",
+     SCOPE_PICTURE},
+    {0, "error", "E", "horizon: adds up estimates until their sampling error is at most E", OPTION_NUMBER, AT(error),
+     1e-6, 1, "a number from 0.000001 to 1", SCOPE_PICTURE},
+    {0, "budget", "MS", "horizon: adds up estimates for MS milliseconds a frame", OPTION_NUMBER, AT(budget_ms), 0.001,
+     1e9, "a number of milliseconds above 0", SCOPE_PICTURE},
+    {0, "margin", "N", "draws N pixels more on each side, even, for occluders beyond the edge (0)", OPTION_INT,
+     AT(margin), 0, 4096, "an even whole number from 0 to 4096", SCOPE_RENDERED},
+    {0, "layers", "N", "horizon: 2 also draws what lies behind the surfaces seen, to read thickness from (1)",
+     OPTION_INT, AT(layers), 1, 2, "1 or 2", SCOPE_PICTURE},
+    {0, "set", "NAME=V,...", "any of the settings that --help lists at its end", OPTION_TEXT, AT(set), 0, 0, "",
+     SCOPE_PICTURE},
+    {0, "camera", "N|none", "the file's N-th camera (1), or none: a view that fits the scene", OPTION_INT_OR_NONE,
+     AT(camera), 1, 1e9, "a whole number from 1, or none", SCOPE_PICTURE},
+    {0, "view", "A,E|NAME",
+     "fits the scene, seen from A degrees right of its front and E degrees above, or from NAME: " VIEW_WORDS,
+     OPTION_TEXT, AT(view), 0, 0, "", SCOPE_PICTURE},
+    {0, "ortho", NULL, "parallel projection", OPTION_FLAG, AT(orthographic), 0, 0, NULL, SCOPE_PICTURE},
+    {0, "eye", "X,Y,Z", "position of the camera, in place of the fitted one", OPTION_VECTOR, AT(eye), 0, 0,
+     "three numbers X,Y,Z", SCOPE_PICTURE},
+    {0, "target", "X,Y,Z", "the point that the camera looks at (middle of the scene)", OPTION_VECTOR, AT(target), 0, 0,
+     "three numbers X,Y,Z", SCOPE_PICTURE},
+    {0, "up", "X,Y,Z", "direction that is up in the scene and in the picture (0,1,0)", OPTION_VECTOR, AT(up), 0, 0,
+     "three numbers X,Y,Z", SCOPE_PICTURE},
+    {0, "fov", "DEGREES", "vertical field of view (45)", OPTION_NUMBER, AT(fov_deg), 0.01, 179,
+     "a number from 0.01 to 179", SCOPE_PICTURE},
+    {0, "near", "N", "near plane in scene units (fits the scene)", OPTION_NUMBER, AT(near_plane), FLT_MIN, FLT_MAX,
+     "a number above 0", SCOPE_PICTURE},
+    {0, "far", "F", "far plane in scene units (fits the scene)", OPTION_NUMBER, AT(far_plane), FLT_MIN, FLT_MAX,
+     "a number above 0", SCOPE_PICTURE},
+    {0, "time", "SECONDS", "the file's first animation at this time (the file as it stands)", OPTION_NUMBER, AT(time_s),
+     0, 1e9, "a number of seconds from 0 to 1e9", SCOPE_PICTURE},
+    {0, "scene", "NAME", "built-in scene: columns, cornell, steps or plane (columns)", OPTION_TEXT, AT(scene_name), 0,
+     0, "", SCOPE_PICTURE},
+    {0, "context", "KIND", "auto, egl or osmesa (auto)", OPTION_WORD, AT(context), 0, 0, CONTEXT_WORDS,
+     SCOPE_RENDERED_RUN},
+    {0, "path", "WAY", "compute or fragment shaders: auto, fragment or compute (auto)", OPTION_WORD, AT(path), 0, 0,
+     PATH_WORDS, SCOPE_PICTURE},
+    {0, "frames", "N", "turntable: N pictures a full turn, FILE-0001.png and so on", OPTION_INT, AT(frames), 1, 100000,
+     "a whole number from 1 to 100000", SCOPE_RENDERED},
+    {0, "bench", "N", "draws N frames and prints their times", OPTION_INT, AT(bench), 1, 100000,
+     "a whole number from 1 to 100000", SCOPE_RENDERED_RUN},
+    {0, "stats", "FILE.json", "what was drawn and where the time went", OPTION_FILE, AT(stats), 0, 0, "",
+     SCOPE_RENDERED},
+    {0, "plan", NULL, "prints which passes run, and why", OPTION_FLAG, AT(plan), 0, 0, NULL, SCOPE_RENDERED},
+    {0, "no-ao", NULL, "no occlusion pass at all", OPTION_FLAG, AT(no_ao), 0, 0, NULL, SCOPE_PICTURE},
+    {0, "no-shadows", NULL, "direct light goes through everything", OPTION_FLAG, AT(no_shadows), 0, 0, NULL,
+     SCOPE_PICTURE},
+    {0, "shadow-size", "N", "side of the shadow map in texels (2048)", OPTION_INT, AT(shadow_size), 1, 16384,
+     "a whole number from 1 to 16384", SCOPE_PICTURE},
+    {0, "mapped-normals", NULL, "occlusion sees normal maps (it sees the mesh alone)", OPTION_FLAG, AT(mapped_normals),
+     0, 0, NULL, SCOPE_PICTURE},
+    {0, "specular-occlusion", NULL, "occlusion darkens reflections by their lobe", OPTION_FLAG, AT(specular_occlusion),
+     0, 0, NULL, SCOPE_PICTURE},
+    {0, "multi-bounce", NULL, "occluded light takes on the surface's colour", OPTION_FLAG, AT(multi_bounce), 0, 0, NULL,
+     SCOPE_PICTURE},
+    {0, "environment", "FILE", "equirectangular picture (.hdr, .png, .jpg) that lights the scene, and its sky",
+     OPTION_FILE, AT(environment), 0, 0, ".hdr|.pic|.png|.jpg|.jpeg", SCOPE_PICTURE},
+    {0, "debug-map", "NAME", "in the picture's lower right: ao, normals, depth, random, shadow or tiles", OPTION_WORD,
+     AT(debug_map), 0, 0, OPTIONS_MAP_WORDS, SCOPE_PICTURE},
+    {0, "batch", "LIST", "renders each line of LIST (-: standard input), which holds options and a scene as here",
+     OPTION_FILE, AT(batch), 0, 0, "", SCOPE_RENDERED_RUN},
+    {0, "shard", "I/N", "of a batch, every N-th job from the I-th on, which counts from 0", OPTION_SHARD,
+     AT(shard_index), 1, 1000000, "I/N with I from 0 to N-1", SCOPE_RENDERED_RUN},
+    {0, "cache", "MIB", "of a batch, how large scenes kept for later jobs may be (1024)", OPTION_INT, AT(cache_mib), 0,
+     1048576, "a whole number from 0 to 1048576", SCOPE_RENDERED_RUN},
+    {0, "program-cache", "DIR", "a folder where the effect's linked programs are kept for the next run", OPTION_FILE,
+     AT(program_cache), 0, 0, "", SCOPE_RUN},
+    {0, "seed", "N", "of every random input (0)", OPTION_SEED, AT(seed), 0, 4294967295.0,
+     "a whole number from 0 to 4294967295", SCOPE_PICTURE},
+    {'h', "help", NULL, "prints this", OPTION_FLAG, AT(help), 0, 0, NULL, SCOPE_RUN},
+    {0, "version", NULL, "prints the version", OPTION_FLAG, AT(version), 0, 0, NULL, SCOPE_RUN},
+};
+#undef AT
+
+option_set options_set(options_program program)
+{
+    static const char not_viewers[] = "glssao-render takes it, glssao-view does not",
+                      not_jobs[] = "belongs to the whole run, not to a job in a list";
+    static const char *const refused[][SCOPE_COUNT] = {
+        [OPTIONS_RENDER] = {NULL},
+        [OPTIONS_JOB] = {[SCOPE_RUN] = not_jobs, [SCOPE_RENDERED_RUN] = not_jobs},
+        [OPTIONS_VIEWER] = {[SCOPE_RENDERED] = not_viewers, [SCOPE_RENDERED_RUN] = not_viewers},
+    };
+    return (option_set){.table = table,
+                        .count = sizeof table / sizeof table[0],
+                        .refused = refused[program],
+                        .operand = "scene",
+                        .operand_offset = offsetof(options, scene_path)};
+}
