@@ -46,7 +46,8 @@ typedef struct bake_part {
     float (*colors)[4];  /* COLOR_0; NULL: white */
     uint32_t *indices;
     bool double_sided;
-    float (*world_from_mesh)[16]; /* of each instance */
+    double center[3];              /* positions are relative to it */
+    double (*world_from_mesh)[16]; /* of each instance, in the file's coordinates */
     size_t instance_count;
     float *accessibility; /* of each vertex: the result */
 } bake_part;
@@ -55,8 +56,10 @@ typedef struct bake_part {
  */
 typedef struct bake_model {
     gltf_document document;
+    scene_warnings warnings;
     bake_part *parts;
     size_t part_count;
+    double origin[3]; /* in the file's coordinates, of the space that rays are cast in; set by bake_cast */
 } bake_model;
 
 /* False, with the fault set; bake_model_close is due in either case. */
@@ -73,8 +76,8 @@ typedef struct bake_points {
 } bake_points;
 
 /* Points for the method; `total_area` and `total_triangles` of all parts say how densely BAKE_FIT samples. */
-bool bake_points_make(bake_points *p, const bake_part *part, size_t instance, bake_method method,
-                      double triangles_per_area, scene_fault *fault);
+bool bake_points_make(bake_points *p, const bake_part *part, size_t instance, const double origin[3],
+                      bake_method method, double triangles_per_area, scene_fault *fault);
 void bake_points_free(bake_points *p);
 /* The area of a part's triangles in its first instance. */
 double bake_part_area(const bake_part *part);

@@ -18,6 +18,7 @@ typedef struct caster {
     const bake_options *options;
     const trace_scene *scene;
     scene_fault *fault;
+    const double *origin;
     progress bar;
     double triangles_per_area;
     size_t steps, steps_done; /* an instance of a triangle each */
@@ -87,7 +88,7 @@ static bool cast_part(caster *c, bake_part *part)
     c->step = part->index_count / 3;
     for (size_t i = 0; ok && i < part->instance_count; i++) {
         bake_points_free(&points);
-        ok = bake_points_make(&points, part, i, method, c->triangles_per_area, c->fault);
+        ok = bake_points_make(&points, part, i, c->origin, method, c->triangles_per_area, c->fault);
         if (ok && !memory) { /* as many points in every instance */
             memory = calloc(3 * points.count + 1, sizeof *memory);
             ok = memory || scene_fail_memory(c->fault);
@@ -132,6 +133,10 @@ bool bake_cast(bake_model *m, const bake_options *o, bake_stats *out, scene_faul
         return scene_fail(fault, "%s", error);
     }
     caster c = {.options = o, .scene = t, .fault = fault, .bar = progress_start("casting")};
+    c.origin = m->origin;
+    for (int i = 0; i < 3; i++) {
+        m->origin[i] = s->origin[i];
+    }
     c.offset = o->offset >= 0 ? o->offset : choose_offset(s);
     double area = 0, triangles = 0;
     for (size_t i = 0; i < m->part_count; i++) {

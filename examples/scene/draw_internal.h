@@ -17,7 +17,8 @@ enum {
     ATTRIBUTE_COLOR = 3,
     ATTRIBUTE_WORLD_FROM_MESH = 4,
     ATTRIBUTE_NORMAL_WORLD_FROM_MESH = 8,
-    ATTRIBUTE_TANGENT = 11
+    ATTRIBUTE_TANGENT = 11,
+    ATTRIBUTE_MORE_UVS = 12
 };
 
 /* As the vertex shader reads it: columns of three. */
@@ -41,7 +42,8 @@ typedef struct draw_item {
     uint32_t first_index, index_count;
     uint32_t first_instance, instance_count; /* in the instance buffer */
     int material;
-    bool colored, blended;
+    bool colored, blended, flat;
+    scene_topology topology;
     bool mirrored;                       /* triangles change their winding */
     unsigned variant;                    /* of the main pass, less what the options decide */
     int program[DRAW_KIND_COUNT];        /* index into the pool's variants, -1: not drawn so */
@@ -91,14 +93,15 @@ typedef struct draw_sky_seen {
 struct scene_renderer {
     const scene *scene;
     unsigned vertex_array, empty_vertex_array;
-    unsigned vertex_buffer, tangent_buffer, index_buffer, instance_buffer;
+    unsigned vertex_buffer, tangent_buffer, more_uv_buffer, index_buffer, instance_buffer;
     unsigned *images[2]; /* GL texture of each of the scene's images, 0 where no material uses it: linear, sRGB */
     unsigned *samplers;  /* of each of the scene's textures, 0 likewise */
     unsigned linear_sampler, nearest_sampler; /* clamped, for screen-sized maps */
     unsigned white_texture;                   /* stands in for the ambient map */
     unsigned neutral[2]; /* where options.everything: white, and a normal along the surface's, for what has no map */
-    draw_item *items;    /* opaque ones first, sorted by program and material; then blended ones as in the file */
-    uint32_t opaque_count, item_count;
+    draw_item *items;    /* opaque triangles first, sorted by program and material; then opaque lines and points; then
+                            blended ones as in the file */
+    uint32_t opaque_count, first_blended, item_count;
     draw_order *blended_order; /* scratch, one for each blended item */
     draw_pool *pool;
     scene_draw_options options;

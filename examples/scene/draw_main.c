@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * The main pass: lights, opaque items with depth EQUAL, the sky, then blended items back to front.
+ * The main pass: lights, opaque triangles with depth EQUAL, opaque lines and points, the sky, then blended items back
+ * to front.
  */
 #define CGLM_ALL_UNALIGNED /* the matrices are plain float[16] */
 #include "draw_internal.h"
@@ -24,13 +25,13 @@ static int compare_back_to_front(const void *a, const void *b)
 static void sort_blended(scene_renderer *r, const scene_view *view)
 {
     const float *m = view->view_from_world;
-    for (uint32_t i = r->opaque_count; i < r->item_count; i++) {
+    for (uint32_t i = r->first_blended; i < r->item_count; i++) {
         double distance = -(double)m[14];
         for (int axis = 0; axis < 3; axis++)
             distance -= (double)m[4 * axis + 2] * 0.5 * (r->items[i].bounds_min[axis] + r->items[i].bounds_max[axis]);
-        r->blended_order[i - r->opaque_count] = (draw_order){.view_distance = distance, .item = i};
+        r->blended_order[i - r->first_blended] = (draw_order){.view_distance = distance, .item = i};
     }
-    qsort(r->blended_order, r->item_count - r->opaque_count, sizeof *r->blended_order, compare_back_to_front);
+    qsort(r->blended_order, r->item_count - r->first_blended, sizeof *r->blended_order, compare_back_to_front);
 }
 
 static void draw_blended(draw_pass *pass, scene_renderer *r)
@@ -40,7 +41,7 @@ static void draw_blended(draw_pass *pass, scene_renderer *r)
     gl.Enable(GL_BLEND);
     /* Colour by straight alpha; the target's own alpha as coverage. */
     gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    for (uint32_t i = 0; i < r->item_count - r->opaque_count; i++) {
+    for (uint32_t i = 0; i < r->item_count - r->first_blended; i++) {
         const draw_item *item = &r->items[r->blended_order[i].item];
         if (r->options.everything || draw_item_is_seen(item, pass->clip_from_world)) {
             draw_item_now(pass, item);
@@ -49,6 +50,23 @@ static void draw_blended(draw_pass *pass, scene_renderer *r)
             r->counts.culled++;
         }
     }
+}
+
+/* Lines and points are not in the pre-pass, so that they receive no occlusion and cast none: they find their depth
+ * here. */
+static void draw_thin(draw_pass *pass, scene_renderer *r)
+{
+    gl.DepthMask(GL_TRUE);
+    gl.DepthFunc(GL_LEQUAL);
+    for (uint32_t i = r->opaque_count; i < r->first_blended; i++) {
+        if (r->options.everything || draw_item_is_seen(&r->items[i], pass->clip_from_world)) {
+            draw_item_now(pass, &r->items[i]);
+            r->counts.main++;
+        } else {
+            r->counts.culled++;
+        }
+    }
+    gl.DepthMask(GL_FALSE);
 }
 
 static void rotate_to_view(const scene_view *view, const float world[3], vec3 out)
@@ -174,6 +192,8 @@ void scene_draw_main(scene_renderer *r, const scene_view *view, const scene_ligh
     gl.DepthMask(GL_FALSE);
     gl.DepthFunc(GL_EQUAL);
     r->counts.main = draw_opaque(&pass, &r->counts.culled);
+    if (r->opaque_count < r->first_blended)
+        draw_thin(&pass, r);
     if (r->options.everything || (draw_has_sky(lighting) && !is_sky_hidden(r, view))) {
         draw_sky(r, view, lighting);
         if (lighting->environment)
@@ -181,7 +201,7 @@ void scene_draw_main(scene_renderer *r, const scene_view *view, const scene_ligh
         gl.BindVertexArray(r->vertex_array);
         pass.program = NULL;
     }
-    if (r->opaque_count < r->item_count)
+    if (r->first_blended < r->item_count)
         draw_blended(&pass, r);
     draw_set_defaults();
 }

@@ -42,8 +42,8 @@ static unsigned normals_variant(const draw_item *item, const scene_material *m, 
 {
     if (options->everything)
         return VARIANT_LIT | VARIANT_DOUBLE_SIDED | VARIANT_MASKED | VARIANT_COLORED | VARIANT_BASE_MAPPED |
-               VARIANT_TEXTURED | VARIANT_NORMAL_MAPPED;
-    unsigned variant = VARIANT_LIT | (m->double_sided ? VARIANT_DOUBLE_SIDED : 0u);
+               VARIANT_TEXTURED | VARIANT_NORMAL_MAPPED | (item->flat ? VARIANT_FLAT : 0u);
+    unsigned variant = VARIANT_LIT | (m->double_sided ? VARIANT_DOUBLE_SIDED : 0u) | (item->flat ? VARIANT_FLAT : 0u);
     if (m->alpha == SCENE_ALPHA_MASK) {
         variant |= VARIANT_MASKED | (item->colored ? VARIANT_COLORED : 0u);
         variant |= m->base_color_texture >= 0 ? VARIANT_BASE_MAPPED | VARIANT_TEXTURED : 0u;
@@ -57,7 +57,8 @@ static unsigned main_variant(const draw_item *item, const scene_lighting *lighti
                              bool shadowed)
 {
     if (options->everything)
-        return VARIANT_EVERYTHING | (item->blended ? VARIANT_BLENDED : 0u);
+        return VARIANT_EVERYTHING | (item->blended ? VARIANT_BLENDED : 0u) |
+               (item->variant & (VARIANT_FLAT | VARIANT_MORE_UVS));
     if (!(item->variant & VARIANT_LIT))
         return item->variant;
     const bool occluded = !item->blended;
@@ -98,21 +99,22 @@ static bool choose_programs(scene_renderer *r, const scene_lighting *lighting, c
         const scene_material *m = &r->scene->materials[item->material];
         const unsigned normals = normals_variant(item, m, options, r->scene->tangents != NULL);
         int chosen[DRAW_KIND_COUNT] = {-1, -1, -1, -1};
+        const bool casts = !item->blended && item->topology == SCENE_TRIANGLES;
         bool done = true;
         if (!options->no_picture) {
             chosen[DRAW_MAIN] =
                 find_program(r->pool, DRAW_MAIN, main_variant(item, lighting, options, shadowed), error, error_size);
             done = chosen[DRAW_MAIN] >= 0;
         }
-        if (done && !item->blended) {
+        if (done && casts) {
             chosen[DRAW_NORMALS] = find_program(r->pool, DRAW_NORMALS, normals, error, error_size);
             done = chosen[DRAW_NORMALS] >= 0;
         }
-        if (done && !item->blended && shadowed) {
+        if (done && casts && shadowed) {
             chosen[DRAW_SHADOW] = find_program(r->pool, DRAW_SHADOW, depth_variant(normals), error, error_size);
             done = chosen[DRAW_SHADOW] >= 0;
         }
-        if (done && !item->blended && options->layers) {
+        if (done && casts && options->layers) {
             chosen[DRAW_LAYER] =
                 find_program(r->pool, DRAW_LAYER, depth_variant(normals) | VARIANT_BEHIND, error, error_size);
             done = chosen[DRAW_LAYER] >= 0;
@@ -170,7 +172,7 @@ static const char *shadow_reason(const scene_renderer *r, const scene_lighting *
 void scene_renderer_effects(const scene_renderer *r, const scene_lighting *lighting, scene_effect *out)
 {
     const bool mapped = any_item(r, VARIANT_NORMAL_MAPPED), masked = any_item(r, VARIANT_MASKED);
-    const bool instanced = any_instances(r), blended = r->item_count > r->opaque_count;
+    const bool instanced = any_instances(r), blended = r->item_count > r->first_blended;
     const bool reflective = any_item(r, VARIANT_REFLECTIVE);
     const bool surrounded = lighting->environment, sky = draw_has_sky(lighting);
     const scene_effect effects[SCENE_EFFECT_COUNT] = {

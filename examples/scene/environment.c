@@ -4,10 +4,10 @@
  */
 #include "environment.h"
 
-#include "gltf_decode.h"
+#include "gltf_file.h"
+#include "image_decode.h"
 #include "image_header.h"
 #include "radiance.h"
-#include "read_file.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -16,7 +16,7 @@
 #include <string.h>
 
 enum { MOST_SIDE = 16384 };
-static const size_t most_bytes = (size_t)1 << 30;
+static const uint64_t most_bytes = UINT64_C(1) << 30;
 static const float most_radiance = 65504; /* that half floats hold */
 
 /* By how much the file's picture is made smaller. */
@@ -105,11 +105,11 @@ static const char *take_file(environment *e, const uint8_t *data, size_t size, c
         return fault ? fault : take_radiance(e, &r);
     }
     if (!image_measure(data, size, &width, &height))
-        return "neither a sound PNG nor a JPEG nor a Radiance picture";
+        return "neither a sound PNG, JPEG or WebP nor a Radiance picture";
     const char *fault = check_size(width, height, text);
     int w = 0, h = 0;
     uint8_t *rgba = NULL;
-    if (!fault && !gltf_decode_image(data, size, &w, &h, &rgba))
+    if (!fault && !image_decode(data, size, &w, &h, &rgba))
         fault = "it cannot be decoded";
     if (!fault)
         fault = check_size((unsigned)w, (unsigned)h, text);
@@ -143,13 +143,13 @@ environment *environment_load(const char *path, char *error, size_t error_size)
 {
     size_t size = 0;
     char text[128];
-    const char *reason;
-    uint8_t *data = read_file(path, most_bytes, &size, &reason);
-    if (!data)
+    const char *reason = NULL;
+    uint8_t *data = gltf_read_file(path, most_bytes, &size, &reason);
+    if (!data) {
         snprintf(error, error_size, "%s: %s", path, reason);
-    environment *e = data ? calloc(1, sizeof *e) : NULL;
-    if (!data)
         return NULL;
+    }
+    environment *e = calloc(1, sizeof *e);
     const char *fault = e ? take_file(e, data, size, text) : "out of memory";
     free(data);
     if (!fault && !environment_light(e))

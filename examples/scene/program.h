@@ -28,7 +28,9 @@ enum {
     VARIANT_MULTI_BOUNCE = 32768,       /* where not BLENDED */
     VARIANT_BASE_MAPPED = 65536,        /* base colour texture */
     VARIANT_BEHIND = 131072,            /* a layer: depth alone, of what lies behind the pre-pass's */
-    VARIANT_ENVIRONMENT = 262144        /* ambient light, or the sky, from a picture */
+    VARIANT_ENVIRONMENT = 262144,       /* ambient light, or the sky, from a picture */
+    VARIANT_FLAT = 524288,              /* normals from the triangle itself */
+    VARIANT_MORE_UVS = 1048576          /* a map reads the third or fourth uv set */
 };
 
 /* All that a material and its light can call for; without what is another kind of surface. */

@@ -12,8 +12,12 @@ void scene_destroy(scene *s)
         return;
     for (uint32_t i = 0; i < s->image_count; ++i)
         free(s->images[i].rgba);
+    for (size_t i = 0; i < s->warning_count; ++i)
+        free(s->warnings[i]);
+    free(s->warnings);
     free(s->vertices);
     free(s->tangents);
+    free(s->more_uvs);
     free(s->indices);
     free(s->primitives);
     free(s->meshes);

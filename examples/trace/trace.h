@@ -3,8 +3,8 @@
  * Ray-traced ambient accessibility, through Embree: the truth that the screen-space techniques are measured against,
  * and what glssao-bake bakes. Knows nothing of OpenGL. Builds with Embree 3 and 4.
  *
- * What blocks: opaque and alpha-tested triangles, from both sides; texels below an alpha test's cut-off let rays
- * through; blended materials block nothing, as they write no depth.
+ * Opaque and alpha-tested triangles block rays from both sides. Texels below an alpha test's cut-off let rays through.
+ * Blended materials, lines and points block nothing, as they are not in the depth buffer either.
  */
 #ifndef GLSSAO_EXAMPLES_TRACE_H
 #define GLSSAO_EXAMPLES_TRACE_H

@@ -37,7 +37,8 @@ static bool can_be_instanced(const float m[16])
 
 static bool is_solid(const scene *s, uint32_t primitive)
 {
-    return s->materials[s->primitives[primitive].material].alpha != SCENE_ALPHA_BLEND;
+    const scene_primitive *p = &s->primitives[primitive];
+    return s->materials[p->material].alpha != SCENE_ALPHA_BLEND && p->topology == SCENE_TRIANGLES;
 }
 
 /* The part's triangles as a committed geometry. In mesh space Embree reads the scene's own arrays. */

@@ -128,7 +128,13 @@ bool trace_resolve_hit(const trace_scene *t, const struct RTCHit *hit, const dou
         return false;
     }
     const double side = dot(geometric, direction) > 0 ? -1 : 1; /* the viewer's */
-    shading_normal(part, instance, hit->primID, weights, out->normal);
+    if (part->primitive->flat) {
+        for (int i = 0; i < 3; i++) {
+            out->normal[i] = geometric[i];
+        }
+    } else {
+        shading_normal(part, instance, hit->primID, weights, out->normal);
+    }
     const bool shaded = normalize(out->normal);
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++) {
