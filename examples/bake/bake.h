@@ -26,6 +26,7 @@ typedef struct bake_options {
     float offset;      /* scene units, below 0: chosen by the scene's size */
     float floor_value; /* accessibility below it is raised to it */
     bool cosine, accessibility_only;
+    bool in_place; /* the output may be the input */
     bool vertices, fit, help, version; /* as given */
     uint32_t seed;
     int threads;

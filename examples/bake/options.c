@@ -10,11 +10,14 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #define AT(member) offsetof(bake_options, member)
 static const option table[] = {
     {'o', "output", "FILE.glb", "the scene with COLOR_0 multiplied by accessibility", OPTION_FILE, AT(output), 0, 0,
      ".glb", 0},
+    {0, "in-place", NULL, "replaces the scene, a .glb file, by the result; without it the scene is never overwritten",
+     OPTION_FLAG, AT(in_place), 0, 0, NULL, 0},
     {0, "rays", "N", "rays a triangle, vertex or point, 1 to 65536 (32)", OPTION_INT, AT(rays), 1, 65536,
      "a whole number from 1 to 65536", 0},
     {0, "distance", "R", "hits farther away do not block, scene units (no limit)", OPTION_FLOAT, AT(distance), 0,
@@ -59,6 +62,18 @@ bake_result bake_parse_options(int argc, char **argv, bake_options *out, char *e
     if (out->vertices && out->fit) {
         snprintf(error, error_size, "--vertices and --fit exclude each other");
         return BAKE_WRONG;
+    }
+    if (out->input && strcmp(out->input, "-") == 0) {
+        snprintf(error, error_size, "-: the scene is read three times, which standard input can't be; name a file");
+        return BAKE_WRONG;
+    }
+    if (out->in_place && out->input && !out->output) {
+        const char *end = strrchr(out->input, '.');
+        if (!end || strcmp(end, ".glb") != 0) {
+            snprintf(error, error_size, "--in-place: the result is a .glb file, and %s is none", out->input);
+            return BAKE_WRONG;
+        }
+        out->output = out->input;
     }
     if (!out->input || !out->output) {
         snprintf(error, error_size, "%s (-h lists all)", !out->input ? "no scene file" : "no -o FILE.glb");

@@ -38,6 +38,8 @@ typedef struct options {
     const char *program_cache;    /* folder of linked programs; NULL: none */
     const char *batch;            /* list file, "-": standard input; NULL: one picture, or turntable */
     int shard_index, shard_count; /* of the batch; count 0: not given */
+    option_number timeout_s;      /* of a job */
+    bool isolate;                 /* each job of the batch in a process of its own */
     int cache_mib;                /* bound on scenes kept for later jobs */
 } options;
 

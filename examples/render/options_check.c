@@ -177,6 +177,10 @@ bool options_check(const options *o, options_program program, fault *why)
             fault_set(why, "--batch and --bench %d exclude each other", o->bench);
         return !o->bench && check_settings(o, why);
     }
+    if (o->isolate && program == OPTIONS_RENDER)
+        return fault_set(why, "--isolate: needs a list, --batch LIST");
+    if (program == OPTIONS_JOB && o->scene_path && strcmp(o->scene_path, "-") == 0)
+        return fault_set(why, "-: only a run with one job reads its scene from standard input");
     if (o->shard_count && program == OPTIONS_RENDER) {
         return fault_set(why, "--shard %d/%d: needs a list, --batch LIST", o->shard_index, o->shard_count);
     }

@@ -98,3 +98,23 @@ bool outputs_each(const options *o, bool (*visit)(const char *path, void *user),
     }
     return true;
 }
+
+typedef struct spare {
+    const options *options;
+    const inputs *scene;
+    fault *why;
+} spare;
+
+static bool spare_inputs(const char *path, void *user)
+{
+    const spare *s = user;
+    static const inputs none = {0};
+    return inputs_spare(s->scene, s->options->environment, path, s->why) &&
+           inputs_spare(&none, s->options->batch, path, s->why);
+}
+
+bool outputs_spare_inputs(const options *o, const inputs *scene, fault *why)
+{
+    spare s = {o, scene, why};
+    return outputs_each(o, spare_inputs, &s) && (!o->stats || spare_inputs(o->stats, &s));
+}

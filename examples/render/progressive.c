@@ -6,6 +6,7 @@
 
 #include "clock.h"
 #include "gl.h"
+#include "stop.h"
 
 #include <stdio.h>
 
@@ -26,7 +27,8 @@ glssao_result progressive_run(glssao_effect *effect, const glssao_frame *frame, 
     bool time_is_left = true;
     glssao_restart_accumulation(effect); /* the scene may have turned under the same projection */
     glssao_result result = GLSSAO_OK;
-    for (int i = 0; i < MOST_ESTIMATES && result == GLSSAO_OK && time_is_left && !is_done(out, goal); i++) {
+    for (int i = 0; i < MOST_ESTIMATES && result == GLSSAO_OK && time_is_left && !stop_signal() && !is_done(out, goal);
+         i++) {
         const double before = clock_wall_ms();
         result = glssao_accumulate(effect, frame, settings);
         gl.Finish();

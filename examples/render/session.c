@@ -5,13 +5,14 @@
 #include "gl.h"
 #include "outputs.h"
 #include "progress.h"
+#include "stop.h"
 
 #include <stdio.h>
 #include <string.h>
 
 enum { WARM_UP_FRAMES = 3 };
 
-bool session_open(session *s, const options *o, fault *why)
+bool session_open(session *s, const options *o, bool quiet, fault *why)
 {
     s->context = context_create(&(context_options){.kind = (context_kind)o->context}, why->text, why->size);
     if (!s->context || !gl_load(context_load, s->context, why->text, why->size))
@@ -21,7 +22,8 @@ bool session_open(session *s, const options *o, fault *why)
     if (!s->readback) {
         return fault_set(why, "out of memory");
     }
-    fprintf(stderr, "context: %s\n", context_description(s->context));
+    if (!quiet)
+        fprintf(stderr, "context: %s\n", context_description(s->context));
     return true;
 }
 
@@ -82,6 +84,8 @@ bool session_begin(session *s, const options *o, stage *st, fault *why)
     }
     scene_view view;
     stopwatch_start(&s->times);
+    if (!outputs_spare_inputs(o, st->inputs, why))
+        return false;
     if (!viewpoint_choose(o, s->scene, 0, &s->viewpoint, why) || !find_view(s, 0, &view, why))
         return false;
     if (!pipeline_prepare(&s->pipeline, st, context_load, s->context, o, choose_wants(s), why)) {
@@ -143,6 +147,8 @@ bool session_draw(session *s, bool shows_progress, writer_slip *slip, fault *why
     for (int i = 0; i < count; i++) {
         scene_view view;
         stopwatch_start(&s->times);
+        if (stop_signal())
+            return fault_set(why, "stopped");
         if (!draw(s, full_turn * (float)i / (float)count, &view, why) ||
             !outputs_take(o, &s->pipeline, &view, o->frames ? i + 1 : 0, s->readback, slip, why))
             return false;

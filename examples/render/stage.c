@@ -4,12 +4,16 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-scene *stage_load_scene(const options *o, fault *why)
+scene *stage_load_scene(const options *o, inputs *out_inputs, fault *why)
 {
+    *out_inputs = (inputs){0};
     if (!o->scene_path)
         return scene_make(o->scene_name, why->text, why->size);
-    return o->time_s.given ? scene_load_at(o->scene_path, (double)o->time_s.value, why->text, why->size)
-                           : scene_load(o->scene_path, why->text, why->size);
+    inputs_record(out_inputs);
+    scene *s = o->time_s.given ? scene_load_at(o->scene_path, (double)o->time_s.value, why->text, why->size)
+                               : scene_load(o->scene_path, why->text, why->size);
+    inputs_record(NULL);
+    return s;
 }
 
 bool stage_open(stage *st, const scene *s, const stage *like, fault *why)

@@ -42,6 +42,7 @@ typedef struct viewer {
     char scene_path[4096];       /* "": the built-in scene options.scene_name */
     char environment_path[4096]; /* "": the built-in light, or the command line's */
     scene *scene;
+    inputs inputs; /* files that it was read from */
     pipeline pipeline;
     viewpoint viewpoint;
     bool moved; /* the camera is no longer the command line's */
