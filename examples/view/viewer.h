@@ -108,6 +108,7 @@ void *viewer_read_shown(viewer *v);
 
 /* ---- truth_view.c ---- */
 
+#define VIEWER_ERROR_RANGE 0.25 /* of accessibility: full colour */
 bool viewer_shows_truth(const viewer *v);
 /* Starts the tracing where it is shown and not there, takes what is new of it, and draws it into v->map. */
 void viewer_draw_truth(viewer *v);
