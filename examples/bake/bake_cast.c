@@ -126,7 +126,11 @@ static float choose_offset(const scene *s)
 bool bake_cast(bake_model *m, const bake_options *o, bake_stats *out, scene_fault *fault)
 {
     char error[ERROR_LENGTH];
-    scene *s = scene_load(o->input, error, sizeof error);
+    const scene_load_options file = bake_load_options(o);
+    scene *s = scene_load_with(o->input, &file, error, sizeof error);
+    for (size_t i = 0; s && i < s->warning_count; i++) {
+        fprintf(stderr, "%s: warning: %s\n", o->input, s->warnings[i]);
+    }
     trace_scene *t = s ? trace_scene_create(s, error, sizeof error) : NULL;
     if (!t) {
         scene_destroy(s);

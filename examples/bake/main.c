@@ -35,7 +35,7 @@ int main(int argc, char **argv)
     scene_fault fault = {.file = options.input, .text = error, .size = sizeof error};
     bake_model model;
     bake_stats stats;
-    const bool done = bake_model_open(&model, options.input, &fault) && bake_cast(&model, &options, &stats, &fault) &&
+    const bool done = bake_model_open(&model, &options, &fault) && bake_cast(&model, &options, &stats, &fault) &&
                       bake_write(&model, &options, &fault);
     if (done) {
         print_summary(&model, &stats);

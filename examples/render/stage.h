@@ -19,7 +19,7 @@ typedef struct stage {
     trace_scene *traced; /* NULL: not yet */
 } stage;
 
-/* The options' scene: NULL, with one line in `why`, on failure. Any thread. */
+/* The options' scene; its warnings go to stderr. NULL, with one line in `why`, on failure. Any thread. */
 scene *stage_load_scene(const options *o, fault *why);
 
 /* Uploads the scene, which must outlive the stage; its programs are shared with those of `like` (may be NULL). False,
