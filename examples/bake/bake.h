@@ -26,11 +26,16 @@ typedef struct bake_options {
     float offset;      /* scene units, below 0: chosen by the scene's size */
     float floor_value; /* accessibility below it is raised to it */
     bool cosine, accessibility_only;
+    scene_load_options file;           /* how to load the input; but for its memory: */
+    int memory_mib;                    /* 0: half of the machine's */
     bool in_place; /* the output may be the input */
     bool vertices, fit, help, version; /* as given */
     uint32_t seed;
     int threads;
 } bake_options;
+
+/* The options for the loader. */
+scene_load_options bake_load_options(const bake_options *o);
 
 /* options.c: as in glssao-render. BAKE_DONE: help or version was printed. BAKE_WRONG: one line in `error`. */
 typedef enum bake_result { BAKE_RUN, BAKE_DONE, BAKE_WRONG } bake_result;
@@ -64,7 +69,7 @@ typedef struct bake_model {
 } bake_model;
 
 /* False, with the fault set; bake_model_close is due in either case. */
-bool bake_model_open(bake_model *m, const char *path, scene_fault *fault);
+bool bake_model_open(bake_model *m, const bake_options *o, scene_fault *fault);
 void bake_model_close(bake_model *m);
 
 /* bake_points.c: where rays start. Of a part, for one of its instances, in the world. */

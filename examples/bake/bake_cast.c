@@ -125,12 +125,16 @@ static float choose_offset(const scene *s)
 
 bool bake_cast(bake_model *m, const bake_options *o, bake_stats *out, scene_fault *fault)
 {
-    char error[ERROR_LENGTH];
-    scene *s = scene_load(o->input, error, sizeof error);
-    trace_scene *t = s ? trace_scene_create(s, error, sizeof error) : NULL;
+    const scene_load_options file = bake_load_options(o);
+    scene *s = scene_load_with(o->input, &file, fault->text, fault->size);
+    for (size_t i = 0; s && i < s->warning_count; i++) {
+        fprintf(stderr, "%s: warning: %s\n", o->input, s->warnings[i]);
+    }
+    trace_scene *t = s ? trace_scene_create(s, fault->text, fault->size) : NULL;
     if (!t) {
         scene_destroy(s);
-        return scene_fail(fault, "%s", error);
+        fault->set = true; /* both name the file themselves */
+        return false;
     }
     caster c = {.options = o, .scene = t, .fault = fault, .bar = progress_start("casting")};
     c.origin = m->origin;

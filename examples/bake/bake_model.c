@@ -170,10 +170,18 @@ static bool read_branch(gltf_loader *l, size_t node)
     return true;
 }
 
-bool bake_model_open(bake_model *m, const char *path, scene_fault *fault)
+scene_load_options bake_load_options(const bake_options *o)
 {
-    *m = (bake_model){0};
-    if (!gltf_document_open(&m->document, path, NULL, &m->warnings, fault)) {
+    scene_load_options file = o->file;
+    file.memory_bytes = (uint64_t)o->memory_mib << 20;
+    return file;
+}
+
+bool bake_model_open(bake_model *m, const bake_options *o, scene_fault *fault)
+{
+    const scene_load_options file = bake_load_options(o);
+    *m = (bake_model){.warnings = {.strict = file.strict}};
+    if (!gltf_document_open(&m->document, o->input, &file, &m->warnings, fault)) {
         return false;
     }
     reader r = {.loader = {.document = &m->document, .fault = fault}, .model = m};

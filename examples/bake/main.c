@@ -40,7 +40,7 @@ int main(int argc, char **argv)
     bake_stats stats;
     inputs read = {0};
     inputs_record(&read);
-    const bool opened = bake_model_open(&model, options.input, &fault);
+    const bool opened = bake_model_open(&model, &options, &fault);
     inputs_record(NULL);
     if (options.in_place)
         inputs_forget(&read, options.input);

@@ -44,10 +44,8 @@ static bool parse_whole(const char *text, double min, double max, long long *out
 static bool parse_vector(const char *text, option_vector *out)
 {
     for (int i = 0; i < 3; i++) {
-        double value;
-        if (!parse_number(text, &text, &value) || *text != (i < 2 ? ',' : '\0'))
+        if (!parse_number(text, &text, &out->value[i]) || *text != (i < 2 ? ',' : '\0'))
             return false;
-        out->value[i] = (float)value;
         text++;
     }
     out->given = true;

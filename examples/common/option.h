@@ -18,7 +18,7 @@ typedef struct option_number {
 
 typedef struct option_vector {
     bool given;
-    float value[3];
+    double value[3];
 } option_vector;
 
 /* The type of the member that an option sets. */

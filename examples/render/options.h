@@ -8,12 +8,15 @@
 #include "context.h"
 #include "fault.h"
 #include "option.h"
+#include "scene.h"
 
 #include <glssao/glssao.h>
 
 typedef struct options {
     const char *scene_path;                            /* NULL: the built-in scene */
     const char *scene_name;                            /* of the built-in scene; NULL where a file is given */
+    scene_load_options file;                           /* how to load a file; but for its time and memory: */
+    int memory_mib;                                    /* 0: half of the machine's */
     const char *set;                                   /* setting_table.h; NULL: nothing */
     const char *output, *ao, *normals, *depth, *stats; /* NULL: not wanted */
     int width, height;

@@ -123,6 +123,13 @@ static bool check_together(const options *o, bool is_viewer, fault *why)
         return fault_set(why, "--scene \"%s\": must be one of " SCENE_WORDS, o->scene_name);
     if (o->time_s.given && !o->scene_path)
         return fault_set(why, "--time %g: a built-in scene has no animation", (double)o->time_s.value);
+    if (!o->scene_path && (o->file.animation || o->file.scene || o->file.variant))
+        return fault_set(why, "--%s: a built-in scene has none",
+                         o->file.animation ? "animation"
+                         : o->file.scene   ? "gltf-scene"
+                                           : "variant");
+    if (o->file.animation && !o->time_s.given)
+        return fault_set(why, "--animation %d: needs --time SECONDS", o->file.animation);
     if (o->no_ao && o->ao)
         return fault_set(why, "--no-ao and --ao %s exclude each other", o->ao);
     if (o->no_shadows && (o->shadow_size || o->debug_map == OPTIONS_MAP_SHADOW))

@@ -21,8 +21,8 @@ typedef struct stage {
     const inputs *inputs; /* files that the scene was read from; set by who loaded it */
 } stage;
 
-/* The options' scene, and the files that it is read from: NULL, with one line in `why`, on failure. Any thread. The
- * caller frees the inputs in either case. */
+/* The options' scene, and the files that it is read from; its warnings go to stderr. NULL, with one line in `why`, on
+ * failure. Any thread. The caller frees the inputs in either case. */
 scene *stage_load_scene(const options *o, inputs *out_inputs, fault *why);
 
 /* Uploads the scene, which must outlive the stage; its programs are shared with those of `like` (may be NULL). False,

@@ -10,9 +10,11 @@
 #include <sys/stat.h>
 
 typedef struct key {
-    char *name; /* path, or name of a built-in scene */
+    char *name; /* path, or name of a built-in scene; variant and root follow it in the same memory */
     bool is_file;
     option_number time_s;
+    scene_load_options file;
+    int memory_mib;
     struct stat status; /* of the file, where it has one */
 } key;
 
@@ -48,25 +50,55 @@ stage_cache *stage_cache_create(size_t most_bytes)
     return c;
 }
 
+/* Copies a text to `*at`, and moves that behind it; NULL stays NULL. */
+static const char *copy(const char *text, char **at)
+{
+    const size_t size = text ? strlen(text) + 1 : 0;
+    char *to = *at;
+    if (text)
+        memcpy(to, text, size);
+    *at += size;
+    return text ? to : NULL;
+}
+
 /* `name` is NULL where memory is short. */
 static key make_key(const options *o)
 {
-    key k = {
-        .name = strdup(o->scene_path ? o->scene_path : o->scene_name), .is_file = o->scene_path, .time_s = o->time_s};
+    const char *texts[] = {o->scene_path ? o->scene_path : o->scene_name, o->file.variant, o->file.root};
+    size_t size = 0;
+    for (int i = 0; i < 3; i++)
+        size += texts[i] ? strlen(texts[i]) + 1 : 0;
+    key k = {.is_file = o->scene_path, .time_s = o->time_s, .file = o->file, .memory_mib = o->memory_mib};
+    char *at = malloc(size);
+    if (!at)
+        return k;
+    k.name = at;
+    copy(texts[0], &at);
+    k.file.variant = copy(texts[1], &at);
+    k.file.root = copy(texts[2], &at);
     if (k.is_file && stat(o->scene_path, &k.status) != 0)
         memset(&k.status, 0, sizeof k.status); /* loading will say what is wrong */
     return k;
 }
 
-static bool is_same_time(const key *a, const key *b)
+static bool is_same_text(const char *a, const char *b)
 {
-    return a->time_s.given == b->time_s.given && a->time_s.value == b->time_s.value;
+    return a && b ? strcmp(a, b) == 0 : a == b;
+}
+
+/* Whether both ask for the same of a file, whatever is in it. */
+static bool is_same_request(const key *a, const key *b)
+{
+    return a->time_s.given == b->time_s.given && a->time_s.value == b->time_s.value && a->memory_mib == b->memory_mib &&
+           a->file.scene == b->file.scene && a->file.animation == b->file.animation &&
+           a->file.strict == b->file.strict && is_same_text(a->file.variant, b->file.variant) &&
+           is_same_text(a->file.root, b->file.root);
 }
 
 static bool is_same(const key *a, const key *b)
 {
     const struct stat *x = &a->status, *y = &b->status;
-    return a->name && b->name && a->is_file == b->is_file && is_same_time(a, b) && strcmp(a->name, b->name) == 0 &&
+    return a->name && b->name && a->is_file == b->is_file && is_same_request(a, b) && strcmp(a->name, b->name) == 0 &&
            x->st_dev == y->st_dev && x->st_ino == y->st_ino && x->st_size == y->st_size &&
            x->st_mtim.tv_sec == y->st_mtim.tv_sec && x->st_mtim.tv_nsec == y->st_mtim.tv_nsec &&
            x->st_ctim.tv_sec == y->st_ctim.tv_sec && x->st_ctim.tv_nsec == y->st_ctim.tv_nsec;
@@ -77,7 +109,9 @@ static void *load(void *argument)
     loading *l = argument;
     const options o = {.scene_path = l->key.is_file ? l->key.name : NULL,
                        .scene_name = l->key.is_file ? NULL : l->key.name,
-                       .time_s = l->key.time_s};
+                       .time_s = l->key.time_s,
+                       .file = l->key.file,
+                       .memory_mib = l->key.memory_mib};
     l->scene = stage_load_scene(&o, &l->inputs, FAULT(l->error));
     return NULL;
 }
@@ -131,7 +165,7 @@ static scene *load_scene(stage_cache *c, key *k, inputs *out_inputs, fault *why)
 {
     loading *ahead = &c->ahead, here = {.key = *k};
     if (ahead->used && !is_same(&ahead->key, k) && strcmp(ahead->key.name, k->name) == 0 &&
-        is_same_time(&ahead->key, k))
+        is_same_request(&ahead->key, k))
         drop_loading(ahead); /* the file has changed since */
     loading *l = ahead->used && is_same(&ahead->key, k) ? ahead : &here;
     if (l == ahead) {

@@ -82,8 +82,8 @@ static float distance_to_target(const camera *c)
     return hypotf(hypotf(c->eye[0] - c->target[0], c->eye[1] - c->target[1]), c->eye[2] - c->target[2]);
 }
 
-/* --eye, --target, --up and --fov in place of what was chosen. */
-static void take_given(const options *o, viewpoint *v)
+/* --eye and --target, which are in the file's coordinates, --up and --fov, in place of what was chosen. */
+static void take_given(const options *o, const scene *s, viewpoint *v)
 {
     camera *c = &v->base;
     if (v->fitted && (o->eye.given || o->target.given)) {
@@ -92,12 +92,14 @@ static void take_given(const options *o, viewpoint *v)
         c->half_height = 0;
         v->fitted = false;
     }
-    if (o->eye.given)
-        memcpy(c->eye, o->eye.value, sizeof c->eye);
-    if (o->target.given)
-        memcpy(c->target, o->target.value, sizeof c->target);
-    if (o->up.given && !v->fitted)
-        memcpy(c->up, o->up.value, sizeof c->up);
+    for (int i = 0; i < 3; i++) {
+        if (o->eye.given)
+            c->eye[i] = (float)(o->eye.value[i] - s->origin[i]);
+        if (o->target.given)
+            c->target[i] = (float)(o->target.value[i] - s->origin[i]);
+        if (o->up.given && !v->fitted)
+            c->up[i] = (float)o->up.value[i];
+    }
     if (o->fov_deg.given && !v->fitted) {
         c->fov_y_rad = o->fov_deg.value * rad_per_deg;
         c->half_height = 0;
@@ -119,9 +121,9 @@ bool viewpoint_choose(const options *o, const scene *s, float free_left, viewpoi
         return fault_set(why, "--camera %d: %s has %u camera%s", o->camera, s->name, s->camera_count,
                          s->camera_count == 1 ? "" : "s");
     if (o->up.given) {
-        const float *up = o->up.value, length = hypotf(hypotf(up[0], up[1]), up[2]);
+        const double *up = o->up.value, length = hypot(hypot(up[0], up[1]), up[2]);
         for (int i = 0; i < 3; i++)
-            out->axis[i] = up[i] / length;
+            out->axis[i] = (float)(up[i] / length);
         if (!(length > 0))
             return fault_set(why, "--up 0,0,0: has no direction");
     }
@@ -129,7 +131,7 @@ bool viewpoint_choose(const options *o, const scene *s, float free_left, viewpoi
         from_scene_camera(&s->cameras[o->camera > 0 ? o->camera - 1 : 0], s, out);
     else
         fit_scene(o, s, free_left, out);
-    take_given(o, out);
+    take_given(o, s, out);
     if (!out->fitted)
         memcpy(out->pivot, out->base.target, sizeof out->pivot);
     if (o->eye.given || o->target.given || o->fov_deg.given)

@@ -32,12 +32,11 @@ static void set_normal(scene_vertex *to, const double vector[3])
 
 static void copy_vertex(const gltf_vertices *v, uint32_t from, scene_vertex *to)
 {
-    static const float white[4] = {1, 1, 1, 1}, upwards[3] = {0, 1, 0};
+    static const float white[4] = {1, 1, 1, 1}, upwards[3] = {0, 1, 0}, none[2] = {0, 0};
     memcpy(to->position, v->positions[from], sizeof to->position);
     memcpy(to->normal, v->normals ? v->normals[from] : upwards, sizeof to->normal);
     for (int set = 0; set < 2; ++set)
-        if (v->uvs[set])
-            memcpy(to->uv[set], v->uvs[set][from], sizeof to->uv[set]);
+        memcpy(to->uv[set], v->uvs[set] ? v->uvs[set][from] : none, sizeof to->uv[set]);
     memcpy(to->color, v->colors ? v->colors[from] : white, sizeof to->color);
 }
 

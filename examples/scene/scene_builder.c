@@ -39,9 +39,9 @@ void scene_builder_abandon(scene_builder *b)
     memset(b, 0, sizeof *b);
 }
 
-/* The array, moved to where there is room for `add` more elements after `*count`, those zeroed and counted. NULL on
- * failure; the old array is then as it was. */
-static void *extend(scene_builder *b, int which, void *array, uint32_t *count, uint32_t add, size_t element)
+/* The array, moved to where there is room for `add` more elements after `*count`. NULL on failure; the old array is
+ * then as it was. */
+static void *make_room(scene_builder *b, int which, void *array, uint32_t *count, uint32_t add, size_t element)
 {
     const uint64_t needed = (uint64_t)*count + add;
     if (needed > UINT32_MAX || needed > SIZE_MAX / element) {
@@ -60,14 +60,22 @@ static void *extend(scene_builder *b, int which, void *array, uint32_t *count, u
         array = grown;
         b->room[which] = (uint32_t)room;
     }
-    memset((char *)array + (size_t)*count * element, 0, (size_t)add * element);
     return array;
+}
+
+/* The same, with the new elements zeroed. */
+static void *extend(scene_builder *b, int which, void *array, uint32_t *count, uint32_t add, size_t element)
+{
+    char *grown = make_room(b, which, array, count, add, element);
+    if (grown)
+        memset(grown + (size_t)*count * element, 0, (size_t)add * element);
+    return grown;
 }
 
 scene_vertex *scene_builder_add_vertices(scene_builder *b, uint32_t count, uint32_t *out_first)
 {
     scene *s = b->made;
-    scene_vertex *all = extend(b, VERTICES, s->vertices, &s->vertex_count, count, sizeof *all);
+    scene_vertex *all = make_room(b, VERTICES, s->vertices, &s->vertex_count, count, sizeof *all);
     if (!all)
         return NULL;
     s->vertices = all;
@@ -79,7 +87,7 @@ scene_vertex *scene_builder_add_vertices(scene_builder *b, uint32_t count, uint3
 uint32_t *scene_builder_add_indices(scene_builder *b, uint32_t count, uint32_t *out_first)
 {
     scene *s = b->made;
-    uint32_t *all = extend(b, INDICES, s->indices, &s->index_count, count, sizeof *all);
+    uint32_t *all = make_room(b, INDICES, s->indices, &s->index_count, count, sizeof *all);
     if (!all)
         return NULL;
     s->indices = all;
@@ -219,11 +227,12 @@ static void empty_bounds(float *bounds_min, float *bounds_max)
     }
 }
 
+/* The point is finite: without fminf's care for NaN, compilers make vector code of it. */
 static void grow_bounds(float *bounds_min, float *bounds_max, const float *point)
 {
     for (int axis = 0; axis < 3; ++axis) {
-        bounds_min[axis] = fminf(bounds_min[axis], point[axis]);
-        bounds_max[axis] = fmaxf(bounds_max[axis], point[axis]);
+        bounds_min[axis] = point[axis] < bounds_min[axis] ? point[axis] : bounds_min[axis];
+        bounds_max[axis] = point[axis] > bounds_max[axis] ? point[axis] : bounds_max[axis];
     }
 }
 
@@ -332,7 +341,8 @@ static void grow_box_by_vertices(box *to, const scene *s, const scene_primitive 
         grow_box(to, m, s->vertices[s->indices[p->first_index + i]].position);
 }
 
-/* By the eight corners of the primitive's box: for instances whose every vertex would take too long. */
+/* By the eight corners of the primitive's box: exact where no axis is turned into two, and else for instances whose
+ * every vertex would take too long. */
 static void grow_box_by_corners(box *to, const scene_primitive *p, const double m[16])
 {
     for (int corner = 0; corner < 8; ++corner) {
@@ -341,6 +351,15 @@ static void grow_box_by_corners(box *to, const scene_primitive *p, const double 
             at[axis] = corner >> axis & 1 ? p->bounds_max[axis] : p->bounds_min[axis];
         grow_box(to, m, at);
     }
+}
+
+/* Whether each axis of mesh space goes along one of the world's. */
+static bool keeps_axes(const double m[16])
+{
+    bool kept = true;
+    for (int row = 0; row < 3; ++row)
+        kept = kept && (m[row] != 0) + (m[4 + row] != 0) + (m[8 + row] != 0) <= 1;
+    return kept;
 }
 
 static box measure(const scene_builder *b)
@@ -353,12 +372,13 @@ static box measure(const scene_builder *b)
         for (uint32_t i = mesh->first_instance; i < mesh->first_instance + mesh->instance_count; ++i)
             for (uint32_t n = mesh->first_primitive; n < mesh->first_primitive + mesh->primitive_count; ++n) {
                 const scene_primitive *p = &s->primitives[n];
+                const double *m = b->placements[i].world_from_mesh;
                 const bool few =
                     mesh->instance_count == 1 || (uint64_t)p->index_count * mesh->instance_count <= MOST_POINTS;
-                if (few)
-                    grow_box_by_vertices(&all, s, p, b->placements[i].world_from_mesh);
+                if (few && !keeps_axes(m))
+                    grow_box_by_vertices(&all, s, p, m);
                 else
-                    grow_box_by_corners(&all, p, b->placements[i].world_from_mesh);
+                    grow_box_by_corners(&all, p, m);
             }
     }
     return all;

@@ -24,8 +24,8 @@ typedef struct scene_builder {
 /* False, with the fault set, when there is no memory: as with every call below that can fail. */
 bool scene_builder_begin(scene_builder *b, const char *name, scene_fault *fault);
 
-/* `count` new elements, zeroed; the index of the first goes to `out_first`. NULL on failure. The pointer lives until
- * the next call for the same array. */
+/* `count` new elements, to be filled by the caller; the index of the first goes to `out_first`. NULL on failure. The
+ * pointer lives until the next call for the same array. */
 scene_vertex *scene_builder_add_vertices(scene_builder *b, uint32_t count, uint32_t *out_first);
 uint32_t *scene_builder_add_indices(scene_builder *b, uint32_t count, uint32_t *out_first);
 

@@ -78,15 +78,19 @@ static void add_quoted(line *l, const char *text)
     add(l, "'");
 }
 
-static void add_vector(line *l, const char *name, const float value[3])
+/* `origin` (NULL: 0) is added: places are in the file's coordinates on the command line. */
+static void add_vector(line *l, const char *name, const float value[3], const double *origin)
 {
-    add(l, " --%s %.9g,%.9g,%.9g", name, (double)value[0], (double)value[1], (double)value[2]);
+    add(l, " --%s", name);
+    for (int i = 0; i < 3; i++)
+        add(l, "%s%.*g", i ? "," : " ", origin && origin[i] != 0 ? 15 : 9, (double)value[i] + (origin ? origin[i] : 0));
 }
 
 static void add_camera(line *l, const viewer *v)
 {
     const options *o = &v->options;
     const camera *c = &v->viewpoint.base;
+    const float given_up[3] = {(float)o->up.value[0], (float)o->up.value[1], (float)o->up.value[2]};
     const bool placed = v->moved || (v->viewpoint.fitted && v->panel_open); /* glssao-render has no panel */
     if (o->camera > 0 && !placed)
         add(l, " --camera %d", o->camera);
@@ -97,11 +101,11 @@ static void add_camera(line *l, const viewer *v)
     if (o->orthographic && c->half_height > 0)
         add(l, " --ortho");
     if (placed || o->eye.given)
-        add_vector(l, "eye", c->eye);
+        add_vector(l, "eye", c->eye, v->scene->origin);
     if (placed || o->target.given)
-        add_vector(l, "target", c->target);
+        add_vector(l, "target", c->target, v->scene->origin);
     if (placed || o->up.given)
-        add_vector(l, "up", placed ? c->up : o->up.value);
+        add_vector(l, "up", placed ? c->up : given_up, NULL);
     if (placed || o->fov_deg.given)
         add(l, " --fov %.9g", (double)viewpoint_fov_deg(&v->viewpoint));
     if (o->near_plane.given)
@@ -169,6 +173,18 @@ bool viewer_command_line(const viewer *v, char *out, size_t out_size)
         add(&l, " --seed %u", o->seed);
     if (o->time_s.given)
         add(&l, " --time %.9g", (double)o->time_s.value);
+    if (o->file.animation)
+        add(&l, " --animation %d", o->file.animation);
+    if (o->file.scene)
+        add(&l, " --gltf-scene %d", o->file.scene);
+    if (o->file.variant) {
+        add(&l, " --variant");
+        add_quoted(&l, o->file.variant);
+    }
+    if (o->file.root) {
+        add(&l, " --root");
+        add_quoted(&l, o->file.root);
+    }
     if (v->scene_path[0])
         add_quoted(&l, v->scene_path);
     else
