@@ -62,7 +62,9 @@ typedef struct option_set {
  * one line in `why` that names the option and the value. */
 bool option_parse(const option_set *set, int argc, char **argv, void *out, fault *why);
 
-/* Prints a line to stdout for each option that is not refused. */
+/* Prints each option that is not refused to stdout. */
 void option_print(const option_set *set);
+/* Prints a name and its help in the same columns, in lines of at most 100 characters. */
+void option_print_line(const char *left, const char *help);
 
 #endif

@@ -170,8 +170,7 @@ static void abandoned_files_are_gone(void **state)
     whole_file file;
     write_file("old");
     assert_true(whole_file_open(&file, path, error, sizeof error));
-    char *temporary = strdup(file.temporary);
-    assert_non_null(temporary);
+    char *temporary = file.temporary; /* stays: a signal handler may still read it */
     assert_int_equal(access(temporary, F_OK), 0);
     whole_file_abandon_all();
     assert_int_not_equal(access(temporary, F_OK), 0);
