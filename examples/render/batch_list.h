@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * A list of jobs as text: one a line, its words quoted as for a shell, which expands nothing.
+ * A list of jobs as text: one job on each line, with words quoted as in a shell. Nothing is expanded.
  */
 #ifndef GLSSAO_EXAMPLES_BATCH_LIST_H
 #define GLSSAO_EXAMPLES_BATCH_LIST_H
@@ -13,11 +13,11 @@
 typedef struct batch_job {
     int line; /* counted from 1 */
     options options;
-    char *error; /* one line, without the list's name: why it can't be a job; NULL: it can */
+    char *error; /* one line, without the name of the list: why the line is no valid job; NULL: it is valid */
 } batch_job;
 
 typedef struct batch_list {
-    char *text; /* the options' strings point into it */
+    char *text; /* the strings of the options point into it */
     batch_job *jobs;
     size_t count;
 } batch_list;
@@ -28,8 +28,7 @@ typedef struct batch_list {
 bool batch_list_read(batch_list *list, const options *defaults, fault *why);
 void batch_list_free(batch_list *list);
 
-/* batch_names.c: gives an error to every job that writes a file which an earlier one writes. False where memory is
- * short. */
+/* batch_names.c: sets the error of each job that writes a file of an earlier job. False if memory is short. */
 bool batch_find_clashes(batch_list *list);
 
 #endif

@@ -21,16 +21,16 @@ typedef struct stage {
     const inputs *inputs; /* files that the scene was read from; set by who loaded it */
 } stage;
 
-/* The options' scene, and the files that it is read from; its warnings go to stderr. NULL, with one line in `why`, on
- * failure. Any thread. The caller frees the inputs in either case. */
+/* Loads the scene of the options and lists the files that it was read from. Warnings go to stderr. NULL, with one line
+ * in `why`, on failure. Any thread. The caller frees the list in either case. */
 scene *stage_load_scene(const options *o, inputs *out_inputs, fault *why);
 
-/* Uploads the scene, which must outlive the stage; its programs are shared with those of `like` (may be NULL). False,
- * with one line in `why`; stage_close is due in either case. */
+/* Uploads the scene, which must outlive the stage. Programs are shared with those of `like`, which may be NULL. False,
+ * with one line in `why`, on failure. Call stage_close in either case. */
 bool stage_open(stage *st, const scene *s, const stage *like, fault *why);
 void stage_close(stage *st);
 
-/* Builds Embree's side where it is not there yet. */
+/* Builds Embree's acceleration structure unless it exists. */
 bool stage_trace(stage *st, fault *why);
 
 #endif
