@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Drawing is one after the other; a job then flies on, until its pictures are read back, encoded and written. Jobs
- * land, and are reported, in the list's order.
+ * Jobs are drawn one after the other. A job that is drawn is in flight until its pictures are read back, encoded and
+ * written; then it lands. Jobs land, and are reported, in the order of the list.
  */
 #define _POSIX_C_SOURCE 200809L /* strsignal */
 #include "batch.h"
@@ -25,7 +25,7 @@ typedef struct flight {
     const batch_job *job;
     writer_slip slip;
     bool failed;
-    char error[ERROR_LENGTH]; /* where failed */
+    char error[ERROR_LENGTH]; /* only if failed */
 } flight;
 
 typedef struct batch {
@@ -33,10 +33,10 @@ typedef struct batch {
     batch_list list;
     session session;
     stage_cache *stages;
-    flight flights[FLIGHTS]; /* a ring */
+    flight flights[FLIGHTS]; /* ring buffer */
     int first, count;
     progress shown;
-    size_t mine; /* jobs of the shard */
+    size_t mine; /* number of jobs in the shard */
     size_t done, failed, pictures;
 } batch;
 
@@ -51,7 +51,7 @@ static const char *list_name(const batch *b)
     return strcmp(b->options->batch, "-") == 0 ? "standard input" : b->options->batch;
 }
 
-/* Counts a job that is done or failed, and reports the failure. */
+/* Counts a job, and prints its error if it failed. */
 static void record(batch *b, const batch_job *job, size_t pictures, const char *error)
 {
     b->pictures += pictures;
@@ -100,7 +100,7 @@ static flight *take_off(batch *b, const batch_job *job)
     return f;
 }
 
-/* The scene of the next job that needs another one. */
+/* Starts to load the scene of the next job that needs another one. */
 static void load_ahead(batch *b, size_t from)
 {
     bool started = false;
@@ -118,7 +118,8 @@ static bool draw_job(batch *b, size_t index, flight *f)
     const options *o = &b->list.jobs[index].options;
     const double start_ms = clock_wall_ms(), start_cpu_ms = clock_cpu_ms();
     s->times = (stopwatch){.last_ms = start_ms};
-    stage *st = stage_cache_get(b->stages, o, FAULT(f->error)); /* first: it may have been loaded ahead */
+    stage *st = stage_cache_get(b->stages, o,
+                                FAULT(f->error)); /* before the outputs are checked: the scene may be loaded already */
     if (!st || !outputs_check(o, FAULT(f->error)))
         return false;
     stopwatch_lap(&s->times, PHASE_LOAD);
@@ -148,7 +149,7 @@ static void print_summary(const batch *b, double start_ms)
             shard, b->done, b->mine, b->failed, b->pictures, seconds, seconds > 0 ? (double)b->pictures / seconds : 0);
 }
 
-/* All jobs in this process. False, with one line in `why`, where none can be drawn. */
+/* Runs all jobs in this process. False, with one line in `why`, if no job can be drawn. */
 static bool run_together(batch *b, fault *why)
 {
     int drawn = 0;
@@ -194,7 +195,7 @@ bool batch_run(const options *o)
 {
     const double start_ms = clock_wall_ms();
     char error[ERROR_LENGTH];
-    static batch b; /* large, and zero */
+    static batch b; /* too large for the stack; starts as 0 */
     b.options = o;
     stop_when_asked();
     bool ran = batch_list_read(&b.list, o, FAULT(error));

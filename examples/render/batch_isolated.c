@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The process writes its result to a pipe, whose end tells that it is gone.
+ * The child writes its result to a pipe. The pipe closes when the child ends, however it ends.
  */
 #define _XOPEN_SOURCE 700
 #include "batch_isolated.h"
@@ -42,7 +42,7 @@ static void work(const options *o, bool quiet, int to)
     _exit(0);
 }
 
-/* How far the result came: sizeof(result) where all is there. `until_ms` 0: however long it takes. */
+/* Returns how many bytes of the result arrived: sizeof(result) if all did. `until_ms` 0: waits without limit. */
 static size_t wait_for_result(int from, double until_ms, result *out)
 {
     size_t size = 0;
@@ -50,7 +50,7 @@ static size_t wait_for_result(int from, double until_ms, result *out)
         const double left_ms = until_ms - clock_wall_ms();
         if (until_ms > 0 && left_ms <= 0)
             break;
-        /* At least ten times a second: a signal may come just before poll, which then would not end. */
+        /* Wakes ten times a second: a signal that arrives just before poll does not interrupt it. */
         const int wait_ms = until_ms > 0 && left_ms < 100 ? (int)left_ms + 1 : 100;
         struct pollfd p = {.fd = from, .events = POLLIN};
         if (poll(&p, 1, wait_ms) <= 0)
@@ -69,7 +69,7 @@ static bool remove_left(const char *path, void *user)
     return true;
 }
 
-/* Ends the process where it has not, and removes what it left half written. Returns its status. */
+/* Kills the child if it still runs, and removes its half-written files. Returns its status. */
 static int bury(const options *o, pid_t child)
 {
     int status = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * From the list's text to its jobs.
+ * Splits the text of a list into jobs.
  */
 #define _POSIX_C_SOURCE 200809L /* strdup */
 #include "batch_list.h"
@@ -21,13 +21,13 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-/* Splits a line into words, in place: blanks separate; '...', "..." and \ quote as in a shell; # before a word starts a
- * comment. `words` has room for half as many as the line has characters, and one more. -1, with the fault, where a
- * quote has no end. */
+/* Splits a line into words, in place. Blanks separate words; '...', "..." and \ quote as in a shell; # before a word
+ * starts a comment. `words` has room for half as many words as the line has characters, plus one. -1, with the fault,
+ * if a quote does not end. */
 static int split_line(char *line, char **words, const char **out_fault)
 {
     const char *in = line;
-    char *out = line; /* never overtakes `in` */
+    char *out = line; /* is never ahead of `in` */
     int count = 0;
     for (;;) {
         while (is_blank(*in))
@@ -64,7 +64,7 @@ static int split_line(char *line, char **words, const char **out_fault)
     }
 }
 
-/* From standard input, a FIFO or a regular file. NULL with the reason on failure. */
+/* Reads standard input, a FIFO or a regular file. NULL, with the reason, on failure. */
 static char *read_text(const char *path, size_t *out_size, const char **out_reason)
 {
     const bool is_standard = strcmp(path, "-") == 0;
@@ -79,7 +79,7 @@ static char *read_text(const char *path, size_t *out_size, const char **out_reas
     return text;
 }
 
-/* False where memory is short. */
+/* False if memory is short. */
 static bool add_job(batch_list *list, const options *defaults, int number, char *line)
 {
     char error[8192];
@@ -88,7 +88,7 @@ static bool add_job(batch_list *list, const options *defaults, int number, char 
     char **words = malloc((strlen(line) / 2 + 3) * sizeof *words);
     if (!words)
         return false;
-    words[0] = line; /* where a program's name would stand */
+    words[0] = line; /* in the place of the program's name */
     const int count = split_line(line, words + 1, &reason);
     if (count < 0)
         job.error = strdup(reason);

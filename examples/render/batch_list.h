@@ -22,9 +22,9 @@ typedef struct batch_list {
     size_t count;
 } batch_list;
 
-/* Reads the list of defaults->batch ("-": standard input) and parses its lines over `defaults`; lines that are wrong
- * become jobs with an error, and so does every line that writes a file which an earlier one writes. False, with one
- * line in `error`, where the list can't be read; batch_list_free is due in either case. */
+/* Reads the list defaults->batch ("-": standard input). Options that a line does not set come from `defaults`. A wrong
+ * line becomes a job with an error, and so does a line that writes a file of an earlier line. False, with one line in
+ * `why`, if the list cannot be read. Call batch_list_free in either case. */
 bool batch_list_read(batch_list *list, const options *defaults, fault *why);
 void batch_list_free(batch_list *list);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Which jobs of a list write the same file, however they name it. Judged on the whole list, whatever the shard, so that
- * all shards agree on who fails.
+ * Finds jobs of a list that write the same file, under any name. It looks at the whole list, whatever the shard, so
+ * that all shards agree on the job that fails.
  */
 #define _XOPEN_SOURCE 700 /* realpath, strdup */
 #include "batch_list.h"
@@ -14,7 +14,7 @@
 #include <sys/stat.h>
 
 typedef struct written {
-    char *name; /* without links and dots, as far as they exist */
+    char *name; /* without links and dots, if the file or its folder exists */
     size_t job;
 } written;
 
@@ -24,7 +24,7 @@ typedef struct written_list {
     size_t job;
 } written_list;
 
-/* Of malloc; NULL where memory is short. */
+/* The caller frees it. NULL if memory is short. */
 static char *plain_name(const char *path)
 {
     char *name = realpath(path, NULL);
@@ -39,7 +39,7 @@ static char *plain_name(const char *path)
     char *real = realpath(folder, NULL);
     free(folder);
     if (!real)
-        return strdup(path); /* it can't be written: the job will say so */
+        return strdup(path); /* the file cannot be written, and the job will say so */
     const char *file = slash ? slash + 1 : path;
     const size_t size = strlen(real) + strlen(file) + 2;
     name = malloc(size);
@@ -54,7 +54,7 @@ static bool add_file(const char *path, void *user)
     written_list *list = user;
     struct stat status;
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
-        return true; /* any number may write to a device */
+        return true; /* several jobs may write to the same device */
     if (list->count == list->room) {
         const size_t room = list->room ? 2 * list->room : 256;
         written *grown = realloc(list->files, room * sizeof *grown);

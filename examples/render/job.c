@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The file is loaded on a second thread while the context is made.
+ * Loads the file on a second thread while the context is made.
  */
 #include "job.h"
 
@@ -40,14 +40,14 @@ static void *load_scene(void *argument)
     return NULL;
 }
 
-/* Scene and context side by side. */
+/* Loads the scene and makes the context at the same time. */
 static bool open_scene_and_context(job *j, fault *why)
 {
     loader *l = &j->loader;
     stopwatch *times = &j->session.times;
     l->options = j->options;
     l->running = pthread_create(&l->thread, NULL, load_scene, l) == 0;
-    if (!l->running) /* no more threads: then here */
+    if (!l->running) /* without a second thread, load on this one */
         load_scene(l);
     stopwatch_start(times);
     const bool opened = session_open(&j->session, j->options, j->quiet, why);
@@ -79,7 +79,7 @@ static bool render(job *j, double start_ms, fault *why)
 
 bool job_run(const options *o, bool quiet, double start_ms, size_t *out_pictures, fault *why)
 {
-    static job j; /* large, and zero */
+    static job j; /* too large for the stack */
     j = (job){.options = o, .quiet = quiet};
     const bool done = render(&j, start_ms, why);
     if (j.stage.scene)

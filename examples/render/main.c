@@ -30,7 +30,7 @@ int main(int argc, char **argv)
         const bool done = batch_run(&o);
         return stop_signal() ? 128 + stop_signal()
                : done        ? EXIT_DONE
-                             : EXIT_NOT_RENDERED; /* as a shell tells signals */
+                             : EXIT_NOT_RENDERED; /* the code that a shell gives a program ended by a signal */
     }
     stop_at_once();
     if (o.timeout_s.given) {

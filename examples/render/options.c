@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Parses command lines, and the lines of a batch, by options_table.c.
+ * Parses command lines and lines of a batch with the table in options_table.c.
  */
 #include "options.h"
 

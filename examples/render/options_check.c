@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * What no value alone tells: options that need or exclude each other, and the text of --set.
+ * Checks that involve several options: options that need or exclude each other, and the text of --set.
  */
 #include "options_internal.h"
 
@@ -33,7 +33,7 @@ static bool is_horizon_count(int n)
     return n == 12 || n == 16 || n == 24 || n == 32 || n == 48 || n == 64;
 }
 
-/* Those of --set, which was checked, else --samples. */
+/* Checks the number of samples from --set, which is valid, or from --samples. */
 static bool check_samples(const options *o, fault *why)
 {
     glssao_settings settings = {.sample_count = o->sample_count};
@@ -65,7 +65,7 @@ bool options_parse_background(const char *text, float out_rgba[4])
     return is_color || (text && strcmp(text, "none") == 0);
 }
 
-/* Whether a file's name ends like that. */
+/* Whether the name of a file ends in `end`. */
 static bool ends_in(const char *path, const char *end)
 {
     const size_t length = strlen(path), end_length = strlen(end);
@@ -89,7 +89,7 @@ static bool check_picture(const options *o, options_program program, fault *why)
     return true;
 }
 
-/* What no value alone tells: options that need or exclude each other. */
+/* Options that need or exclude each other. */
 static bool check_together(const options *o, bool is_viewer, fault *why)
 {
     const bool file_wanted =
@@ -167,7 +167,7 @@ static bool check_together(const options *o, bool is_viewer, fault *why)
     return !same_file(o, why);
 }
 
-/* The text of --set, tried on some settings. */
+/* Tries the text of --set on some settings. */
 static bool check_settings(const options *o, fault *why)
 {
     char text[256];
@@ -179,7 +179,7 @@ static bool check_settings(const options *o, fault *why)
 
 bool options_check(const options *o, options_program program, fault *why)
 {
-    if (program == OPTIONS_RENDER && o->batch) { /* the jobs are checked, each with what it has of these options */
+    if (program == OPTIONS_RENDER && o->batch) { /* these options are checked again with each job */
         if (o->bench)
             fault_set(why, "--batch and --bench %d exclude each other", o->bench);
         return !o->bench && check_settings(o, why);

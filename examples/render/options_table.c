@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Every option, once: the parser and the help text read this.
+ * The table of all options. The parser and the help text use it.
  */
 #include "options_internal.h"
 #include "viewpoint.h"
@@ -9,10 +9,10 @@
 #include <float.h>
 
 enum {
-    SCOPE_PICTURE,      /* belongs to one picture: also in a batch's lines */
-    SCOPE_RENDERED,     /* the same, without the viewer */
-    SCOPE_RUN,          /* belongs to the whole run: on the command line only */
-    SCOPE_RENDERED_RUN, /* the same, without the viewer */
+    SCOPE_PICTURE,      /* belongs to one picture: also allowed in the lines of a batch */
+    SCOPE_RENDERED,     /* the same, but not for the viewer */
+    SCOPE_RUN,          /* belongs to the whole run: only on the command line */
+    SCOPE_RENDERED_RUN, /* the same, but not for the viewer */
     SCOPE_COUNT
 };
 

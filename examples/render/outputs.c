@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * From drawn frame to files.
+ * Names and checks output files.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "outputs.h"
@@ -23,7 +23,7 @@ static bool number_path(const char *path, int number, char *out, size_t out_size
     return length >= 0 && (size_t)length < out_size;
 }
 
-/* 0, or the errno that writing would run into. Leaves no file behind. */
+/* Returns 0, or the errno that writing the file would give. Creates no file. */
 static int writing_error(const char *path)
 {
     struct stat info;
@@ -78,7 +78,7 @@ bool outputs_take(const options *o, pipeline *p, const scene_view *view, int num
         char path[PATH_LENGTH];
         if (!outputs[i].file)
             continue;
-        number_path(outputs[i].file, number, path, sizeof path); /* outputs_check saw that it fits */
+        number_path(outputs[i].file, number, path, sizeof path); /* outputs_check made sure that it fits */
         if (!readback_take(r, p, outputs[i].output, outputs[i].kind, view, path, slip, why))
             return false;
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The passes of one frame, and what they need beside targets.
+ * The passes of a frame, and everything they need except targets.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "pipeline.h"
@@ -15,13 +15,13 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* The effect's lengths belong together: a radius other than the default's scales the others along. */
+/* A radius that differs from the default scales the other lengths of the effect by the same factor. */
 glssao_settings pipeline_settings(const options *o, const scene *s)
 {
     const bool traced = o->technique == OPTIONS_RAYTRACE;
     glssao_settings settings =
         glssao_default_settings(traced ? GLSSAO_CLASSIC : (glssao_technique)o->technique, (glssao_quality)o->quality);
-    if (traced) { /* of these, the tracer uses the radius, and its own: */
+    if (traced) { /* the tracer uses the radius and these two */
         settings.power = 1;
         settings.sample_count = 512;
     }
@@ -38,12 +38,12 @@ glssao_settings pipeline_settings(const options *o, const scene *s)
     if (o->blur_rounds >= 0)
         settings.blur_rounds = o->blur_rounds;
     if (o->set) {
-        setting_apply(o->set, &settings, &(fault){0}); /* options_parse saw that it is right */
+        setting_apply(o->set, &settings, &(fault){0}); /* options_parse made sure that it is valid */
     }
     return settings;
 }
 
-/* The library's last error, for the line that reports a failure: its own names no job. Of the context's thread. */
+/* The last error that the library logged. It becomes part of the line that reports a failed job. */
 static char heard[200];
 
 static void hear(glssao_log_level level, const char *message, void *user)
@@ -226,14 +226,14 @@ glssao_frame pipeline_frame(const pipeline *p, const scene_view *view)
     memcpy(frame.projection, view->clip_from_view, sizeof frame.projection);
     const scene_seen seen = scene_find_seen(p->renderer, view);
     frame.only_sky = seen.opaque == 0;
-    /* Accessibility scales nothing else; but a map that was asked for itself is made. */
+    /* The picture uses accessibility only for ambient light. A map that is written is always made. */
     frame.no_ambient_light =
         p->wants.picture && !p->wants.ao_map && (seen.lit == 0 || !scene_lighting_has_ambient(&p->lighting));
     return frame;
 }
 
-/* For one of `count` samples of a pixel, whose mean is what counts: each gets its part of the rays and of the time, and
- * may err by more. */
+/* Finds accessibility for one of `count` samples of a pixel. The picture shows their mean. So each sample gets its
+ * share of the rays and of the time, and a larger sampling error. */
 static bool find_accessibility(pipeline *p, const scene_view *view, int index, int count, fault *why)
 {
     if (p->wants.traced) {
@@ -279,7 +279,7 @@ void pipeline_shade(pipeline *p, const scene_view *view, GLuint ambient_map, GLu
     draw_debug_map(p, view, framebuffer);
 }
 
-/* Pre-pass and occlusion. */
+/* Draws the pre-pass and finds accessibility. */
 static bool draw_maps(pipeline *p, const scene_view *view, int index, int count, stopwatch *times, fault *why)
 {
     if (p->wants.prepass) {
@@ -309,7 +309,7 @@ bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, fault 
     }
     if (averages)
         samples_resolve(&p->samples, count, p->color_framebuffer);
-    /* The maps belong to the pixels' centres. */
+    /* Maps belong to the centres of the pixels. */
     const bool has_maps = averages && (count == 1 || !p->wants.maps);
     if (!has_maps && !draw_maps(p, view, 0, 1, times, why))
         return false;

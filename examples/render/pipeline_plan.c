@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * The table of --plan.
+ * Prints the table of --plan.
  */
 #include "pipeline.h"
 
 #include <stdio.h>
 
-/* How passes run that can run as compute shaders, too. */
+/* Whether passes run as compute or fragment shaders. */
 static void print_path(const glssao_plan *plan)
 {
     printf("%-12s %-25s %s\n", "path", plan->path == GLSSAO_PATH_COMPUTE ? "compute" : "fragment", plan->path_reason);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Reading a frame back.
+ * Reads a frame back.
  */
 #include "pipeline.h"
 
@@ -20,7 +20,7 @@ size_t pipeline_output_size(const pipeline *p, pixel_kind kind)
     return (size_t)(p->width - 2 * p->margin) * (size_t)(p->height - 2 * p->margin) * layouts[kind].size;
 }
 
-/* Draws an output that is in no framebuffer of its own over one; 0 where GL has none. */
+/* Draws an output that has no framebuffer into one. 0 if OpenGL offers none. */
 static GLuint draw_output(pipeline *p, pipeline_output output, pixel_kind kind, const scene_view *view)
 {
     const int m = p->margin;
@@ -43,7 +43,8 @@ static GLuint draw_output(pipeline *p, pipeline_output output, pixel_kind kind, 
 
 bool pipeline_is_in_memory(const pipeline *p, pipeline_output output, pixel_kind kind)
 {
-    return output == PIPELINE_AO && p->wants.traced && kind == PIXELS_FLOAT; /* as traced, past any filter */
+    return output == PIPELINE_AO && p->wants.traced &&
+           kind == PIXELS_FLOAT; /* exactly as traced, without a texture filter */
 }
 
 bool pipeline_read(pipeline *p, pipeline_output output, pixel_kind kind, const scene_view *view, void *pixels)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The textures and framebuffers that a frame is drawn into, and its size.
+ * The textures and framebuffers of a frame.
  */
 #include "map_view.h"
 #include "pipeline.h"
@@ -13,12 +13,12 @@ static GLuint make_texture(GLenum internal_format, GLenum format, GLenum type, i
     gl.GenTextures(1, &texture);
     gl.BindTexture(GL_TEXTURE_2D, texture);
     gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)internal_format, width, height, 0, format, type, NULL);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* the default wants mipmaps */
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* the default filter needs mipmaps */
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return texture;
 }
 
-/* Leaves it bound. Either texture may be 0. */
+/* Leaves the framebuffer bound. Either texture may be 0. */
 static bool make_framebuffer(GLuint color, GLuint depth, GLuint *out)
 {
     gl.GenFramebuffers(1, out);

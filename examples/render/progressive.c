@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The loop over glssao_accumulate. Each estimate is waited for, since its error and its time decide about the next.
+ * Calls glssao_accumulate in a loop. It waits for each estimate: its error and its time decide whether another follows.
  */
 #include "progressive.h"
 
@@ -10,7 +10,7 @@
 
 #include <stdio.h>
 
-enum { MOST_ESTIMATES = 4096 }; /* by then single pixels' sums hold what a float can tell apart */
+enum { MOST_ESTIMATES = 4096 }; /* the sums of the pixels then reach the precision of a float */
 
 static bool is_done(const progressive_report *r, const progressive_goal *goal)
 {
@@ -21,11 +21,11 @@ glssao_result progressive_run(glssao_effect *effect, const glssao_frame *frame, 
                               const progressive_goal *goal, progressive_report *out)
 {
     *out = (progressive_report){.sampling_error = -1};
-    gl.Finish(); /* what was drawn before is not this loop's time */
+    gl.Finish(); /* do not count what was drawn before */
     const double start = clock_wall_ms();
     double dearest_ms = 0;
     bool time_is_left = true;
-    glssao_restart_accumulation(effect); /* the scene may have turned under the same projection */
+    glssao_restart_accumulation(effect); /* the camera may have moved with the same projection */
     glssao_result result = GLSSAO_OK;
     for (int i = 0; i < MOST_ESTIMATES && result == GLSSAO_OK && time_is_left && !stop_signal() && !is_done(out, goal);
          i++) {
@@ -37,7 +37,7 @@ glssao_result progressive_run(glssao_effect *effect, const glssao_frame *frame, 
         out->estimates = stats.estimates;
         out->sampling_error = stats.sampling_error;
         out->ms = now - start;
-        if (i > 0 && now - before > dearest_ms) /* the first compiles shaders */
+        if (i > 0 && now - before > dearest_ms) /* the first estimate compiles shaders */
             dearest_ms = now - before;
         time_is_left = goal->budget_ms <= 0 || out->ms + dearest_ms <= goal->budget_ms;
     }

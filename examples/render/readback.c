@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * A ring of buffers, bounded in number and in bytes: the oldest is fetched first.
+ * A ring of pixel buffer objects with a limit on their number and size. The oldest is read first.
  */
 #include "readback.h"
 
@@ -9,7 +9,7 @@
 #include <string.h>
 
 enum { SLOT_COUNT = 8 };
-static const size_t most_bytes = (size_t)256 << 20; /* a larger picture waits until it is alone */
+static const size_t most_bytes = (size_t)256 << 20; /* a larger picture waits until the ring is empty */
 
 typedef struct slot {
     GLuint buffer;
@@ -25,7 +25,7 @@ struct readback {
     writer *writer;
     slot slots[SLOT_COUNT];
     int first, count;
-    size_t bytes; /* of slots in use */
+    size_t bytes; /* sum over the slots in use */
 };
 
 readback *readback_create(writer *w)
@@ -39,10 +39,10 @@ readback *readback_create(writer *w)
 static bool is_passed(GLsync fence, GLuint64 timeout_ns)
 {
     const GLenum status = gl.ClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, timeout_ns);
-    return status != GL_TIMEOUT_EXPIRED; /* a wait that fails will not do better later; mapping then tells */
+    return status != GL_TIMEOUT_EXPIRED; /* a wait that failed would fail again; mapping the buffer will tell */
 }
 
-/* Of the first slot, once its fence is passed. */
+/* Passes the first slot to the writer, once its fence is signalled. */
 static void hand_over(readback *r)
 {
     slot *s = &r->slots[r->first];
@@ -52,7 +52,7 @@ static void hand_over(readback *r)
     void *pixels = mapped ? malloc(s->size) : NULL;
     if (pixels)
         memcpy(pixels, mapped, s->size);
-    bool kept = true; /* false: the driver lost the contents meanwhile */
+    bool kept = true; /* false: the driver lost the contents */
     if (mapped)
         kept = gl.UnmapBuffer(GL_PIXEL_PACK_BUFFER);
     gl.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
@@ -109,7 +109,7 @@ static bool check_gl(const char *path, fault *why)
     return code == GL_NO_ERROR;
 }
 
-/* What is in memory already. */
+/* Takes an output that is in memory. */
 static bool take_from_memory(readback *r, pipeline *p, pipeline_output output, pixel_kind kind, const char *path,
                              writer_slip *slip, fault *why)
 {
@@ -122,7 +122,7 @@ static bool take_from_memory(readback *r, pipeline *p, pipeline_output output, p
     return true;
 }
 
-/* Reads into the slot's buffer. */
+/* Starts to read into the buffer of the slot. */
 static bool start_reading(slot *s, pipeline *p, pipeline_output output, const scene_view *view)
 {
     if (!s->buffer)
@@ -160,7 +160,7 @@ bool readback_take(readback *r, pipeline *p, pipeline_output output, pixel_kind 
     if (!check_gl(path, why) || !read) {
         free(s->path);
         s->path = NULL;
-        s->capacity = 0; /* whatever it holds */
+        s->capacity = 0; /* the contents are unknown */
         return read ? false : fault_set(why, "%s: no framebuffer to read it from", path);
     }
     s->fence = gl.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);

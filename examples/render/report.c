@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Stopwatch, benchmark and the JSON of --stats.
+ * The stopwatch, the benchmark and the JSON of --stats.
  */
 #include "report.h"
 
@@ -78,7 +78,7 @@ void bench_print(const bench *b, const glssao_stats *stats, bool cpu)
     }
 }
 
-/* Bytes of the UTF-8 sequence at `text`, 0: it is none. */
+/* Length of the UTF-8 sequence at `text` in bytes; 0: it is invalid. */
 static int utf8_length(const unsigned char *text)
 {
     const int length = text[0] < 0x80                      ? 1
@@ -118,7 +118,7 @@ static void print_field(FILE *f, const char *name, const char *text)
     fputs(",\n", f);
 }
 
-/* `name`: null where it is negative, that is, not measured. */
+/* Prints null for a negative time, which was not measured. */
 static void print_ms(FILE *f, const char *name, double ms)
 {
     if (ms < 0)

@@ -10,7 +10,7 @@ static const char vertex_source[] = "#version 330\n"
                                     "    gl_Position = vec4(corner, 0.0, 1.0);\n"
                                     "}\n";
 
-/* A sample is clamped before it is added: one glint would otherwise outweigh all other samples of its pixel. */
+/* Clamps a sample before adding it. A glint would otherwise outweigh all other samples of its pixel. */
 static const char fragment_source[] =
     "#version 330\n"
     "uniform sampler2D u_map;\n"
@@ -34,7 +34,7 @@ static bool attach_shader(GLuint program, GLenum type, const char *source)
     gl.CompileShader(shader);
     gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
     gl.AttachShader(program, shader);
-    gl.DeleteShader(shader); /* the program keeps it */
+    gl.DeleteShader(shader); /* the program keeps a reference */
     return compiled;
 }
 
@@ -62,7 +62,7 @@ static bool make_target(GLenum format, int width, int height, GLuint depth, GLui
     gl.GenTextures(1, out_texture);
     gl.BindTexture(GL_TEXTURE_2D, *out_texture);
     gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)format, width, height, 0, GL_RGBA, GL_FLOAT, NULL);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* the default wants mipmaps */
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* the default filter needs mipmaps */
     gl.BindTexture(GL_TEXTURE_2D, 0);
     gl.GenFramebuffers(1, out_framebuffer);
     gl.BindFramebuffer(GL_FRAMEBUFFER, *out_framebuffer);
@@ -95,7 +95,7 @@ void samples_close(samples *s)
     *s = (samples){0};
 }
 
-/* Hammersley's points with the first bit of the second coordinate flipped; 4 of them are the rotated grid. */
+/* Hammersley points with the first bit of the second coordinate flipped. Four of them are the rotated grid. */
 scene_view samples_view(const scene_view *view, int index, int count)
 {
     if (count == 1)

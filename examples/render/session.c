@@ -32,7 +32,7 @@ void session_close(session *s)
     readback_destroy(s->readback);
     writer_destroy(s->writer);
     bench_destroy(&s->bench);
-    if (s->readback) /* then GL is there */
+    if (s->readback) /* then OpenGL is loaded */
         pipeline_destroy(&s->pipeline);
     context_destroy(s->context);
     *s = (session){.context = NULL};
@@ -63,7 +63,7 @@ static pipeline_wants choose_wants(const session *s)
     return wants;
 }
 
-/* With the margin on it. */
+/* The view of the job, including the margin. */
 static bool find_view(session *s, float angle_rad, scene_view *out_view, fault *why)
 {
     const options *o = s->options;
@@ -80,7 +80,7 @@ bool session_begin(session *s, const options *o, stage *st, fault *why)
     s->frames_drawn = 0;
     s->times.finish = o->stats || o->bench;
     for (int i = 0; i < 16 && gl.GetError() != GL_NO_ERROR;
-         i++) { /* of a job before; a lost context has no end of them */
+         i++) { /* errors of an earlier job; a lost context never runs out of them */
     }
     scene_view view;
     stopwatch_start(&s->times);
@@ -121,7 +121,7 @@ bool session_bench(session *s, fault *why)
     stopwatch *times = &s->times;
     const stopwatch before = *times;
     glssao_stats stats = {0};
-    times->finish = false; /* a frame flows as it would in a program: no wait between its passes */
+    times->finish = false; /* measure frames as a program draws them, without waiting between passes */
     for (int i = -WARM_UP_FRAMES; i < frames; i++) {
         scene_view view;
         const double wall = clock_wall_ms(), cpu = clock_cpu_ms();
@@ -152,13 +152,13 @@ bool session_draw(session *s, bool shows_progress, writer_slip *slip, fault *why
         if (!draw(s, full_turn * (float)i / (float)count, &view, why) ||
             !outputs_take(o, &s->pipeline, &view, o->frames ? i + 1 : 0, s->readback, slip, why))
             return false;
-        if (s->times.finish) /* the phase is to hold all of it */
+        if (s->times.finish) /* the whole read-back belongs to this phase */
             readback_drain(s->readback);
         else
             readback_poll(s->readback);
         stopwatch_lap(&s->times, PHASE_READBACK);
         s->frames_drawn++;
-        if (writer_has_failed(s->writer, slip)) /* the rest would fail too */
+        if (writer_has_failed(s->writer, slip)) /* the other frames would fail too */
             return session_finish(s, slip, why);
         if (shows_progress && o->frames)
             progress_count(&shown, i + 1, count);

@@ -34,8 +34,8 @@ bool session_open(session *s, const options *o, bool quiet, fault *why);
 /* Waits until all pictures are written. */
 void session_close(session *s);
 
-/* Makes the pipeline fit a job and the scene that it draws; prints the plan where that is asked for. False, with one
- * line in `error`: the job can't be drawn, another one can. */
+/* Prepares the pipeline for a job and its scene, and prints the plan if the job asks for it. False, with one line in
+ * `why`, if the job cannot be drawn; other jobs still can. */
 bool session_begin(session *s, const options *o, stage *st, fault *why);
 
 /* Draws the frames of the job and passes them to the writer. The slip tells the result; it must live until the pictures

@@ -10,15 +10,15 @@
 #include <sys/stat.h>
 
 typedef struct key {
-    char *name; /* path, or name of a built-in scene; variant and root follow it in the same memory */
+    char *name; /* path or name of a built-in scene; the same allocation also holds variant and root */
     bool is_file;
     option_number time_s;
     scene_load_options file;
     int memory_mib;
-    struct stat status; /* of the file, where it has one */
+    struct stat status; /* of the file; all 0 for a built-in scene */
 } key;
 
-/* A scene that is being loaded, or was and waits to be asked for. */
+/* A scene that is being loaded, or that is loaded and not used yet. */
 typedef struct loading {
     pthread_t thread;
     bool used, running;
@@ -29,7 +29,7 @@ typedef struct loading {
 } loading;
 
 typedef struct entry {
-    struct entry *next; /* used longer ago */
+    struct entry *next; /* used less recently */
     key key;
     scene *scene;
     inputs inputs;
@@ -37,7 +37,7 @@ typedef struct entry {
 } entry;
 
 struct stage_cache {
-    entry *first; /* used last */
+    entry *first; /* most recently used */
     loading ahead;
     size_t most_bytes;
 };
@@ -50,7 +50,7 @@ stage_cache *stage_cache_create(size_t most_bytes)
     return c;
 }
 
-/* Copies a text to `*at`, and moves that behind it; NULL stays NULL. */
+/* Copies a text to `*at` and moves `*at` behind it. NULL stays NULL. */
 static const char *copy(const char *text, char **at)
 {
     const size_t size = text ? strlen(text) + 1 : 0;
@@ -61,7 +61,7 @@ static const char *copy(const char *text, char **at)
     return text ? to : NULL;
 }
 
-/* `name` is NULL where memory is short. */
+/* `name` is NULL if memory is short. */
 static key make_key(const options *o)
 {
     const char *texts[] = {o->scene_path ? o->scene_path : o->scene_name, o->file.variant, o->file.root};
@@ -77,7 +77,7 @@ static key make_key(const options *o)
     k.file.variant = copy(texts[1], &at);
     k.file.root = copy(texts[2], &at);
     if (k.is_file && stat(o->scene_path, &k.status) != 0)
-        memset(&k.status, 0, sizeof k.status); /* loading will say what is wrong */
+        memset(&k.status, 0, sizeof k.status); /* loading will report the fault */
     return k;
 }
 
@@ -86,7 +86,7 @@ static bool is_same_text(const char *a, const char *b)
     return a && b ? strcmp(a, b) == 0 : a == b;
 }
 
-/* Whether both ask for the same of a file, whatever is in it. */
+/* Whether both load a file in the same way, whatever the file contains. */
 static bool is_same_request(const key *a, const key *b)
 {
     return a->time_s.given == b->time_s.given && a->time_s.value == b->time_s.value && a->memory_mib == b->memory_mib &&
@@ -155,18 +155,18 @@ bool stage_cache_load_ahead(stage_cache *c, const options *o)
     l->used = true;
     l->key = k;
     l->running = pthread_create(&l->thread, NULL, load, l) == 0;
-    if (!l->running) /* no more threads: when it is asked for */
+    if (!l->running) /* without a second thread, load it when it is needed */
         drop_loading(l);
     return l->used;
 }
 
-/* Takes `k` over, also on failure. */
+/* Takes ownership of `k`, also on failure. */
 static scene *load_scene(stage_cache *c, key *k, inputs *out_inputs, fault *why)
 {
     loading *ahead = &c->ahead, here = {.key = *k};
     if (ahead->used && !is_same(&ahead->key, k) && strcmp(ahead->key.name, k->name) == 0 &&
         is_same_request(&ahead->key, k))
-        drop_loading(ahead); /* the file has changed since */
+        drop_loading(ahead); /* the file has changed */
     loading *l = ahead->used && is_same(&ahead->key, k) ? ahead : &here;
     if (l == ahead) {
         finish_loading(l);
@@ -196,7 +196,7 @@ static void destroy_entry(entry *e)
     free(e);
 }
 
-/* In memory and in the context; rays' structures by a rule of thumb. */
+/* Size in memory and in the context. The size of Embree's structure is estimated. */
 static size_t count_bytes(const entry *e)
 {
     const scene *s = e->scene;
@@ -245,7 +245,7 @@ stage *stage_cache_get(stage_cache *c, const options *o, fault *why)
                 fault_set(why, "out of memory");
             inputs_free(&in);
             scene_destroy(s);
-            if (s || !k.name) /* else load_scene freed it */
+            if (s || !k.name) /* otherwise load_scene freed it */
                 free(k.name);
             free(e);
             return NULL;

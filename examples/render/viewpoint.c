@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Chooses the camera and fits its planes.
+ * Chooses the camera of a picture and fits its planes.
  */
 #include "viewpoint.h"
 
@@ -12,8 +12,8 @@
 
 static const float rad_per_deg = 0.01745329252f;
 
-/* The file's camera looks along a ray; the target is the point of it nearest to the scene's middle, so that a
- * turntable turns about what is looked at. */
+/* The target of a file's camera is the point on its line of sight nearest to the middle of the scene. A turntable then
+ * turns about the thing that the camera looks at. */
 static void from_scene_camera(const scene_camera *c, const scene *s, viewpoint *out)
 {
     const float *m = c->world_from_view;
@@ -38,7 +38,7 @@ static void from_scene_camera(const scene_camera *c, const scene *s, viewpoint *
 
 bool viewpoint_parse_view(const char *text, float out_deg[2])
 {
-    /* Isometric: the three axes look equally long at an elevation of atan(1 / sqrt(2)). */
+    /* Isometric: at an elevation of atan(1 / sqrt(2)) the three axes look equally long. */
     static const float named[][2] = {{0, 0}, {90, 0}, {180, 0}, {-90, 0}, {0, 90}, {0, -90}, {45, 35.2643897f}};
     const int word = words_find(VIEW_WORDS, text);
     if (word >= 0) {
@@ -82,7 +82,7 @@ static float distance_to_target(const camera *c)
     return hypotf(hypotf(c->eye[0] - c->target[0], c->eye[1] - c->target[1]), c->eye[2] - c->target[2]);
 }
 
-/* --eye and --target, which are in the file's coordinates, --up and --fov, in place of what was chosen. */
+/* Replaces parts of the camera by --eye and --target, which are in the file's coordinates, --up and --fov. */
 static void take_given(const options *o, const scene *s, viewpoint *v)
 {
     camera *c = &v->base;
@@ -104,7 +104,7 @@ static void take_given(const options *o, const scene *s, viewpoint *v)
         c->fov_y_rad = o->fov_deg.value * rad_per_deg;
         c->half_height = 0;
     }
-    if (o->orthographic && c->half_height == 0) /* what lies at the target keeps its size */
+    if (o->orthographic && c->half_height == 0) /* things at the target keep their size */
         c->half_height = distance_to_target(c) * tanf(0.5f * c->fov_y_rad);
 }
 
@@ -135,11 +135,11 @@ bool viewpoint_choose(const options *o, const scene *s, float free_left, viewpoi
     if (!out->fitted)
         memcpy(out->pivot, out->base.target, sizeof out->pivot);
     if (o->eye.given || o->target.given || o->fov_deg.given)
-        out->clip_near = out->clip_far = 0; /* the file's planes belong to the file's view */
+        out->clip_near = out->clip_far = 0; /* the planes of the file belong to its own view */
     return true;
 }
 
-/* Planes that hug the scene, but never show what the file's camera cuts away. */
+/* Fits the planes to the scene. They never show what the file's camera cuts away. */
 static void fit_planes(const viewpoint *v, const scene *s, camera *c)
 {
     camera_fit_planes(c, s);

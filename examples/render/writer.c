@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * A queue, bounded in pictures and in bytes, and threads, as many as pictures wait and no more than this process may
- * use cores.
+ * A queue with a limit on pictures and bytes. Threads are started as pictures wait, at most one for each core that this
+ * process may use.
  */
 #define _GNU_SOURCE /* sched_getaffinity */
 #include "writer.h"
@@ -18,7 +18,7 @@
 #include <string.h>
 
 enum { MOST_THREADS = 64, QUEUE_LENGTH = 2 * MOST_THREADS };
-static const size_t most_bytes = (size_t)512 << 20; /* a larger picture waits until it is alone */
+static const size_t most_bytes = (size_t)512 << 20; /* a larger picture waits until the queue is empty */
 
 typedef struct entry {
     char *path;
@@ -30,16 +30,16 @@ typedef struct entry {
 
 struct writer {
     pthread_mutex_t lock;
-    pthread_cond_t changed; /* of anything below, and of slips */
+    pthread_cond_t changed; /* signals changes of the members below and of slips */
     entry queue[QUEUE_LENGTH];
     int first, length, limit;
-    size_t bytes; /* of the queue and of what the threads work on */
+    size_t bytes; /* pictures in the queue and in the threads */
     bool ending;
     pthread_t threads[MOST_THREADS];
     int thread_count, idle, wanted;
 };
 
-/* Slurm and container runtimes give a job fewer cores than the machine has. */
+/* Slurm and container runtimes may give a job fewer cores than the machine has. */
 static int count_cores(void)
 {
     cpu_set_t set;
@@ -62,7 +62,7 @@ static bool encode(const entry *e, fault *why)
         return picture_write(e->path, e->width, e->height, 4, e->pixels, why->text, why->size);
     uint8_t *pixels = e->pixels;
     const size_t count = (size_t)e->width * (size_t)e->height;
-    for (size_t i = 1; i < count; i++) { /* in place: writing never overtakes reading */
+    for (size_t i = 1; i < count; i++) { /* in place: the write position is never ahead of the read position */
         pixels[3 * i] = pixels[4 * i];
         pixels[3 * i + 1] = pixels[4 * i + 1];
         pixels[3 * i + 2] = pixels[4 * i + 2];
@@ -70,7 +70,7 @@ static bool encode(const entry *e, fault *why)
     return picture_write(e->path, e->width, e->height, 3, pixels, why->text, why->size);
 }
 
-/* With the lock held. */
+/* Call with the lock held. */
 static void note(writer *w, writer_slip *slip, bool ok, const char *error)
 {
     slip->pending--;
@@ -82,7 +82,7 @@ static void note(writer *w, writer_slip *slip, bool ok, const char *error)
     pthread_cond_broadcast(&w->changed);
 }
 
-/* Called with the lock held, and leaves it so; without it meanwhile. */
+/* Call with the lock held. It is released during the work and held again afterwards. */
 static void work_on(writer *w, entry e)
 {
     char error[sizeof e.slip->error] = "";
@@ -173,7 +173,7 @@ void writer_submit(writer *w, writer_slip *slip, const char *path, int width, in
     if (w->thread_count) {
         w->queue[(w->first + w->length++) % QUEUE_LENGTH] = e;
         pthread_cond_broadcast(&w->changed);
-    } else { /* no more threads: then here */
+    } else { /* without another thread, work on this one */
         work_on(w, e);
     }
     pthread_mutex_unlock(&w->lock);
