@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* strtod also takes leading blanks, hexadecimal, "nan" and "inf"; a command line should not. */
+/* Refuses leading blanks, hexadecimal, "nan" and "inf", which strtod accepts. */
 static bool parse_number(const char *text, const char **out_end, double *out)
 {
     if (!strchr("+-.0123456789", text[0]) || text[0] == '\0' || text[strcspn(text, "xXnN")] != '\0')
@@ -52,7 +52,7 @@ static bool parse_vector(const char *text, option_vector *out)
     return true;
 }
 
-/* Two whole numbers. */
+/* Two whole numbers with a character between them. */
 static bool parse_pair(const char *text, char between, double first_min, double min, double max, int out[2])
 {
     char first[8];
@@ -77,7 +77,7 @@ static bool ends_as_wanted(const char *path, const char *endings)
     return path[0] != '\0' && (endings[0] == '\0' || (dot && dot != path && words_find(endings, dot) >= 0));
 }
 
-/* Sets the option's member. False where `text` is not what the option wants. */
+/* Sets the member of the option. False if `text` is no valid value. */
 static bool take(const option *o, const char *text, void *out)
 {
     void *target = (char *)out + o->offset;
@@ -128,7 +128,7 @@ static const char *refusal(const option_set *set, const option *o)
     return set->refused ? set->refused[o->scope] : NULL;
 }
 
-/* The option that an argument such as "--name=value" or "-nvalue" begins with; *rest is what follows the name. */
+/* Finds the option of an argument such as "--name=value" or "-nvalue"; *rest is the text after the name. */
 static const option *find(const option_set *set, const char *argument, const char **rest)
 {
     const bool is_long = argument[1] == '-';
@@ -144,7 +144,7 @@ static const option *find(const option_set *set, const char *argument, const cha
     return NULL;
 }
 
-/* One option with its value, which may be the next argument; *at moves past what was read. */
+/* Parses an option and its value, which may be the next argument. *at moves behind them. */
 static bool parse_option(const option_set *set, int argc, char **argv, int *at, void *out, fault *why)
 {
     const char *argument = argv[(*at)++], *rest;

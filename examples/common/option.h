@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Command lines from tables: each row says where in a structure an option's value goes and what it may be. Long options
- * take "--name value" and "--name=value", short ones "-n value" and "-nvalue". "--" ends the options.
+ * Parses command lines with tables. A row says which member of a structure an option sets and what its value may be.
+ * Long options are "--name value" or "--name=value", short ones "-n value" or "-nvalue". "--" ends the options.
  */
 #ifndef GLSSAO_EXAMPLES_OPTION_H
 #define GLSSAO_EXAMPLES_OPTION_H
@@ -34,14 +34,14 @@ typedef enum option_kind {
     OPTION_SHARD,       /* int[2], the second min to max, the first below it: "0/4" */
     OPTION_WORD,        /* int: index into the words that `wanted` lists */
     OPTION_TEXT,        /* const char * */
-    OPTION_FILE /* const char *, ending in one of the words that `wanted` lists; "": in anything. The word "-" allows
-                   "-" */
+    OPTION_FILE         /* const char *, a file name with one of the endings that `wanted` lists; "": any. The
+                                   word "-" in the list allows the name "-" */
 } option_kind;
 
 typedef struct option {
     char letter; /* 0: none */
     const char *name;
-    const char *value; /* the help's word for the value; NULL for a flag */
+    const char *value; /* name of the value in the help; NULL for a flag */
     const char *help;
     option_kind kind;
     size_t offset; /* of the member that it sets */
@@ -53,13 +53,13 @@ typedef struct option {
 typedef struct option_set {
     const option *table;
     int count;
-    const char *const *refused; /* why options of each scope are refused here, NULL: they are not; NULL: none is */
-    const char *operand;        /* "scene": what the argument that is no option names; NULL: there is none */
+    const char *const *refused; /* for each scope, why its options are refused, or NULL; NULL: none are */
+    const char *operand;        /* "scene": what an argument names that is no option; NULL: no such argument */
     size_t operand_offset;      /* of a const char * */
 } option_set;
 
-/* Sets what the arguments from argv[1] on say in the structure at `out`; its strings live as long as argv. False, with
- * one line in `why` that names the option and the value. */
+/* Parses the arguments from argv[1] on into the structure at `out`. Its strings live as long as argv. False, with one
+ * line in `why` that names the option and the value, if one is wrong. */
 bool option_parse(const option_set *set, int argc, char **argv, void *out, fault *why);
 
 /* Prints each option that is not refused to stdout. */

@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Names of temporary files, for whole_file_abandon_all. Whoever takes a name out of its place owns it. */
+/* Names of temporary files for whole_file_abandon_all. A name belongs to the code that takes it out of the table. */
 enum { MOST_OPEN = 256 };
 static _Atomic(char *) open_files[MOST_OPEN];
 
@@ -24,7 +24,7 @@ static void enter(char *name)
     }
 }
 
-/* False where whole_file_abandon_all has taken it. */
+/* Takes a name out of the table. False if whole_file_abandon_all has taken it. */
 static bool leave(char *name)
 {
     for (int i = 0; i < MOST_OPEN; i++) {
@@ -66,7 +66,8 @@ void whole_file_remove_left(const char *path, long process)
     free(real);
 }
 
-/* A name that no other thread or process of this machine uses; O_EXCL sees to the rest. */
+/* Opens a file with a name that no other thread or process of this machine uses. O_EXCL guards against other machines.
+ */
 static FILE *open_temporary(const char *path, char **out_name)
 {
     static atomic_uint count;
@@ -76,7 +77,7 @@ static FILE *open_temporary(const char *path, char **out_name)
         return NULL;
     }
     snprintf(name, size, "%s.%ld-%u.part", path, (long)getpid(), atomic_fetch_add(&count, 1));
-    enter(name); /* first: a signal may come at any time */
+    enter(name); /* before the file exists: a signal may arrive at any time */
     const int descriptor = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     FILE *file = descriptor >= 0 ? fdopen(descriptor, "wb") : NULL;
     if (!file) {

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Files that appear whole or not at all: written under another name in the same folder, and renamed at the end. What is
- * no regular file (a device, a pipe) is written as it is, and so is a file whose folder takes no new one. The path "-"
- * is standard output.
+ * Files that appear whole or not at all: they are written under another name in the same folder and renamed at the end.
+ * Devices and pipes are written directly, and so is a file if its folder is read-only. The path "-" is standard output.
  */
 #ifndef GLSSAO_EXAMPLES_WHOLE_FILE_H
 #define GLSSAO_EXAMPLES_WHOLE_FILE_H
@@ -16,22 +15,22 @@ extern "C" {
 #endif
 
 typedef struct whole_file {
-    FILE *file;       /* to write to */
-    const char *name; /* as it was handed over, for messages */
-    char *path;       /* what it will be; links followed */
-    char *temporary;  /* what it is until then; NULL: `path` itself */
+    FILE *file;       /* write here */
+    const char *name; /* the given path, for messages */
+    char *path;       /* the final path, with links resolved */
+    char *temporary;  /* the name until then; NULL: `path` itself */
 } whole_file;
 
-/* False, with one line in `error`; any thread. `path` must live until the file is closed. */
+/* False, with one line in `error`, on failure. Any thread. `path` must live until the file is closed. */
 bool whole_file_open(whole_file *f, const char *path, char *error, size_t error_size);
 
-/* Removes the temporary files of all that are open: for a program that ends. Async-signal-safe. */
+/* Removes the temporary files of all open files, before the program ends. Async-signal-safe. */
 void whole_file_abandon_all(void);
-/* Removes the temporary files that a process of that number left beside `path`. */
+/* Removes temporary files of `path` that a process with this number left. */
 void whole_file_remove_left(const char *path, long process);
 
-/* Closes it. Where that fails, or `written` is false already (and `error` says why), nothing of it is left and what was
- * there before stays, unless it had to be written as it is. Returns whether all is written. */
+/* Closes the file. If that fails, or `written` is false (then `error` already says why), the new file is removed and
+ * the old one stays, unless it was written directly. Returns whether everything was written. */
 bool whole_file_close(whole_file *f, bool written, char *error, size_t error_size);
 
 #ifdef __cplusplus

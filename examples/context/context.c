@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Chooses among the ways to get an offscreen context, and keeps two rules that each way alone can't: one context is
- * current on a thread, whatever kind it is of, and the message of a failure tells about every way tried.
+ * Tries the ways to get an offscreen context. It also keeps two rules that no backend can keep alone: only one context
+ * is current on a thread, whatever its kind, and the message of a failure names every way that was tried.
  */
 #include "backend.h"
 
@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What is current on this thread. EGL and OSMesa each know only their own, but Mesa's two libraries share one
- * dispatch table for a thread (libglapi), so one kind has to be released before the other is made current. */
+/* The context that is current on this thread. EGL and OSMesa know only their own contexts, but in Mesa both use one
+ * dispatch table for each thread (libglapi). So one kind must be released before the other is made current. */
 static _Thread_local context *current;
 
 typedef enum context_way { WAY_HARDWARE, WAY_SURFACELESS, WAY_OSMESA, WAY_SOFTWARE, WAY_COUNT } context_way;

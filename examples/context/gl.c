@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Fills the examples' table of GL functions.
+ * Fills the table of OpenGL functions for examples and tests.
  */
 #include "gl.h"
 
@@ -12,7 +12,7 @@ struct gl_functions gl;
 bool gl_load(void *(*load)(const char *name, void *user), void *user, char *error, size_t error_size)
 {
     void *address;
-/* ISO C has no cast from an object pointer to a function pointer; POSIX promises that the bytes agree. */
+/* ISO C has no cast from an object pointer to a function pointer; POSIX guarantees the same representation. */
 #define GL_LOAD(type, name)                                                                                            \
     address = load("gl" #name, user);                                                                                  \
     if (!address) {                                                                                                    \

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Contexts of OSMesa, Mesa's own offscreen interface, which needs neither EGL nor a device. It left Mesa in 25.1, so
- * the library is opened at run time and the little of its interface that is used is declared here.
+ * Contexts of OSMesa, Mesa's own offscreen interface. It needs no EGL and no device. Mesa dropped it in 25.1, so the
+ * library is opened at run time, and the few functions that are used are declared here.
  */
 #include "backend.h"
 
@@ -28,7 +28,8 @@ typedef struct osmesa_context {
     unsigned char (*make_current)(void *handle, void *buffer, unsigned type, int width, int height);
     void *(*get_proc_address)(const char *name);
     void *handle;
-    unsigned char buffer[4]; /* OSMesa wants a picture to be made current: one pixel. Drawing goes to framebuffers */
+    unsigned char
+        buffer[4]; /* OSMesa needs a picture to make a context current: one pixel. Drawing goes to framebuffers */
 } osmesa_context;
 
 static bool make_current(context *c)
@@ -56,7 +57,7 @@ static void destroy(context *c)
     free(o);
 }
 
-/* Never closed again: Mesa leaves thread-local data and exit handlers behind that point into the library. */
+/* The library is never closed: Mesa leaves thread-local data and exit handlers that point into it. */
 static void *open_library(void)
 {
     static const char *const names[] = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Cameras for the examples. Everything is relative to the scene's own size, so that a scene of any scale looks the
- * same; differences of large coordinates are taken in double precision.
+ * Cameras for the examples. All lengths are relative to the size of the scene, so that a scaled scene looks the same.
+ * Differences of large coordinates are computed in double precision.
  */
 #define CGLM_ALL_UNALIGNED /* the matrices are plain float[16] */
 #include "camera.h"
@@ -12,10 +12,11 @@
 #include <math.h>
 #include <stdio.h>
 
-static const double largest_plane_ratio = 20000; /* far / near: a 24-bit depth buffer still tells 1/800 of far apart */
+static const double largest_plane_ratio =
+    20000; /* far / near: a 24-bit depth buffer then resolves 1/800 of the far distance */
 
 typedef struct basis {
-    double right[3], up[3], back[3]; /* world space, unit; zero where the camera is degenerate */
+    double right[3], up[3], back[3]; /* unit vectors in world space; zero if the camera is degenerate */
 } basis;
 
 static double dot(const double a[3], const double b[3])
@@ -29,7 +30,7 @@ static void cross(const double a[3], const double b[3], double out[3])
         out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-/* Returns the length that v had. */
+/* Returns the previous length. */
 static double normalize(double v[3])
 {
     double length = sqrt(dot(v, v));
@@ -67,7 +68,7 @@ static double bounds_diagonal(const scene *s)
     return sqrt(dot(size, size));
 }
 
-/* View distances of the nearest and the farthest corner of the bounds. */
+/* Finds the view distances of the nearest and the farthest corner of the bounds. */
 static void bounds_distances(const camera *c, const scene *s, double *out_nearest, double *out_farthest)
 {
     basis b = camera_basis(c);
@@ -89,11 +90,11 @@ void camera_fit_planes(camera *c, const scene *s)
     double nearest, farthest;
     bounds_distances(c, s, &nearest, &farthest);
     if (!(farthest > 0.0)) {
-        /* All behind: nothing is seen, whatever the planes. */
+        /* Everything is behind the camera, so any planes will do. */
         nearest = 0.0;
         farthest = bounds_diagonal(s) > 0.0 ? bounds_diagonal(s) : 1.0;
     }
-    /* Room for bounds that are flat, and for rounding in the matrices. */
+    /* Leaves room for flat bounds and for rounding in the matrices. */
     double margin = 0.01 * (farthest - fmax(nearest, 0.0)) + 0.001 * farthest;
     double far_plane = farthest + margin;
     c->near_plane = (float)fmax(nearest - margin, far_plane / largest_plane_ratio);
@@ -139,7 +140,7 @@ bool camera_check(const camera *c, char *error, size_t error_size)
         up[i] = c->up[i];
         largest = fmax(largest, fmax(fabs((double)c->eye[i]), fabs((double)c->target[i])));
     }
-    /* Nearer than this, rounding of the coordinates alone decides where the camera looks. */
+    /* At a smaller distance, rounding of the coordinates decides where the camera looks. */
     if (!(normalize(offset) > 4.0 * (double)FLT_EPSILON * largest)) {
         snprintf(error, error_size, "camera eye and target are the same point (%g, %g, %g)", (double)c->eye[0],
                  (double)c->eye[1], (double)c->eye[2]);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * JPEG and WebP. Rows come bottom to top, and both libraries take them top to bottom.
+ * JPEG and WebP. Our rows go from bottom to top; both libraries expect top to bottom.
  */
 #include "picture.h"
 
@@ -40,7 +40,7 @@ static void on_jpeg_message(j_common_ptr jpeg)
     (void)jpeg;
 }
 
-/* Holds the setjmp and no local variable that changes, so that nothing can be clobbered. */
+/* Contains the setjmp and no local variable that changes, so that longjmp clobbers nothing. */
 static bool encode_jpeg(jpeg_job *job, FILE *file, int width, int height)
 {
     struct jpeg_compress_struct *jpeg = &job->jpeg;

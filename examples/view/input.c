@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Events of the window: mouse, dropped files, keys that are held. What the panel wants it gets; the rest moves the
- * camera. keys.c has what a key does.
+ * Handles events of the window: mouse, dropped files and keys that are held. The panel gets its events first; the
+ * others move the camera. keys.c handles single keys.
  */
 #include "gui.h"
 #include "navigate.h"
@@ -11,18 +11,18 @@
 
 #include <math.h>
 
-static const float turn_rad_per_height = 3.0f; /* of the window */
+static const float turn_rad_per_height = 3.0f; /* for each height of the window */
 static const double zoom_per_step = 0.9;
-static const float split_reach = 8; /* how near to the line the pointer takes hold of it, in screen coordinates */
+static const float split_reach = 8; /* distance at which the pointer takes hold of the line, in screen coordinates */
 
 typedef struct drag {
     int button; /* -1: none */
     bool on_line, across;
-    double x, y; /* where the pointer was by the events so far; glfwGetCursorPos tells where it is by now */
+    double x, y; /* pointer position after the events so far; glfwGetCursorPos would give a later one */
 } drag;
 static drag dragging = {.button = -1}; /* one pointer, one window */
 
-/* Keys that are down since they were pressed with Ctrl: Ctrl+S saves, and walks nowhere when Ctrl is let go first. */
+/* Keys that are still down after they were pressed with Ctrl. They do not walk: Ctrl may be released before S. */
 static bool commands[GLFW_KEY_LAST + 1];
 
 static viewer *of_window(GLFWwindow *window)
@@ -122,7 +122,7 @@ bool input_walk(viewer *v, double seconds)
     const float up = held(v, GLFW_KEY_E, GLFW_KEY_Q);
     if (!v->scene || control || gui_wants_keyboard() || (ahead == 0 && right == 0 && up == 0))
         return false;
-    /* Through the suggested radius, of which a scene is twenty long, five times a second. */
+    /* Five suggested radii a second; a scene is twenty of them long. */
     const float faster = glfwGetKey(v->window, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS ? 4 : 1;
     const float step = 5 * camera_suggest_radius(v->scene) * faster * (float)seconds;
     navigate_walk(&v->viewpoint.base, v->viewpoint.axis, step * ahead, step * right, step * up);

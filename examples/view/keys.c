@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * What each key does, and the list of them that F1 shows.
+ * Handles keys, and holds the list that F1 shows.
  */
 #include "gui.h"
 #include "navigate.h"
@@ -119,7 +119,7 @@ static bool key_of_view(viewer *v, int key)
     const float step = 0.1f;
     switch (key) {
     case GLFW_KEY_F:
-        v->moved = true; /* the whole scene, not the file's or the command line's view */
+        v->moved = true; /* fit the view, even if the file or the command line has a camera */
         viewer_frame_scene(v);
         return true;
     case GLFW_KEY_LEFT:
@@ -229,7 +229,7 @@ void keys_press(viewer *v, int key, int modifiers)
         v->help_open = v->opening = false;
         gui_leave();
     } else if (modifiers & GLFW_MOD_CONTROL) {
-        if (!gui_wants_keyboard() || key != GLFW_KEY_C) /* there it copies text */
+        if (!gui_wants_keyboard() || key != GLFW_KEY_C) /* in the panel, Ctrl+C copies text */
             key_with_control(v, key);
     } else if (gui_wants_keyboard()) {
         return;

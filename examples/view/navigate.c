@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-static const float steepest_rad = 1.55f; /* up is not to be along the view */
+static const float steepest_rad = 1.55f; /* keeps up away from the line of sight */
 
 typedef struct frame_of_sight {
     vec3 ahead, right, up; /* unit, world space */
@@ -26,8 +26,7 @@ static frame_of_sight look_along(const camera *c)
     return f;
 }
 
-/* Turns the way from `from` to `to` about the axis and upwards, and puts `to` at its end. The camera, which may have
- * been tilted, then stands upright. */
+/* Turns the vector from `from` to `to` about the axis and upwards, and moves `to`. The camera is upright afterwards. */
 static void turn(camera *c, const float axis[3], const float from[3], float to[3], float right_rad, float up_rad)
 {
     vec3 way, flat;
@@ -35,7 +34,8 @@ static void turn(camera *c, const float axis[3], const float from[3], float to[3
     const float length = glm_vec3_norm(way);
     const float height = glm_clamp(glm_vec3_dot(way, (float *)axis) / length, -1, 1);
     glm_vec3_copy(way, flat);
-    if (1 - height * height < 1e-6f) /* from straight above or below, up in the picture tells which way is level */
+    if (1 - height * height <
+        1e-6f) /* seen from straight above or below, the picture's up gives the horizontal direction */
         glm_vec3_scale(c->up, height > 0 ? -1 : 1, flat);
     glm_vec3_muladds((float *)axis, -glm_vec3_dot(flat, (float *)axis), flat);
     glm_vec3_normalize(flat);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The panel: what is shown, how it is drawn, the plan with reasons, times, help.
+ * Draws the panel: what is shown, how it is drawn, the plan with reasons, times and help.
  */
 #include "gui.h"
 #include "viewer.h"
@@ -170,7 +170,7 @@ static void draw_open(viewer *v)
         v->opening = false;
 }
 
-/* The line that divides the picture, and which side is which. */
+/* Draws the line of the split view and labels its sides. */
 static void draw_split(const viewer *v)
 {
     int width = 0, height = 0;

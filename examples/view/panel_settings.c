@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The panel's section of settings: a slider or choice with unit and reset for each that the technique has.
+ * Draws the settings of the technique: for each a slider or a choice, its unit and a reset button.
  */
 #include "gui.h"
 #include "setting_table.h"
@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-/* Sliders have ends: for a length, ten times what comes with the radius that suits the scene. */
+/* The upper end of a slider. For a length it is ten times the default for the scene's suggested radius. */
 static float slider_end(const setting *s, const viewer *v, float standard)
 {
     if (!s->length)

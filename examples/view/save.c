@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Pictures and command lines.
+ * Saves pictures and writes command lines.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "picture.h"
@@ -16,7 +16,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The command line's --output, or the first name that is free. */
+/* The name from --output, or the first free name. */
 static void choose_name(const viewer *v, char *out, size_t out_size)
 {
     snprintf(out, out_size, "%s", v->options.output ? v->options.output : "");
@@ -40,7 +40,7 @@ void viewer_save_picture(viewer *v)
         viewer_say(v, true, "%s: out of memory", name);
         return;
     }
-    /* Alpha means nothing here: RGB, as glssao-render writes it. */
+    /* drop alpha, as glssao-render does */
     const size_t count = (size_t)v->width * (size_t)v->height;
     for (size_t i = 0; i < count; i++)
         memmove(pixels + 3 * i, pixels + 4 * i, 3);
@@ -69,7 +69,7 @@ static void add(line *l, const char *format, ...)
         l->used += (size_t)length;
 }
 
-/* For a POSIX shell. */
+/* Adds a word in the quotes of a POSIX shell. */
 static void add_quoted(line *l, const char *text)
 {
     add(l, " '");
@@ -78,7 +78,7 @@ static void add_quoted(line *l, const char *text)
     add(l, "'");
 }
 
-/* `origin` (NULL: 0) is added: places are in the file's coordinates on the command line. */
+/* Adds `origin` (NULL: 0): positions on the command line are in the coordinates of the file. */
 static void add_vector(line *l, const char *name, const float value[3], const double *origin)
 {
     add(l, " --%s", name);
@@ -114,7 +114,7 @@ static void add_camera(line *l, const viewer *v)
         add(l, " --far %.9g", (double)o->far_plane.value);
 }
 
-/* What glssao-render takes with the technique of the moment, and with occlusion alone. */
+/* Adds options that glssao-render accepts only with the current technique, or only with occlusion. */
 static void add_occlusion(line *l, const viewer *v)
 {
     const options *o = &v->options;
@@ -131,7 +131,7 @@ static void add_occlusion(line *l, const viewer *v)
         add(l, " --path %s", words_at(PATH_WORDS, o->path).text);
 }
 
-/* The map in the corner, where glssao-render has it too. */
+/* Adds the map in the corner, if glssao-render can show it. */
 static void add_debug_map(line *l, const viewer *v)
 {
     const int map = v->options.debug_map;

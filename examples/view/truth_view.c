@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The ray-traced reference on the screen: starting it, and its difference to the accessibility of the moment.
+ * Shows ray-traced accessibility, and how far the current result is from it.
  */
 #include "error_color.h"
 #include "viewer.h"
@@ -36,7 +36,7 @@ static bool start(viewer *v)
     return v->truth;
 }
 
-/* The truth in grey, or the error. */
+/* Paints the truth in grey, or the error in colours. */
 static void paint(viewer *v, const float *ao, uint8_t (*out)[4])
 {
     double sum = 0;
@@ -77,7 +77,7 @@ void viewer_draw_truth(viewer *v)
         truth_job_read(v->truth, v->truth_mean, FAULT(v->error));
         paint(v, ao, pixels);
     }
-    if (ao && pixels) { /* black until the first round is there */
+    if (ao && pixels) { /* black until the first round is done */
         gl.BindTexture(GL_TEXTURE_2D, v->map);
         gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
         gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, v->width, v->height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);

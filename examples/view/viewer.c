@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Opening and closing scenes, and changing what the frame is made of.
+ * Opens and closes scenes, and changes what the frame shows.
  */
 #include "viewer.h"
 
@@ -18,7 +18,7 @@ static void *load_function(const char *name, void *user)
     (void)user;
     GLFWglproc function = glfwGetProcAddress(name);
     void *address = NULL;
-    /* ISO C has no cast from a function pointer to an object pointer; POSIX promises that the bytes agree. */
+    /* ISO C has no cast from a function pointer to an object pointer; POSIX guarantees the same representation. */
     memcpy(&address, &function, sizeof address);
     return address;
 }
@@ -45,12 +45,12 @@ void viewer_camera_moved(viewer *v)
 {
     v->moved = true;
     v->viewpoint.fitted = false;
-    v->viewpoint.base.half_height = 0; /* an orthographic view of the file's becomes a perspective one */
+    v->viewpoint.base.half_height = 0; /* an orthographic view becomes a perspective one */
     v->viewpoint.clip_near = v->viewpoint.clip_far = 0;
     viewer_change(v);
 }
 
-/* The share of the window that the panel covers on the left; 0 where too little would be left. */
+/* The share of the window that the panel covers; 0 if it leaves too little free. */
 static float panel_share(const viewer *v)
 {
     int width = 1;
@@ -64,7 +64,7 @@ void viewer_frame_scene(viewer *v)
     options o = v->options;
     o.width = v->width;
     o.height = v->height;
-    if (v->moved) { /* once more: the whole scene, whatever the file's camera or the command line shows */
+    if (v->moved) { /* fit the view, even if the file or the command line has a camera */
         o.camera = -1;
         o.eye.given = o.target.given = o.fov_deg.given = o.orthographic = false;
         o.view = NULL;
@@ -108,7 +108,7 @@ bool viewer_open(viewer *v, const char *path, const char *name)
     const options before = v->options;
     v->options.scene_path = path;
     v->options.scene_name = name;
-    if (!first) { /* another scene, another size and another animation */
+    if (!first) { /* these belong to the old scene */
         v->options.radius.given = v->options.near_plane.given = v->options.far_plane.given = false;
         v->options.time_s.given = false;
     }
@@ -207,7 +207,7 @@ void viewer_set_technique(viewer *v, int technique, int quality)
     v->options.quality = quality;
     v->settings = viewer_standard(v);
     v->pipeline.draw_options.layers =
-        technique == GLSSAO_HORIZON && v->options.layers == 2; /* nobody else reads them */
+        technique == GLSSAO_HORIZON && v->options.layers == 2; /* only this technique reads them */
     if (!pipeline_make_targets(&v->pipeline, FAULT(v->error)))
         viewer_say(v, true, "%s", v->error);
     viewer_configure(v);
