@@ -68,7 +68,7 @@ bake_result bake_parse_options(int argc, char **argv, bake_options *out, char *e
         return BAKE_DONE;
     }
     if (out->vertices && out->fit) {
-        snprintf(error, error_size, "--vertices and --fit exclude each other");
+        snprintf(error, error_size, "--vertices and --fit cannot be used together");
         return BAKE_WRONG;
     }
     if (out->input && strcmp(out->input, "-") == 0) {

@@ -157,7 +157,7 @@ static bool parse_option(const option_set *set, int argc, char **argv, int *at, 
     else if (o->kind == OPTION_FLAG && value)
         fault_set(why, "--%s takes no value, but got \"%s\"", o->name, value);
     else if (o->kind != OPTION_FLAG && !value && *at >= argc)
-        fault_set(why, "--%s: its value %s is missing", o->name, o->value);
+        fault_set(why, "--%s: the value %s is missing", o->name, o->value);
     else {
         value = value || o->kind == OPTION_FLAG ? value : argv[(*at)++];
         if (take(o, value, out))

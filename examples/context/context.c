@@ -140,13 +140,13 @@ bool context__describe(context *c, const char *way, const context_options *optio
     const char *renderer = (const char *)get_string(GL_RENDERER);
     const char *version = (const char *)get_string(GL_VERSION);
     if (!renderer || !version) {
-        snprintf(error, error_size, "glGetString tells neither renderer nor version");
+        snprintf(error, error_size, "glGetString returns no renderer or version");
         return false;
     }
     int major = 0, minor = 0;
     if (sscanf(version, "%d.%d", &major, &minor) != 2 || major < options->major ||
         (major == options->major && minor < options->minor)) {
-        snprintf(error, error_size, "%s offers OpenGL %s only", renderer, version);
+        snprintf(error, error_size, "%s only supports OpenGL %s", renderer, version);
         return false;
     }
     c->software = renderer_is_software(renderer);

@@ -61,7 +61,7 @@ static const char *error_name(EGLint code)
 {
     switch (code) {
     case EGL_SUCCESS:
-        return "no error told";
+        return "no error reported";
     case EGL_NOT_INITIALIZED:
         return "EGL_NOT_INITIALIZED";
     case EGL_BAD_ACCESS:

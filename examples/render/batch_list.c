@@ -119,7 +119,7 @@ bool batch_list_read(batch_list *list, const options *defaults, fault *why)
         return fault_set(why, "%s: %s", defaults->batch, reason);
     }
     if (strlen(list->text) != size) {
-        return fault_set(why, "%s: holds a byte of 0: it is no text", defaults->batch);
+        return fault_set(why, "%s: contains a zero byte, so it is not text", defaults->batch);
     }
     int number = 1;
     bool room = true;

@@ -88,7 +88,7 @@ static bool mark(batch_list *list, const written_list *files)
         batch_job *job = &list->jobs[b->job];
         if (!job->error) {
             char error[4352];
-            snprintf(error, sizeof error, "%.4096s: line %d writes it too", b->name, list->jobs[a->job].line);
+            snprintf(error, sizeof error, "%.4096s: line %d also writes this file", b->name, list->jobs[a->job].line);
             job->error = strdup(error);
             room = room && job->error;
         }

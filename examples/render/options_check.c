@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Checks that involve several options: options that need or exclude each other, and the text of --set.
+ * Checks that involve several options: options that need or cannot be used together, and the text of --set.
  */
 #include "options_internal.h"
 
@@ -89,7 +89,7 @@ static bool check_picture(const options *o, options_program program, fault *why)
     return true;
 }
 
-/* Options that need or exclude each other. */
+/* Options that need or cannot be used together. */
 static bool check_together(const options *o, bool is_viewer, fault *why)
 {
     const bool file_wanted =
@@ -99,26 +99,27 @@ static bool check_together(const options *o, bool is_viewer, fault *why)
     if (traced && !GLSSAO_HAS_EMBREE)
         return fault_set(why, "--technique raytrace: this glssao-render was built without Embree");
     if (traced && o->bench)
-        return fault_set(why, "--technique raytrace and --bench %d exclude each other; --stats has rays a second",
+        return fault_set(why,
+                         "--technique raytrace and --bench %d cannot be used together; --stats reports rays per second",
                          o->bench);
     if (traced && o->blur_rounds >= 0)
-        return fault_set(why, "--blur-rounds %d: traced accessibility is not blurred", o->blur_rounds);
+        return fault_set(why, "--blur-rounds %d: ray-traced accessibility is not blurred", o->blur_rounds);
     if ((o->error.given || o->budget_ms.given) && o->technique != GLSSAO_HORIZON)
-        return fault_set(why, "--%s %g: only the horizon technique adds up estimates",
+        return fault_set(why, "--%s %g: only the horizon technique accumulates estimates",
                          o->error.given ? "error" : "budget",
                          (double)(o->error.given ? o->error.value : o->budget_ms.value));
     if ((o->error.given || o->budget_ms.given) && (o->no_ao || o->bench))
-        return fault_set(why, "--%s and %s exclude each other", o->error.given ? "error" : "budget",
+        return fault_set(why, "--%s and %s cannot be used together", o->error.given ? "error" : "budget",
                          o->no_ao ? "--no-ao" : "--bench");
     if (o->margin % 2)
         return fault_set(why, "--margin \"%d\": must be an even whole number", o->margin);
     if (traced && (o->margin || o->layers))
-        return fault_set(why, "--technique raytrace and --%s exclude each other: rays see the whole scene",
+        return fault_set(why, "--technique raytrace and --%s cannot be used together: rays see the whole scene",
                          o->margin ? "margin" : "layers");
     if (o->layers == 2 && o->technique != GLSSAO_HORIZON)
         return fault_set(why, "--layers 2: only the horizon technique reads a second layer");
     if (o->scene_path && o->scene_name)
-        return fault_set(why, "--scene %s and the file %s exclude each other", o->scene_name, o->scene_path);
+        return fault_set(why, "--scene %s and the file %s cannot be used together", o->scene_name, o->scene_path);
     if (o->scene_name && words_find(SCENE_WORDS, o->scene_name) < 0)
         return fault_set(why, "--scene \"%s\": must be one of " SCENE_WORDS, o->scene_name);
     if (o->time_s.given && !o->scene_path)
@@ -131,16 +132,16 @@ static bool check_together(const options *o, bool is_viewer, fault *why)
     if (o->file.animation && !o->time_s.given)
         return fault_set(why, "--animation %d: needs --time SECONDS", o->file.animation);
     if (o->no_ao && o->ao)
-        return fault_set(why, "--no-ao and --ao %s exclude each other", o->ao);
+        return fault_set(why, "--no-ao and --ao %s cannot be used together", o->ao);
     if (o->no_shadows && (o->shadow_size || o->debug_map == OPTIONS_MAP_SHADOW))
-        return fault_set(why, "--no-shadows excludes --shadow-size and --debug-map shadow");
+        return fault_set(why, "--no-shadows cannot be used with --shadow-size or --debug-map shadow");
     if ((o->debug_map == OPTIONS_MAP_AO || o->debug_map == OPTIONS_MAP_TILES) && o->no_ao)
-        return fault_set(why, "--no-ao and --debug-map %s exclude each other",
+        return fault_set(why, "--no-ao and --debug-map %s cannot be used together",
                          o->debug_map == OPTIONS_MAP_AO ? "ao" : "tiles");
     if (o->debug_map && !o->output && !is_viewer)
-        return fault_set(why, "--debug-map: needs a picture, -o FILE.png");
+        return fault_set(why, "--debug-map: needs a picture, -o FILE");
     if (o->frames && o->bench)
-        return fault_set(why, "--frames %d and --bench %d exclude each other", o->frames, o->bench);
+        return fault_set(why, "--frames %d and --bench %d cannot be used together", o->frames, o->bench);
     if (o->near_plane.given && o->far_plane.given && o->near_plane.value >= o->far_plane.value)
         return fault_set(why, "--near %g must be less than --far %g", (double)o->near_plane.value,
                          (double)o->far_plane.value);
@@ -150,20 +151,19 @@ static bool check_together(const options *o, bool is_viewer, fault *why)
                          "or one of " VIEW_WORDS,
                          o->view);
     if (o->view && (o->eye.given || o->target.given || o->camera > 0))
-        return fault_set(why, "--view and --%s exclude each other",
+        return fault_set(why, "--view and --%s cannot be used together",
                          o->eye.given      ? "eye"
                          : o->target.given ? "target"
                                            : "camera");
     if (o->eye.given && o->target.given && memcmp(&o->eye, &o->target, sizeof o->eye) == 0)
         return fault_set(why, "--eye and --target are the same point");
     if (is_viewer && traced)
-        return fault_set(why, "--technique raytrace: the viewer shows it as the difference to it (key T)");
+        return fault_set(why, "--technique raytrace: the viewer shows ray-traced accessibility with the keys T and Y");
     if (!file_wanted)
         return fault_set(
-            why,
-            "nothing to do: give -o FILE.png, --ao, --normals, --depth, --stats, --bench or --plan (-h lists all)");
+            why, "nothing to do: give -o FILE, --ao, --normals, --depth, --stats, --bench or --plan (see --help)");
     if (o->frames && !o->output && !o->ao && !o->normals && !o->depth)
-        return fault_set(why, "--frames %d: needs an output such as -o FILE.png", o->frames);
+        return fault_set(why, "--frames %d: needs an output such as -o FILE", o->frames);
     return !same_file(o, why);
 }
 
@@ -181,7 +181,7 @@ bool options_check(const options *o, options_program program, fault *why)
 {
     if (program == OPTIONS_RENDER && o->batch) { /* these options are checked again with each job */
         if (o->bench)
-            fault_set(why, "--batch and --bench %d exclude each other", o->bench);
+            fault_set(why, "--batch and --bench %d cannot be used together", o->bench);
         return !o->bench && check_settings(o, why);
     }
     if (o->isolate && program == OPTIONS_RENDER)

@@ -79,7 +79,7 @@ static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, co
     }
     if (!p->kept) {
         if (o->program_cache && !is_folder(o->program_cache)) {
-            return fault_set(why, "--program-cache %s: there is no folder of that name", o->program_cache);
+            return fault_set(why, "--program-cache %s: no such folder", o->program_cache);
         }
         const glssao_config config = {.load = load,
                                       .load_user = load_user,

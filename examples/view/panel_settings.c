@@ -98,7 +98,7 @@ void panel_draw_settings(viewer *v)
     for (int i = 0; i < setting_count; i++)
         if (setting_table[i].techniques & 1u << v->settings.technique)
             changed = draw_setting(v, &setting_table[i], &standard) || changed;
-    if (gui_button("All as they come")) {
+    if (gui_button("Default settings")) {
         v->settings = standard;
         changed = true;
     }

@@ -32,7 +32,7 @@ static bool start(viewer *v)
                    ? truth_job_start(v->scene, &v->view, v->settings.radius, v->options.seed, glfwPostEmptyEvent)
                    : NULL;
     if (!v->truth)
-        viewer_say(v, true, "no memory or thread for ray tracing");
+        viewer_say(v, true, "ray tracing could not start: out of memory or threads");
     return v->truth;
 }
 

@@ -30,8 +30,8 @@ typedef enum viewer_shown {
     SHOWN_COUNT
 } viewer_shown;
 #define VIEWER_SHOWN                                                                                                   \
-    "picture|accessibility|raw estimate|normals|view distance|random vectors|shadow map|tiles left out|"               \
-    "ray-traced accessibility|difference to ray-traced"
+    "picture|accessibility|raw estimate|normals|view distance|random vectors|shadow map|skipped tiles|"                \
+    "ray-traced accessibility|error against ray-traced"
 
 enum { GRAPH_LENGTH = 120, GRAPH_COUNT = GLSSAO_PASS_COUNT + 2, GRAPH_PREPASS = GLSSAO_PASS_COUNT, GRAPH_MAIN };
 

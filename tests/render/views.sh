@@ -120,8 +120,8 @@ want() { # code, words, arguments
 for bad in "" 1 1,2,3 0,91 0,-91 x,0 side 1,nan; do
     want 2 "--view \"$bad\"" --view "$bad" -o a.png y-up.gltf
 done
-want 2 "--view and --eye exclude" --view top --eye 1,1,1 -o a.png
-want 2 "--view and --camera exclude" --view top --camera 1 -o a.png y-up.gltf
+want 2 "--view and --eye cannot be used together" --view top --eye 1,1,1 -o a.png
+want 2 "--view and --camera cannot be used together" --view top --camera 1 -o a.png y-up.gltf
 want 2 '--camera "0"' --camera 0 -o a.png y-up.gltf
 want 2 '--camera "no"' --camera no -o a.png y-up.gltf
 want 1 "--up 0,0,0" --up 0,0,0 -o a.png
