@@ -18,9 +18,9 @@ extern "C" {
 
 typedef struct scene_vertex {
     float position[3]; /* mesh space */
-    float normal[3];   /* mesh space, unit length; from the file, or computed where the file has none */
+    float normal[3];   /* mesh space, unit length; not to be used where the primitive is flat */
     float uv[2][2];    /* of the first two uv sets that the material reads, as in the file: v grows downwards */
-    float color[4];    /* linear; 1, 1, 1, 1 where the file has none */
+    float color[4];    /* linear; 1, 1, 1, 1 without vertex colours */
 } scene_vertex;
 
 /* Rows top to bottom, as in the file. */
@@ -88,7 +88,7 @@ typedef struct scene_mesh {
 } scene_mesh;
 
 typedef struct scene_instance {
-    float world_from_mesh[16]; /* affine; may mirror or flatten to a plane, but never to a line or a point */
+    float world_from_mesh[16]; /* affine; may mirror, or flatten to a plane, but not to a line or a point */
 } scene_instance;
 
 typedef struct scene_camera {
@@ -140,7 +140,7 @@ typedef struct scene {
                          middle is so far from the file's zero that single precision would coarsen them */
     char **warnings;
     size_t warning_count;               /* one line each, without the file's name */
-    float bounds_min[3], bounds_max[3]; /* world space, of what is drawn; all 0 where nothing is */
+    float bounds_min[3], bounds_max[3]; /* world space, of everything drawn; all 0 in an empty scene */
 } scene;
 
 typedef struct scene_load_options { /* all zero: the file as it stands */

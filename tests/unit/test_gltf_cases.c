@@ -484,7 +484,7 @@ static void solid_pictures_fit_the_budget_by_their_decoded_size(void **state)
     assert_int_equal(s->image_count, 3);
     scene_destroy(s);
     assert_null(scene_load_with(path, &(scene_load_options){.memory_bytes = 150 << 20}, error, sizeof error));
-    assert_non_null(strstr(error, "the file's images needs 64 MiB, and 21 of the 150 MiB allowed are left"));
+    assert_non_null(strstr(error, "the file's images: 64 MiB needed, and 21 of the 150 MiB allowed are left"));
 }
 
 /* ---- Coordinates ---- */
