@@ -17,7 +17,7 @@ fi
 draw() {
     local status=0
     rm -f "$2" stats.json
-    timeout 120 "$render" -s 320x180 -o "$2" --stats stats.json "$1" 2>log || status=$?
+    timeout 120 "$render" -s 640x360 -o "$2" --stats stats.json "$1" 2>log || status=$?
     local warnings
     warnings=$(sed -n "s|^.*: warning: ||p" log | paste -sd';' | sed 's/;/; /g')
     if [ $status = 0 ]; then
@@ -35,9 +35,9 @@ draw() {
         n=$((n + 1))
         picture=pictures/$(printf '%03d' $n).png
         printf '%s\t%s\t%d\tas it is\t\t%s\n' "$source" "$file" "$(stat -c %s "$root/$file")" "$(draw "$root/$file" "$picture")"
-        # Every eighth file of those that are drawn is packed in five ways.
+        # Every eighth file of those that are drawn is packed in six ways.
         if [ $((n % 8)) = 0 ] && [ -s "$picture" ]; then
-            for way in draco meshopt 'meshopt --level high' quantize webp; do
+            for way in draco meshopt 'meshopt --level high' quantize webp 'webp --lossless'; do
                 packed=packed/$n-${way// /}.glb
                 # shellcheck disable=SC2086 # the way's words
                 node_modules/.bin/gltf-transform $way "$root/$file" "$packed" >/dev/null 2>&1 || continue
