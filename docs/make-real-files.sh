@@ -37,7 +37,7 @@ draw() {
         printf '%s\t%s\t%d\tas it is\t\t%s\n' "$source" "$file" "$(stat -c %s "$root/$file")" "$(draw "$root/$file" "$picture")"
         # Every eighth file of those that are drawn is packed in six ways.
         if [ $((n % 8)) = 0 ] && [ -s "$picture" ]; then
-            for way in draco meshopt 'meshopt --level high' quantize webp 'webp --lossless'; do
+            for way in draco meshopt 'meshopt --level high' quantize webp 'webp --lossless true'; do
                 packed=packed/$n-${way// /}.glb
                 # shellcheck disable=SC2086 # the way's words
                 node_modules/.bin/gltf-transform $way "$root/$file" "$packed" >/dev/null 2>&1 || continue
