@@ -3,6 +3,7 @@
 // Writes the file back as a GLB. Its JSON is edited, so that names, extras and unknown extensions stay as they were.
 // All buffers and images become one BIN chunk. No exception leaves this file.
 #include "bake.h"
+#include "whole_file.h"
 
 #include "gltf_file.h"
 
@@ -242,18 +243,20 @@ bool write_glb(const std::string &text, const std::string &bin, const char *path
     head += "JSON";
     put_u32(&second, bin.size());
     second.append("BIN\0", 4);
-    FILE *file = std::fopen(path, "wb");
-    if (!file)
-        return scene_fail(fault, "it can't be opened for writing");
+    whole_file whole;
+    char error[1024] = "";
+    if (!whole_file_open(&whole, path, error, sizeof error)) {
+        fault->file = nullptr; // the error names it
+        return scene_fail(fault, "%s", error);
+    }
+    FILE *file = whole.file;
     bool ok = std::fwrite(head.data(), 1, head.size(), file) == head.size() &&
               std::fwrite(text.data(), 1, text.size(), file) == text.size();
     if (!bin.empty())
         ok = ok && std::fwrite(second.data(), 1, second.size(), file) == second.size() &&
              std::fwrite(bin.data(), 1, bin.size(), file) == bin.size();
-    if (std::fclose(file) != 0 || !ok) {
-        std::remove(path);
+    if (!whole_file_close(&whole, ok, error, sizeof error))
         return scene_fail(fault, "it could not be written in full");
-    }
     return true;
 }
 

@@ -21,7 +21,7 @@ typedef struct fault {
 } fault;
 
 /* A fault that goes into an array of characters, for a call: work(FAULT(error)). */
-#define FAULT(array) (&(fault){.text = (array), .size = sizeof(array)})
+#define FAULT(array) (&(struct fault){.text = (array), .size = sizeof(array)})
 
 /* Writes "file: message" and returns false: `return fault_set(f, "...");`. */
 #ifdef __GNUC__

@@ -72,6 +72,8 @@ static bool parse_pair(const char *text, char between, double first_min, double 
 static bool ends_as_wanted(const char *path, const char *endings)
 {
     const char *dot = strrchr(path, '.');
+    if (strcmp(path, "-") == 0)
+        return words_find(endings, path) >= 0 || endings[0] == '\0';
     return path[0] != '\0' && (endings[0] == '\0' || (dot && dot != path && words_find(endings, dot) >= 0));
 }
 
@@ -191,6 +193,20 @@ bool option_parse(const option_set *set, int argc, char **argv, void *out, fault
     return true;
 }
 
+void option_print_line(const char *left, const char *help)
+{
+    enum { LEFT = 29, WIDTH = 100 };
+    int column = printf("  %-*s", LEFT - 3, left);
+    while (*help) {
+        const int length = (int)strcspn(help, " ");
+        if (column + 1 + length > WIDTH && column > LEFT)
+            column = printf("\n%*s", LEFT - 1, "") - 1;
+        column += printf(" %.*s", length, help);
+        help += length + (help[length] == ' ');
+    }
+    putchar('\n');
+}
+
 void option_print(const option_set *set)
 {
     for (int i = 0; i < set->count; i++) {
@@ -200,6 +216,6 @@ void option_print(const option_set *set)
             continue;
         snprintf(left, sizeof left, "%c%c%c --%s %s", o->letter ? '-' : ' ', o->letter ? o->letter : ' ',
                  o->letter ? ',' : ' ', o->name, o->value ? o->value : "");
-        printf("  %-28s %s\n", left, o->help);
+        option_print_line(left, o->help);
     }
 }

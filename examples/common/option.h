@@ -34,7 +34,8 @@ typedef enum option_kind {
     OPTION_SHARD,       /* int[2], the second min to max, the first below it: "0/4" */
     OPTION_WORD,        /* int: index into the words that `wanted` lists */
     OPTION_TEXT,        /* const char * */
-    OPTION_FILE         /* const char *, ending in one of the words that `wanted` lists; "": in anything */
+    OPTION_FILE /* const char *, ending in one of the words that `wanted` lists; "": in anything. The word "-" allows
+                   "-" */
 } option_kind;
 
 typedef struct option {
@@ -61,7 +62,9 @@ typedef struct option_set {
  * one line in `why` that names the option and the value. */
 bool option_parse(const option_set *set, int argc, char **argv, void *out, fault *why);
 
-/* Prints a line to stdout for each option that is not refused. */
+/* Prints each option that is not refused to stdout. */
 void option_print(const option_set *set);
+/* Prints a name and its help in the same columns, in lines of at most 100 characters. */
+void option_print_line(const char *left, const char *help);
 
 #endif

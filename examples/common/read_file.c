@@ -2,6 +2,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "read_file.h"
 
+#include "inputs.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stdbool.h>
@@ -61,8 +63,8 @@ uint8_t *read_file(const char *path, size_t limit, size_t *out_size, const char 
         *out_reason = "not a regular file";
     else if ((uintmax_t)about.st_size > limit)
         *out_reason = "too large";
-    else
-        data = read_all(file, (size_t)about.st_size + 1, limit, out_size, out_reason);
+    else if ((data = read_all(file, (size_t)about.st_size + 1, limit, out_size, out_reason)))
+        inputs_note(file, path);
     if (file >= 0)
         close(file);
     return data;
@@ -70,5 +72,6 @@ uint8_t *read_file(const char *path, size_t limit, size_t *out_size, const char 
 
 uint8_t *read_stream(int descriptor, size_t limit, size_t *out_size, const char **out_reason)
 {
+    inputs_note(descriptor, "standard input");
     return read_all(descriptor, 0, limit, out_size, out_reason);
 }

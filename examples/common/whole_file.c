@@ -2,6 +2,7 @@
 #define _XOPEN_SOURCE 700 /* realpath, fdopen */
 #include "whole_file.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdatomic.h>
@@ -9,6 +10,61 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+/* Names of temporary files, for whole_file_abandon_all. Whoever takes a name out of its place owns it. */
+enum { MOST_OPEN = 256 };
+static _Atomic(char *) open_files[MOST_OPEN];
+
+static void enter(char *name)
+{
+    for (int i = 0; i < MOST_OPEN; i++) {
+        char *none = NULL;
+        if (atomic_compare_exchange_strong(&open_files[i], &none, name))
+            return;
+    }
+}
+
+/* False where whole_file_abandon_all has taken it. */
+static bool leave(char *name)
+{
+    for (int i = 0; i < MOST_OPEN; i++) {
+        char *same = name;
+        if (atomic_compare_exchange_strong(&open_files[i], &same, NULL))
+            return true;
+    }
+    return false;
+}
+
+void whole_file_abandon_all(void)
+{
+    for (int i = 0; i < MOST_OPEN; i++) {
+        const char *name = atomic_exchange(&open_files[i], NULL);
+        if (name)
+            unlink(name);
+    }
+}
+
+void whole_file_remove_left(const char *path, long process)
+{
+    char start[64], *real = realpath(path, NULL);
+    const char *whole = real ? real : path, *slash = strrchr(whole, '/');
+    const char *file = slash ? slash + 1 : whole;
+    const size_t file_length = strlen(file);
+    char *folder = slash ? strndup(whole, slash == whole ? 1 : (size_t)(slash - whole)) : strdup(".");
+    const int start_length = snprintf(start, sizeof start, ".%ld-", process);
+    DIR *entries = folder ? opendir(folder) : NULL;
+    for (struct dirent *e; entries && (e = readdir(entries));) {
+        const size_t length = strlen(e->d_name);
+        if (strncmp(e->d_name, file, file_length) == 0 &&
+            strncmp(e->d_name + file_length, start, (size_t)start_length) == 0 && length > 5 &&
+            strcmp(e->d_name + length - 5, ".part") == 0)
+            unlinkat(dirfd(entries), e->d_name, 0);
+    }
+    if (entries)
+        closedir(entries);
+    free(folder);
+    free(real);
+}
 
 /* A name that no other thread or process of this machine uses; O_EXCL sees to the rest. */
 static FILE *open_temporary(const char *path, char **out_name)
@@ -20,6 +76,7 @@ static FILE *open_temporary(const char *path, char **out_name)
         return NULL;
     }
     snprintf(name, size, "%s.%ld-%u.part", path, (long)getpid(), atomic_fetch_add(&count, 1));
+    enter(name); /* first: a signal may come at any time */
     const int descriptor = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     FILE *file = descriptor >= 0 ? fdopen(descriptor, "wb") : NULL;
     if (!file) {
@@ -27,7 +84,8 @@ static FILE *open_temporary(const char *path, char **out_name)
             close(descriptor);
             remove(name);
         }
-        free(name);
+        if (leave(name))
+            free(name);
         return NULL;
     }
     *out_name = name;
@@ -39,6 +97,11 @@ bool whole_file_open(whole_file *f, const char *path, char *error, size_t error_
     struct stat status;
     const bool exists = stat(path, &status) == 0;
     *f = (whole_file){.name = path};
+    if (strcmp(path, "-") == 0) {
+        f->name = "standard output";
+        f->file = stdout;
+        return true;
+    }
     f->path = exists ? realpath(path, NULL) : NULL;
     if (!f->path) {
         f->path = malloc(strlen(path) + 1);
@@ -68,6 +131,12 @@ bool whole_file_open(whole_file *f, const char *path, char *error, size_t error_
 bool whole_file_close(whole_file *f, bool written, char *error, size_t error_size)
 {
     struct stat status;
+    if (f->file == stdout) {
+        if (fflush(stdout) == 0 || !written)
+            return written;
+        snprintf(error, error_size, "%s: %s", f->name, strerror(errno));
+        return false;
+    }
     const bool is_regular = fstat(fileno(f->file), &status) == 0 && S_ISREG(status.st_mode);
     if (fclose(f->file) != 0 && written) {
         snprintf(error, error_size, "%s: %s", f->name, strerror(errno));
@@ -80,7 +149,8 @@ bool whole_file_close(whole_file *f, bool written, char *error, size_t error_siz
     if (!written && is_regular) {
         remove(f->temporary ? f->temporary : f->path);
     }
-    free(f->temporary);
+    if (!f->temporary || leave(f->temporary))
+        free(f->temporary);
     free(f->path);
     *f = (whole_file){.file = NULL};
     return written;

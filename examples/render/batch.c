@@ -3,14 +3,17 @@
  * Drawing is one after the other; a job then flies on, until its pictures are read back, encoded and written. Jobs
  * land, and are reported, in the list's order.
  */
+#define _POSIX_C_SOURCE 200809L /* strsignal */
 #include "batch.h"
 
+#include "batch_isolated.h"
 #include "batch_list.h"
 #include "clock.h"
 #include "outputs.h"
 #include "progress.h"
 #include "session.h"
 #include "stage_cache.h"
+#include "stop.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -48,6 +51,18 @@ static const char *list_name(const batch *b)
     return strcmp(b->options->batch, "-") == 0 ? "standard input" : b->options->batch;
 }
 
+/* Counts a job that is done or failed, and reports the failure. */
+static void record(batch *b, const batch_job *job, size_t pictures, const char *error)
+{
+    b->pictures += pictures;
+    b->done += !error;
+    b->failed += error != NULL;
+    if (error) {
+        progress_clear();
+        fprintf(stderr, "glssao-render: %s:%d: %s\n", list_name(b), job->line, error);
+    }
+}
+
 static void land_first(batch *b)
 {
     flight *f = &b->flights[b->first];
@@ -55,13 +70,7 @@ static void land_first(batch *b)
         f->failed = true;
         memcpy(f->error, f->slip.error, sizeof f->slip.error);
     }
-    b->pictures += (size_t)f->slip.written;
-    b->done += !f->failed;
-    b->failed += f->failed;
-    if (f->failed) {
-        progress_clear();
-        fprintf(stderr, "glssao-render: %s:%d: %s\n", list_name(b), f->job->line, f->error);
-    }
+    record(b, f->job, (size_t)f->slip.written, f->failed ? f->error : NULL);
     b->first = (b->first + 1) % FLIGHTS;
     b->count--;
 }
@@ -132,26 +141,23 @@ static void print_summary(const batch *b, double start_ms)
     if (b->options->shard_count)
         snprintf(shard, sizeof shard, ", shard %d/%d", b->options->shard_index, b->options->shard_count);
     progress_clear();
+    if (stop_signal())
+        fprintf(stderr, "%s%s: stopped by signal %d (%s)\n", list_name(b), shard, stop_signal(),
+                strsignal(stop_signal()));
     fprintf(stderr, "%s%s: %zu of %zu jobs done, %zu failed; %zu pictures in %.2f s, %.1f a second\n", list_name(b),
             shard, b->done, b->mine, b->failed, b->pictures, seconds, seconds > 0 ? (double)b->pictures / seconds : 0);
 }
 
-/* False, with one line in `why`, where none can be drawn. */
-static bool run(batch *b, fault *why)
+/* All jobs in this process. False, with one line in `why`, where none can be drawn. */
+static bool run_together(batch *b, fault *why)
 {
-    if (!batch_list_read(&b->list, b->options, why))
-        return false;
-    for (size_t i = 0; i < b->list.count; i++)
-        b->mine += is_mine(b, i);
-    if (b->mine && !session_open(&b->session, b->options, why))
+    int drawn = 0;
+    if (b->mine && !session_open(&b->session, b->options, false, why))
         return false;
     b->stages = stage_cache_create((size_t)b->options->cache_mib << 20);
-    if (!b->stages) {
+    if (!b->stages)
         return fault_set(why, "out of memory");
-    }
-    b->shown = progress_start("job");
-    int drawn = 0;
-    for (size_t i = 0; i < b->list.count; i++) {
+    for (size_t i = 0; i < b->list.count && !stop_signal(); i++) {
         const batch_job *job = &b->list.jobs[i];
         if (!is_mine(b, i))
             continue;
@@ -167,13 +173,38 @@ static bool run(batch *b, fault *why)
     return true;
 }
 
+static void run_isolated(batch *b)
+{
+    int run = 0;
+    for (size_t i = 0; i < b->list.count && !stop_signal(); i++) {
+        const batch_job *job = &b->list.jobs[i];
+        char error[ERROR_LENGTH];
+        size_t pictures = 0;
+        if (!is_mine(b, i))
+            continue;
+        if (job->error)
+            snprintf(error, sizeof error, "%s", job->error);
+        const bool done = !job->error && batch_run_isolated(&job->options, run > 0, &pictures, FAULT(error));
+        record(b, job, pictures, done ? NULL : error);
+        progress_count(&b->shown, ++run, (int)b->mine);
+    }
+}
+
 bool batch_run(const options *o)
 {
     const double start_ms = clock_wall_ms();
     char error[ERROR_LENGTH];
     static batch b; /* large, and zero */
     b.options = o;
-    const bool ran = run(&b, FAULT(error));
+    stop_when_asked();
+    bool ran = batch_list_read(&b.list, o, FAULT(error));
+    for (size_t i = 0; ran && i < b.list.count; i++)
+        b.mine += is_mine(&b, i);
+    b.shown = progress_start("job");
+    if (ran && (o->isolate || o->timeout_s.given))
+        run_isolated(&b);
+    else
+        ran = ran && run_together(&b, FAULT(error));
     stage_cache_destroy(b.stages);
     session_close(&b.session);
     if (ran)

@@ -15,21 +15,24 @@ static void print_help(options_program program)
     const option_set set = options_set(program);
     puts(program == OPTIONS_VIEWER
              ? "usage: glssao-view [options] [scene.gltf|scene.glb]\n"
-               "Shows a glTF scene, or a built-in one, with screen-space ambient occlusion, in a window. F1 there "
-               "shows\nthe keys. The options mean what they mean to glssao-render; --output is where pictures are "
-               "saved.\n"
+               "Shows a glTF scene or a built-in scene with screen-space ambient occlusion in a window. F1 lists the "
+               "keys.\n--output names the file for Ctrl+S; all other options mean the same as for glssao-render.\n"
              : "usage: glssao-render [options] [scene.gltf|scene.glb]\n"
                "       glssao-render [options] --batch LIST [--shard I/N]\n"
-               "Renders a glTF scene, or a built-in one, with screen-space ambient occlusion, without a display.\n");
+               "Renders a glTF scene or a built-in scene with screen-space ambient occlusion. It needs no display.\n"
+               "The scene - reads a glTF file from standard input.\n");
     option_print(&set);
     puts("\nSettings for --set, such as --set blur=none,half=off:");
     for (int i = 0; i < setting_count; i++) {
         const setting *s = &setting_table[i];
         const char *words = s->words ? s->words : s->kind == SETTING_SWITCH ? "off|on" : "";
-        printf("  %-28s %s%s%s%s%s\n", s->name, s->help, s->unit[0] ? ", " : "", s->unit, words[0] ? ": " : "", words);
+        char help[256];
+        snprintf(help, sizeof help, "%s%s%s%s%s%s", s->help, s->unit[0] ? " (" : "", s->unit, s->unit[0] ? ")" : "",
+                 words[0] ? ": " : "", words);
+        option_print_line(s->name, help);
     }
-    puts(program == OPTIONS_VIEWER ? "\nExit code: 0 done, 1 no window or no scene, 2 wrong usage."
-                                   : "\nExit code: 0 done, 1 could not render (of a batch: all of it), 2 wrong usage.");
+    puts(program == OPTIONS_VIEWER ? "\nExit code: 0 success, 1 no window or no scene, 2 wrong usage."
+                                   : "\nExit code: 0 success, 1 a picture could not be rendered, 2 wrong usage.");
 }
 
 static options_result parse(int argc, char **argv, options_program program, options *out, fault *why)

@@ -35,10 +35,14 @@ typedef struct options {
     int shadow_size; /* texels; 0: not given */
     int debug_map;   /* options_map; OPTIONS_MAP_NONE: not given */
     bool orthographic, plan, no_ao, help, version;
+    const char *background;       /* NULL: the sky */
+    int samples_per_pixel;        /* 0: the default */
     const char *environment;      /* picture of the surroundings; NULL: the built-in light */
     const char *program_cache;    /* folder of linked programs; NULL: none */
     const char *batch;            /* list file, "-": standard input; NULL: one picture, or turntable */
     int shard_index, shard_count; /* of the batch; count 0: not given */
+    option_number timeout_s;      /* of a job */
+    bool isolate;                 /* each job of the batch in a process of its own */
     int cache_mib;                /* bound on scenes kept for later jobs */
 } options;
 
@@ -59,6 +63,9 @@ typedef enum options_map {
     OPTIONS_MAP_SHADOW,
     OPTIONS_MAP_TILES
 } options_map;
+
+/* What --background says: false for the sky (NULL, too), true with a linear colour and alpha, 0 for none. */
+bool options_parse_background(const char *text, float out_rgba[4]);
 
 typedef enum options_result { OPTIONS_RUN, OPTIONS_DONE, OPTIONS_WRONG } options_result;
 

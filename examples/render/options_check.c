@@ -4,12 +4,14 @@
  */
 #include "options_internal.h"
 
+#include "picture.h"
 #include "setting_table.h"
 #include "trace.h"
 #include "viewpoint.h"
 #include "words.h"
 
-#include <stdio.h>
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static bool same_file(const options *o, fault *why)
@@ -46,6 +48,44 @@ static bool check_samples(const options *o, fault *why)
     if (count > most) {
         return fault_set(why, "--samples \"%d\": this technique takes at most %d", count, most);
     }
+    return true;
+}
+
+bool options_parse_background(const char *text, float out_rgba[4])
+{
+    const bool is_color =
+        text && text[0] == '#' && strlen(text) == 7 && strspn(text + 1, "0123456789abcdefABCDEF") == 6;
+    memset(out_rgba, 0, 4 * sizeof *out_rgba);
+    for (int i = 0; is_color && i < 3; i++) { /* IEC 61966-2-1, sRGB */
+        const char digits[3] = {text[1 + 2 * i], text[2 + 2 * i], 0};
+        const float encoded = (float)strtol(digits, NULL, 16) / 255;
+        out_rgba[i] = encoded <= 0.04045f ? encoded / 12.92f : powf((encoded + 0.055f) / 1.055f, 2.4f);
+    }
+    out_rgba[3] = is_color ? 1 : 0;
+    return is_color || (text && strcmp(text, "none") == 0);
+}
+
+/* Whether a file's name ends like that. */
+static bool ends_in(const char *path, const char *end)
+{
+    const size_t length = strlen(path), end_length = strlen(end);
+    return length > end_length && strcmp(path + length - end_length, end) == 0;
+}
+
+static bool check_picture(const options *o, options_program program, fault *why)
+{
+    float color[4];
+    if (o->background && strcmp(o->background, "sky") != 0 && !options_parse_background(o->background, color))
+        return fault_set(why, "--background \"%s\": must be sky, none or #RRGGBB", o->background);
+    if (!o->output)
+        return true;
+    const bool is_transparent = o->background && strcmp(o->background, "none") == 0;
+    if (is_transparent && (ends_in(o->output, ".jpg") || ends_in(o->output, ".jpeg")))
+        return fault_set(why, "--background none: a JPEG (%s) has no transparency; .png and .webp have", o->output);
+    if (ends_in(o->output, ".webp") && !picture_has_webp())
+        return fault_set(why, "--output %s: this program was built without libwebp", o->output);
+    if (strcmp(o->output, "-") == 0 && (program != OPTIONS_RENDER || o->frames || o->plan || o->bench))
+        return fault_set(why, "--output -: standard output takes one picture, and nothing else");
     return true;
 }
 
@@ -144,8 +184,13 @@ bool options_check(const options *o, options_program program, fault *why)
             fault_set(why, "--batch and --bench %d exclude each other", o->bench);
         return !o->bench && check_settings(o, why);
     }
+    if (o->isolate && program == OPTIONS_RENDER)
+        return fault_set(why, "--isolate: needs a list, --batch LIST");
+    if (program == OPTIONS_JOB && o->scene_path && strcmp(o->scene_path, "-") == 0)
+        return fault_set(why, "-: only a run with one job reads its scene from standard input");
     if (o->shard_count && program == OPTIONS_RENDER) {
         return fault_set(why, "--shard %d/%d: needs a list, --batch LIST", o->shard_index, o->shard_count);
     }
-    return check_together(o, program == OPTIONS_VIEWER, why) && check_settings(o, why) && check_samples(o, why);
+    return check_together(o, program == OPTIONS_VIEWER, why) && check_picture(o, program, why) &&
+           check_settings(o, why) && check_samples(o, why);
 }

@@ -49,7 +49,7 @@ bool outputs_check(const options *o, fault *why)
 {
     const char *const files[] = {o->output, o->ao, o->normals, o->depth, o->stats};
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
-        if (!files[i])
+        if (!files[i] || strcmp(files[i], "-") == 0)
             continue;
         char path[PATH_LENGTH];
         const bool numbered = o->frames && files[i] != o->stats;
@@ -70,7 +70,7 @@ bool outputs_take(const options *o, pipeline *p, const scene_view *view, int num
         const char *file;
         pipeline_output output;
         pixel_kind kind;
-    } outputs[] = {{o->output, PIPELINE_PICTURE, PIXELS_RGBA8},
+    } outputs[] = {{o->output, PIPELINE_PICTURE, p->transparent ? PIXELS_RGBA8_STRAIGHT : PIXELS_RGBA8},
                    {o->ao, PIPELINE_AO, ao_kind},
                    {o->normals, PIPELINE_NORMALS, PIXELS_RGBA8},
                    {o->depth, PIPELINE_VIEW_DISTANCE, PIXELS_FLOAT}};
@@ -97,4 +97,24 @@ bool outputs_each(const options *o, bool (*visit)(const char *path, void *user),
         }
     }
     return true;
+}
+
+typedef struct spare {
+    const options *options;
+    const inputs *scene;
+    fault *why;
+} spare;
+
+static bool spare_inputs(const char *path, void *user)
+{
+    const spare *s = user;
+    static const inputs none = {0};
+    return inputs_spare(s->scene, s->options->environment, path, s->why) &&
+           inputs_spare(&none, s->options->batch, path, s->why);
+}
+
+bool outputs_spare_inputs(const options *o, const inputs *scene, fault *why)
+{
+    spare s = {o, scene, why};
+    return outputs_each(o, spare_inputs, &s) && (!o->stats || spare_inputs(o->stats, &s));
 }

@@ -6,12 +6,17 @@
 #define GLSSAO_EXAMPLES_OUTPUTS_H
 
 #include "fault.h"
+#include "inputs.h"
 #include "options.h"
 #include "pipeline.h"
 #include "readback.h"
 
 /* False, with one line that names the file, where one can't be written: known before the long work. */
 bool outputs_check(const options *o, fault *why);
+
+/* False, with one line that names both, where one would overwrite a file that the job reads: of the scene, the
+ * environment or the list. */
+bool outputs_spare_inputs(const options *o, const inputs *scene, fault *why);
 
 /* Has what is wanted of the frame just drawn written. `number` is the turntable's frame, from 1; 0: not a turntable.
  * What becomes of it, the slip tells. */

@@ -9,6 +9,7 @@
 #include "map_view.h"
 #include "setting_table.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -121,6 +122,8 @@ bool pipeline_surround(pipeline *p, const stage *st, const char *path, fault *wh
     }
     p->lighting = st->lighting;
     scene_lighting_surround(&p->lighting, st->scene, p->environment);
+    p->lighting.plain = p->plain;
+    memcpy(p->lighting.background, p->background, sizeof p->background);
     return true;
 }
 
@@ -130,6 +133,8 @@ bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_us
     const int width = o->width + 2 * o->margin, height = o->height + 2 * o->margin;
     p->wants = wants;
     p->renderer = st->renderer;
+    p->plain = options_parse_background(o->background, p->background);
+    p->transparent = p->plain && p->background[3] == 0;
     if (!pipeline_surround(p, st, wants.picture ? o->environment : NULL, why))
         return false;
     if ((width != p->width || height != p->height) && !pipeline_change_size(p, width, height, why))
@@ -227,14 +232,20 @@ glssao_frame pipeline_frame(const pipeline *p, const scene_view *view)
     return frame;
 }
 
-static bool find_accessibility(pipeline *p, const scene_view *view, fault *why)
+/* For one of `count` samples of a pixel, whose mean is what counts: each gets its part of the rays and of the time, and
+ * may err by more. */
+static bool find_accessibility(pipeline *p, const scene_view *view, int index, int count, fault *why)
 {
-    if (p->wants.traced)
-        return truth_trace(&p->truth, view, &p->settings, p->seed, why);
+    if (p->wants.traced) {
+        glssao_settings share = p->settings;
+        share.sample_count = (share.sample_count + count - 1) / count;
+        return truth_trace(&p->truth, view, &share, p->seed + (uint32_t)index * 0x9e3779b9u, why);
+    }
     const glssao_frame frame = pipeline_frame(p, view);
     if (p->goal.error <= 0 && p->goal.budget_ms <= 0)
         return pipeline_check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", why);
-    const glssao_result result = progressive_run(p->effect, &frame, &p->settings, &p->goal, &p->reached);
+    const progressive_goal share = {p->goal.error * sqrt(count), p->goal.budget_ms / count};
+    const glssao_result result = progressive_run(p->effect, &frame, &p->settings, &share, &p->reached);
     return pipeline_check(result, "glssao_accumulate", why);
 }
 
@@ -243,7 +254,7 @@ GLuint pipeline_ambient_map(const pipeline *p)
     return p->wants.traced ? p->truth.map : glssao_map(p->effect, GLSSAO_MAP_AMBIENT, NULL, NULL);
 }
 
-void pipeline_shade(pipeline *p, const scene_view *view, GLuint ambient_map, GLuint framebuffer)
+static void shade(pipeline *p, const scene_view *view, GLuint ambient_map, GLuint framebuffer)
 {
     scene_draw_shadow(p->renderer, &p->lighting);
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -254,11 +265,22 @@ void pipeline_shade(pipeline *p, const scene_view *view, GLuint ambient_map, GLu
     }
     scene_draw_main(p->renderer, view, &p->lighting, ambient_map);
     gl.Disable(GL_SCISSOR_TEST);
+}
+
+static void draw_debug_map(pipeline *p, const scene_view *view, GLuint framebuffer)
+{
     if (p->debug_map)
         map_view_draw(p, view, p->debug_map, map_view_inset(p, p->debug_map), framebuffer);
 }
 
-bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, fault *why)
+void pipeline_shade(pipeline *p, const scene_view *view, GLuint ambient_map, GLuint framebuffer)
+{
+    shade(p, view, ambient_map, framebuffer);
+    draw_debug_map(p, view, framebuffer);
+}
+
+/* Pre-pass and occlusion. */
+static bool draw_maps(pipeline *p, const scene_view *view, int index, int count, stopwatch *times, fault *why)
 {
     if (p->wants.prepass) {
         if (!draw_prepass(p, view, why))
@@ -266,12 +288,35 @@ bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, fault 
         stopwatch_lap(times, PHASE_PREPASS);
     }
     if (p->wants.ao) {
-        if (!find_accessibility(p, view, why))
+        if (!find_accessibility(p, view, index, count, why))
             return false;
         stopwatch_lap(times, PHASE_AO);
     }
+    return true;
+}
+
+bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, fault *why)
+{
+    const int count = p->wants.samples;
+    const bool averages = p->wants.picture && (count > 1 || p->transparent);
+    for (int i = 0; averages && i < count; i++) {
+        const scene_view shifted = samples_view(view, i, count);
+        if (!draw_maps(p, &shifted, i, count, times, why))
+            return false;
+        shade(p, &shifted, p->wants.ao ? pipeline_ambient_map(p) : 0, p->samples.framebuffer);
+        samples_add(&p->samples, i == 0);
+        stopwatch_lap(times, PHASE_MAIN);
+    }
+    if (averages)
+        samples_resolve(&p->samples, count, p->color_framebuffer);
+    /* The maps belong to the pixels' centres. */
+    const bool has_maps = averages && (count == 1 || !p->wants.maps);
+    if (!has_maps && !draw_maps(p, view, 0, 1, times, why))
+        return false;
+    if (p->wants.picture && !averages)
+        shade(p, view, p->wants.ao ? pipeline_ambient_map(p) : 0, p->color_framebuffer);
     if (p->wants.picture) {
-        pipeline_shade(p, view, p->wants.ao ? pipeline_ambient_map(p) : 0, p->color_framebuffer);
+        draw_debug_map(p, view, p->color_framebuffer);
         stopwatch_lap(times, PHASE_MAIN);
     }
     return true;

@@ -13,6 +13,7 @@
 #include "pixel_kind.h"
 #include "progressive.h"
 #include "report.h"
+#include "samples.h"
 #include "scene.h"
 #include "stage.h"
 #include "truth.h"
@@ -24,6 +25,8 @@ typedef struct pipeline_wants {
     bool ao;         /* accessibility: the occlusion passes, or */
     bool traced;     /* rays */
     bool prepass;    /* depth, and with it: */
+    bool maps;       /* something beside the picture: read back, or in its corner */
+    int samples;     /* of a pixel of the picture */
     bool timers;     /* times of the occlusion passes */
     bool normals;    /* a normal map, for the occlusion passes where they run, or */
     bool normal_map; /* for its own sake */
@@ -49,6 +52,10 @@ typedef struct pipeline {
     progressive_report reached;
     scene_draw_options draw_options;
     options_map debug_map;
+    bool plain;          /* background instead of a sky */
+    bool transparent;    /* a background of alpha 0: the picture has straight alpha */
+    float background[4]; /* linear, alpha */
+    samples samples;     /* where sample_count is above 1, or transparent */
     GLuint depth, depth_framebuffer, color, color_framebuffer;
     GLuint layers[2], layer_framebuffer; /* back faces and second fronts, where draw_options.layers */
     GLuint scratch, scratch_framebuffer; /* map_view.c's */

@@ -11,6 +11,7 @@ static const struct {
     GLenum format, type;
     size_t size;
 } layouts[] = {[PIXELS_RGBA8] = {GL_RGBA, GL_UNSIGNED_BYTE, 4},
+               [PIXELS_RGBA8_STRAIGHT] = {GL_RGBA, GL_UNSIGNED_BYTE, 4},
                [PIXELS_GREY8] = {GL_RED, GL_UNSIGNED_BYTE, 1},
                [PIXELS_FLOAT] = {GL_RED, GL_FLOAT, 4}};
 

@@ -61,6 +61,7 @@ void pipeline_free_targets(pipeline *p)
     for (int i = 0; i < PIXEL_KIND_COUNT; i++)
         p->maps[i] = p->map_framebuffers[i] = 0;
     map_view_free(p);
+    samples_close(&p->samples);
 }
 
 bool pipeline_make_targets(pipeline *p, fault *why)
@@ -79,6 +80,9 @@ bool pipeline_make_targets(pipeline *p, fault *why)
             p->layers[i] = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, p->width, p->height);
         complete = make_framebuffer(0, p->layers[0], &p->layer_framebuffer) && complete;
     }
+    if (p->wants.picture && (p->wants.samples > 1 || p->transparent) &&
+        !samples_open(&p->samples, p->width, p->height, p->depth, why))
+        return false;
     const GLenum gl_error = gl.GetError();
     if (!complete || gl_error != GL_NO_ERROR) {
         return fault_set(why, "--size %dx%d: no framebuffer of that size (OpenGL error 0x%04x)", p->width, p->height,
@@ -92,6 +96,7 @@ GLuint pipeline_map_framebuffer(pipeline *p, pixel_kind kind)
     static const struct {
         GLenum internal_format, format, type;
     } layouts[] = {[PIXELS_RGBA8] = {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE},
+                   [PIXELS_RGBA8_STRAIGHT] = {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE},
                    [PIXELS_GREY8] = {GL_R8, GL_RED, GL_UNSIGNED_BYTE},
                    [PIXELS_FLOAT] = {GL_R32F, GL_RED, GL_FLOAT}};
     if (!p->maps[kind]) {

@@ -6,7 +6,8 @@
 #define GLSSAO_EXAMPLES_PIXEL_KIND_H
 
 typedef enum pixel_kind {
-    PIXELS_RGBA8, /* written as RGB: alpha means nothing here */
+    PIXELS_RGBA8,          /* written as RGB: alpha means nothing here */
+    PIXELS_RGBA8_STRAIGHT, /* written with its alpha, which rgb is not multiplied by */
     PIXELS_GREY8,
     PIXELS_FLOAT,
     PIXEL_KIND_COUNT

@@ -6,6 +6,7 @@
 
 #include "clock.h"
 #include "gl.h"
+#include "stop.h"
 
 #include <stdio.h>
 
@@ -26,7 +27,8 @@ glssao_result progressive_run(glssao_effect *effect, const glssao_frame *frame, 
     bool time_is_left = true;
     glssao_restart_accumulation(effect); /* the scene may have turned under the same projection */
     glssao_result result = GLSSAO_OK;
-    for (int i = 0; i < MOST_ESTIMATES && result == GLSSAO_OK && time_is_left && !is_done(out, goal); i++) {
+    for (int i = 0; i < MOST_ESTIMATES && result == GLSSAO_OK && time_is_left && !stop_signal() && !is_done(out, goal);
+         i++) {
         const double before = clock_wall_ms();
         result = glssao_accumulate(effect, frame, settings);
         gl.Finish();
@@ -43,16 +45,16 @@ glssao_result progressive_run(glssao_effect *effect, const glssao_frame *frame, 
     return result;
 }
 
-void progressive_print(const progressive_report *r, const progressive_goal *goal)
+void progressive_print(FILE *out, const progressive_report *r, const progressive_goal *goal)
 {
-    printf("%d estimates in %.1f ms, sampling error ", r->estimates, r->ms);
+    fprintf(out, "%d estimates in %.1f ms, sampling error ", r->estimates, r->ms);
     if (r->sampling_error >= 0)
-        printf("%.5f", r->sampling_error);
+        fprintf(out, "%.5f", r->sampling_error);
     else
-        printf("not known of a single one");
+        fprintf(out, "not known of a single one");
     if (goal->error > 0)
-        printf(" (%s %g)", r->reached ? "at most" : "did not reach", goal->error);
+        fprintf(out, " (%s %g)", r->reached ? "at most" : "did not reach", goal->error);
     if (goal->budget_ms > 0)
-        printf(" (budget %g ms)", goal->budget_ms);
-    putchar('\n');
+        fprintf(out, " (budget %g ms)", goal->budget_ms);
+    fputc('\n', out);
 }

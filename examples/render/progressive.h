@@ -6,6 +6,7 @@
 #define GLSSAO_EXAMPLES_PROGRESSIVE_H
 
 #include <glssao/glssao.h>
+#include <stdio.h>
 
 typedef struct progressive_goal {
     double error;     /* of accessibility, RMS; 0: none */
@@ -22,7 +23,7 @@ typedef struct progressive_report {
 /* At least one estimate; leaves the mean as the effect's result. The context is current. */
 glssao_result progressive_run(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
                               const progressive_goal *goal, progressive_report *out);
-/* One line to stdout. */
-void progressive_print(const progressive_report *r, const progressive_goal *goal);
+/* One line. */
+void progressive_print(FILE *out, const progressive_report *r, const progressive_goal *goal);
 
 #endif

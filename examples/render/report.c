@@ -218,8 +218,8 @@ bool report_write(const report *r, const char *path, fault *why)
             GLSSAO_VERSION_MINOR, GLSSAO_VERSION_PATCH, v >> 16, v >> 8 & 255, v & 255);
     print_field(f, "context", r->context);
     print_scene(f, r->scene);
-    fprintf(f, "  \"width\": %d,\n  \"height\": %d,\n  \"frames\": %d,\n", r->options->width, r->options->height,
-            r->frames);
+    fprintf(f, "  \"width\": %d,\n  \"height\": %d,\n  \"frames\": %d,\n  \"samples_per_pixel\": %d,\n",
+            r->options->width, r->options->height, r->frames, r->samples_per_pixel);
     if (r->traced)
         print_traced(f, r);
     else

@@ -55,7 +55,7 @@ typedef struct report {
     const stopwatch *times;
     const trace_stats *traced; /* NULL but with -t raytrace */
     const bench *bench;        /* NULL without --bench */
-    int frames;
+    int frames, samples_per_pixel;
     double wall_ms, cpu_ms; /* of the whole run, up to writing this */
 } report;
 

@@ -5,13 +5,14 @@
 #include "gl.h"
 #include "outputs.h"
 #include "progress.h"
+#include "stop.h"
 
 #include <stdio.h>
 #include <string.h>
 
 enum { WARM_UP_FRAMES = 3 };
 
-bool session_open(session *s, const options *o, fault *why)
+bool session_open(session *s, const options *o, bool quiet, fault *why)
 {
     s->context = context_create(&(context_options){.kind = (context_kind)o->context}, why->text, why->size);
     if (!s->context || !gl_load(context_load, s->context, why->text, why->size))
@@ -21,7 +22,8 @@ bool session_open(session *s, const options *o, fault *why)
     if (!s->readback) {
         return fault_set(why, "out of memory");
     }
-    fprintf(stderr, "context: %s\n", context_description(s->context));
+    if (!quiet)
+        fprintf(stderr, "context: %s\n", context_description(s->context));
     return true;
 }
 
@@ -36,10 +38,21 @@ void session_close(session *s)
     *s = (session){.context = NULL};
 }
 
-static pipeline_wants choose_wants(const options *o)
+/* Four samples a pixel by default where a frame takes a GPU a millisecond, one where it takes the processor a hundred.
+ */
+static int choose_samples(const session *s)
 {
+    const options *o = s->options;
+    return o->samples_per_pixel ? o->samples_per_pixel : o->bench || context_is_software(s->context) ? 1 : 4;
+}
+
+static pipeline_wants choose_wants(const session *s)
+{
+    const options *o = s->options;
     const bool maps_alone = !o->output && (o->ao || o->normals || o->depth);
     pipeline_wants wants = {.picture = o->bench || !maps_alone};
+    wants.maps = o->ao || o->normals || o->depth || o->debug_map;
+    wants.samples = choose_samples(s);
     wants.ao = !o->no_ao && (wants.picture || o->ao);
     wants.ao_map = o->ao || o->debug_map == OPTIONS_MAP_AO || o->debug_map == OPTIONS_MAP_TILES;
     wants.traced = wants.ao && o->technique == OPTIONS_RAYTRACE;
@@ -71,9 +84,11 @@ bool session_begin(session *s, const options *o, stage *st, fault *why)
     }
     scene_view view;
     stopwatch_start(&s->times);
+    if (!outputs_spare_inputs(o, st->inputs, why))
+        return false;
     if (!viewpoint_choose(o, s->scene, 0, &s->viewpoint, why) || !find_view(s, 0, &view, why))
         return false;
-    if (!pipeline_prepare(&s->pipeline, st, context_load, s->context, o, choose_wants(o), why)) {
+    if (!pipeline_prepare(&s->pipeline, st, context_load, s->context, o, choose_wants(s), why)) {
         pipeline_destroy(&s->pipeline);
         return false;
     }
@@ -92,7 +107,8 @@ static bool draw(session *s, float angle_rad, scene_view *out_view, fault *why)
         return false;
     }
     if (s->pipeline.reached.estimates > 0)
-        progressive_print(&s->pipeline.reached, &s->pipeline.goal);
+        progressive_print(s->options->output && strcmp(s->options->output, "-") == 0 ? stderr : stdout,
+                          &s->pipeline.reached, &s->pipeline.goal);
     return true;
 }
 
@@ -131,6 +147,8 @@ bool session_draw(session *s, bool shows_progress, writer_slip *slip, fault *why
     for (int i = 0; i < count; i++) {
         scene_view view;
         stopwatch_start(&s->times);
+        if (stop_signal())
+            return fault_set(why, "stopped");
         if (!draw(s, full_turn * (float)i / (float)count, &view, why) ||
             !outputs_take(o, &s->pipeline, &view, o->frames ? i + 1 : 0, s->readback, slip, why))
             return false;
@@ -171,6 +189,7 @@ bool session_write_stats(session *s, double start_ms, double start_cpu_ms, fault
                           .traced = p->wants.traced ? &p->truth.stats : NULL,
                           .bench = s->bench.recorded ? &s->bench : NULL,
                           .frames = s->frames_drawn,
+                          .samples_per_pixel = p->wants.samples,
                           .wall_ms = clock_wall_ms() - start_ms,
                           .cpu_ms = clock_cpu_ms() - start_cpu_ms};
     return report_write(&facts, s->options->stats, why);

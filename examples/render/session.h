@@ -29,9 +29,9 @@ typedef struct session {
     int frames_drawn;
 } session;
 
-/* Makes the context, and leaves it current; prints what it is to stderr. False, with one line in `why`; session_close
- * is due in either case. */
-bool session_open(session *s, const options *o, fault *why);
+/* Makes the context, and leaves it current; prints what it is to stderr unless it is `quiet`. False, with one line in
+ * `why`; session_close is due in either case. */
+bool session_open(session *s, const options *o, bool quiet, fault *why);
 /* Waits for the pictures that are on their way. */
 void session_close(session *s);
 

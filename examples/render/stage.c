@@ -4,15 +4,18 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-scene *stage_load_scene(const options *o, fault *why)
+scene *stage_load_scene(const options *o, inputs *out_inputs, fault *why)
 {
+    *out_inputs = (inputs){0};
     if (!o->scene_path)
         return scene_make(o->scene_name, why->text, why->size);
+    inputs_record(out_inputs);
     scene_load_options file = o->file;
     file.timed = o->time_s.given;
     file.time_s = (double)o->time_s.value;
     file.memory_bytes = (uint64_t)o->memory_mib << 20;
     scene *s = scene_load_with(o->scene_path, &file, why->text, why->size);
+    inputs_record(NULL);
     for (size_t i = 0; s && i < s->warning_count; i++)
         fprintf(stderr, "%s: warning: %s\n", o->scene_path, s->warnings[i]);
     return s;

@@ -7,6 +7,7 @@
 
 #include "draw.h"
 #include "fault.h"
+#include "inputs.h"
 #include "options.h"
 #include "scene.h"
 #include "trace.h"
@@ -16,11 +17,13 @@ typedef struct stage {
     scene_renderer *renderer;
     scene_light *lights; /* of lighting */
     scene_lighting lighting;
-    trace_scene *traced; /* NULL: not yet */
+    trace_scene *traced;  /* NULL: not yet */
+    const inputs *inputs; /* files that the scene was read from; set by who loaded it */
 } stage;
 
-/* The options' scene; its warnings go to stderr. NULL, with one line in `why`, on failure. Any thread. */
-scene *stage_load_scene(const options *o, fault *why);
+/* The options' scene, and the files that it is read from; its warnings go to stderr. NULL, with one line in `why`, on
+ * failure. Any thread. The caller frees the inputs in either case. */
+scene *stage_load_scene(const options *o, inputs *out_inputs, fault *why);
 
 /* Uploads the scene, which must outlive the stage; its programs are shared with those of `like` (may be NULL). False,
  * with one line in `why`; stage_close is due in either case. */

@@ -24,6 +24,7 @@ typedef struct loading {
     bool used, running;
     key key;
     scene *scene;
+    inputs inputs;
     char error[8192];
 } loading;
 
@@ -31,6 +32,7 @@ typedef struct entry {
     struct entry *next; /* used longer ago */
     key key;
     scene *scene;
+    inputs inputs;
     stage stage;
 } entry;
 
@@ -110,7 +112,7 @@ static void *load(void *argument)
                        .time_s = l->key.time_s,
                        .file = l->key.file,
                        .memory_mib = l->key.memory_mib};
-    l->scene = stage_load_scene(&o, FAULT(l->error));
+    l->scene = stage_load_scene(&o, &l->inputs, FAULT(l->error));
     return NULL;
 }
 
@@ -127,6 +129,7 @@ static void drop_loading(loading *l)
     if (l->used) {
         finish_loading(l);
         scene_destroy(l->scene);
+        inputs_free(&l->inputs);
         free(l->key.name);
         l->scene = NULL;
         l->used = false;
@@ -158,7 +161,7 @@ bool stage_cache_load_ahead(stage_cache *c, const options *o)
 }
 
 /* Takes `k` over, also on failure. */
-static scene *load_scene(stage_cache *c, key *k, fault *why)
+static scene *load_scene(stage_cache *c, key *k, inputs *out_inputs, fault *why)
 {
     loading *ahead = &c->ahead, here = {.key = *k};
     if (ahead->used && !is_same(&ahead->key, k) && strcmp(ahead->key.name, k->name) == 0 &&
@@ -174,7 +177,9 @@ static scene *load_scene(stage_cache *c, key *k, fault *why)
         load(l);
     }
     scene *s = l->scene;
+    *out_inputs = l->inputs;
     l->scene = NULL;
+    l->inputs = (inputs){0};
     if (!s) {
         fault_set(why, "%s", l->error);
         free(k->name);
@@ -186,6 +191,7 @@ static void destroy_entry(entry *e)
 {
     stage_close(&e->stage);
     scene_destroy(e->scene);
+    inputs_free(&e->inputs);
     free(e->key.name);
     free(e);
 }
@@ -229,25 +235,25 @@ stage *stage_cache_get(stage_cache *c, const options *o, fault *why)
         *at = e->next;
         free(k.name);
     } else {
-        scene *s = k.name ? load_scene(c, &k, why) : NULL;
-        if (!s) {
-            if (!k.name)
-                fault_set(why, "out of memory");
-            return NULL;
-        }
-        e = calloc(1, sizeof *e);
+        inputs in = {0};
+        scene *s = k.name ? load_scene(c, &k, &in, why) : NULL;
+        e = s ? calloc(1, sizeof *e) : NULL;
         if (!e || !stage_open(&e->stage, s, c->first ? &c->first->stage : NULL, why)) {
             if (e)
                 stage_close(&e->stage);
-            else
+            else if (s || !k.name)
                 fault_set(why, "out of memory");
-            free(e);
+            inputs_free(&in);
             scene_destroy(s);
-            free(k.name);
+            if (s || !k.name) /* else load_scene freed it */
+                free(k.name);
+            free(e);
             return NULL;
         }
         e->key = k;
         e->scene = s;
+        e->inputs = in;
+        e->stage.inputs = &e->inputs;
     }
     e->next = c->first;
     c->first = e;

@@ -2,6 +2,7 @@
 #include "truth.h"
 
 #include "progress.h"
+#include "stop.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -35,6 +36,12 @@ void truth_close(truth *t)
     *t = (truth){0};
 }
 
+static bool is_stopped(void *user)
+{
+    (void)user;
+    return stop_signal();
+}
+
 bool truth_trace(truth *t, const scene_view *view, const glssao_settings *settings, uint32_t seed, fault *why)
 {
     progress bar = progress_start("tracing");
@@ -42,7 +49,8 @@ bool truth_trace(truth *t, const scene_view *view, const glssao_settings *settin
                                    .samples = settings->sample_count,
                                    .seed = seed,
                                    .progress = progress_share,
-                                   .progress_user = &bar};
+                                   .progress_user = &bar,
+                                   .stopped = is_stopped};
     trace_stats stats;
     if (!trace_accessibility(t->scene, view, &options, t->accessibility, NULL, &stats, why->text, why->size))
         return false;

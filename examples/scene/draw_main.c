@@ -182,7 +182,7 @@ void scene_draw_main(scene_renderer *r, const scene_view *view, const scene_ligh
 
     gl.Enable(GL_FRAMEBUFFER_SRGB);
     const float sky[4] = {lighting->sky[0], lighting->sky[1], lighting->sky[2], 1.0f};
-    gl.ClearBufferfv(GL_COLOR, 0, sky);
+    gl.ClearBufferfv(GL_COLOR, 0, lighting->plain ? lighting->background : sky);
 
     draw_bind_texture(UNIT_AMBIENT, ambient_map ? ambient_map : r->white_texture, r->linear_sampler);
     if (lighting->environment)

@@ -79,7 +79,7 @@ static unsigned depth_variant(unsigned normals)
 bool draw_has_sky(const scene_lighting *lighting)
 {
     const float *tilt = lighting->sky_tilt;
-    return lighting->environment || tilt[0] != 0 || tilt[1] != 0 || tilt[2] != 0;
+    return !lighting->plain && (lighting->environment || tilt[0] != 0 || tilt[1] != 0 || tilt[2] != 0);
 }
 
 int draw_find_sky(scene_renderer *r, const scene_lighting *lighting, char *error, size_t error_size)
@@ -190,7 +190,7 @@ void scene_renderer_effects(const scene_renderer *r, const scene_lighting *light
          lighting->light_count > 0},
         {"environment", surrounded ? "ambient light from a picture" : "no picture given: a gradient", surrounded},
         {"sky",
-         surrounded ? "the environment's picture, last, until a view shows none of it"
+         surrounded && sky ? "the environment's picture, last, until a view shows none of it"
          : sky      ? "a gradient, last, at the far plane, until a view shows none of it"
                     : "one colour: the clear's",
          sky},

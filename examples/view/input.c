@@ -22,6 +22,9 @@ typedef struct drag {
 } drag;
 static drag dragging = {.button = -1}; /* one pointer, one window */
 
+/* Keys that are down since they were pressed with Ctrl: Ctrl+S saves, and walks nowhere when Ctrl is let go first. */
+static bool commands[GLFW_KEY_LAST + 1];
+
 static viewer *of_window(GLFWwindow *window)
 {
     return glfwGetWindowUserPointer(window);
@@ -31,6 +34,8 @@ static void on_key(GLFWwindow *window, int key, int scancode, int action, int mo
 {
     (void)scancode;
     viewer *v = of_window(window);
+    if (key >= 0 && action != GLFW_REPEAT)
+        commands[key] = action == GLFW_PRESS && modifiers & GLFW_MOD_CONTROL;
     if (action != GLFW_RELEASE && v->scene)
         keys_press(v, key, modifiers);
 }
@@ -104,7 +109,9 @@ void input_start(viewer *v)
 
 static float held(const viewer *v, int more, int less)
 {
-    return (float)(glfwGetKey(v->window, more) == GLFW_PRESS) - (float)(glfwGetKey(v->window, less) == GLFW_PRESS);
+    const bool ahead = !commands[more] && glfwGetKey(v->window, more) == GLFW_PRESS;
+    const bool back = !commands[less] && glfwGetKey(v->window, less) == GLFW_PRESS;
+    return (float)ahead - (float)back;
 }
 
 bool input_walk(viewer *v, double seconds)

@@ -57,10 +57,10 @@ static void draw_show(viewer *v)
                  TRUTH_ROUNDS * TRUTH_ROUND_RAYS);
         gui_progress((float)v->truth_shown_rounds / TRUTH_ROUNDS, text);
         if (v->truth_rmse >= 0) {
-            snprintf(text, sizeof text, "RMSE %.4f; difference shown 4 times as large", v->truth_rmse);
+            snprintf(text, sizeof text, "RMSE %.4f; full colour at an error of %g", v->truth_rmse, VIEWER_ERROR_RANGE);
             gui_text(text);
         }
-        gui_text("red: too dark, blue: too bright");
+        gui_text("blue: too dark, red-orange: too bright");
     }
 }
 

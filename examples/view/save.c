@@ -31,6 +31,10 @@ void viewer_save_picture(viewer *v)
 {
     char name[4096];
     choose_name(v, name, sizeof name);
+    if (!inputs_spare(&v->inputs, v->options.environment, name, FAULT(v->error))) {
+        viewer_say(v, true, "%s", v->error);
+        return;
+    }
     uint8_t *pixels = viewer_read_shown(v);
     if (!pixels) {
         viewer_say(v, true, "%s: out of memory", name);
@@ -40,7 +44,7 @@ void viewer_save_picture(viewer *v)
     const size_t count = (size_t)v->width * (size_t)v->height;
     for (size_t i = 0; i < count; i++)
         memmove(pixels + 3 * i, pixels + 4 * i, 3);
-    if (picture_write_png(name, v->width, v->height, 3, pixels, v->error, sizeof v->error))
+    if (picture_write(name, v->width, v->height, 3, pixels, v->error, sizeof v->error))
         viewer_say(v, false, "saved %s", name);
     else
         viewer_say(v, true, "%s", v->error);

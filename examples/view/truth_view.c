@@ -2,14 +2,13 @@
  *
  * The ray-traced reference on the screen: starting it, and its difference to the accessibility of the moment.
  */
+#include "error_color.h"
 #include "viewer.h"
 
 #include <GLFW/glfw3.h>
 
 #include <math.h>
 #include <stdlib.h>
-
-static const float difference_gain = 4; /* differences are small */
 
 bool viewer_shows_truth(const viewer *v)
 {
@@ -37,29 +36,22 @@ static bool start(viewer *v)
     return v->truth;
 }
 
-static uint8_t to_byte(float value)
-{
-    return (uint8_t)lroundf(255 * fminf(fmaxf(value, 0), 1));
-}
-
-/* Truth in grey; or red where the technique is darker than the truth, blue where it is brighter, grey where right. */
+/* The truth in grey, or the error. */
 static void paint(viewer *v, const float *ao, uint8_t (*out)[4])
 {
     double sum = 0;
     size_t seen = 0;
     for (size_t i = 0; i < (size_t)v->width * (size_t)v->height; i++) {
         const float traced = v->settings.power == 1 ? v->truth_mean[i] : powf(v->truth_mean[i], v->settings.power);
-        const float difference = ao[i] - traced;
+        const double error = (double)ao[i] - (double)traced;
         const bool sky = v->truth_mean[i] == 1 && ao[i] == 1;
-        sum += sky ? 0 : (double)difference * (double)difference;
+        double rgb[3] = {(double)traced, (double)traced, (double)traced};
+        sum += sky ? 0 : error * error;
         seen += !sky;
-        const float off = difference_gain * difference;
-        const float red = v->shown == SHOWN_TRUTH ? traced : 0.5f + fmaxf(-off, 0) - fmaxf(off, 0);
-        const float green = v->shown == SHOWN_TRUTH ? traced : 0.5f - fabsf(off);
-        const float blue = v->shown == SHOWN_TRUTH ? traced : 0.5f + fmaxf(off, 0) - fmaxf(-off, 0);
-        out[i][0] = to_byte(red);
-        out[i][1] = to_byte(green);
-        out[i][2] = to_byte(blue);
+        if (v->shown == SHOWN_DIFFERENCE)
+            error_color(error, VIEWER_ERROR_RANGE, rgb);
+        for (int k = 0; k < 3; k++)
+            out[i][k] = (uint8_t)lround(255 * fmin(fmax(rgb[k], 0), 1));
         out[i][3] = 255;
     }
     v->truth_rmse = seen ? sqrt(sum / (double)seen) : 0;

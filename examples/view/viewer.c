@@ -87,6 +87,7 @@ void viewer_toggle_panel(viewer *v)
 static bool make_pipeline(viewer *v, pipeline *p, const scene *s)
 {
     const pipeline_wants wants = {.picture = true,
+                                  .samples = 1,
                                   .ao = true,
                                   .ao_map = true,
                                   .prepass = true,
@@ -111,11 +112,13 @@ bool viewer_open(viewer *v, const char *path, const char *name)
         v->options.radius.given = v->options.near_plane.given = v->options.far_plane.given = false;
         v->options.time_s.given = false;
     }
-    scene *s = stage_load_scene(&v->options, FAULT(v->error));
+    inputs in;
+    scene *s = stage_load_scene(&v->options, &in, FAULT(v->error));
     if (!s || !make_pipeline(v, &made, s)) {
         v->options = before;
         pipeline_destroy(&made);
         scene_destroy(s);
+        inputs_free(&in);
         viewer_say(v, true, "%s", v->error);
         return false;
     }
@@ -124,7 +127,9 @@ bool viewer_open(viewer *v, const char *path, const char *name)
         viewer_free_targets(v);
         pipeline_destroy(&v->pipeline);
         scene_destroy(v->scene);
+        inputs_free(&v->inputs);
     }
+    v->inputs = in;
     v->pipeline = made;
     v->scene = s;
     snprintf(v->scene_path, sizeof v->scene_path, "%s", path ? path : "");
@@ -181,6 +186,7 @@ void viewer_close(viewer *v)
     if (v->scene)
         pipeline_destroy(&v->pipeline);
     scene_destroy(v->scene);
+    inputs_free(&v->inputs);
     v->scene = NULL;
 }
 

@@ -42,6 +42,7 @@ typedef struct viewer {
     char scene_path[4096];       /* "": the built-in scene options.scene_name */
     char environment_path[4096]; /* "": the built-in light, or the command line's */
     scene *scene;
+    inputs inputs; /* files that it was read from */
     pipeline pipeline;
     viewpoint viewpoint;
     bool moved; /* the camera is no longer the command line's */
@@ -107,6 +108,7 @@ void *viewer_read_shown(viewer *v);
 
 /* ---- truth_view.c ---- */
 
+#define VIEWER_ERROR_RANGE 0.25 /* of accessibility: full colour */
 bool viewer_shows_truth(const viewer *v);
 /* Starts the tracing where it is shown and not there, takes what is new of it, and draws it into v->map. */
 void viewer_draw_truth(viewer *v);

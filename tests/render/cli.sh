@@ -48,7 +48,7 @@ size="-s 65x37"
     want 2 "--no-such-option" --no-such-option
     want 2 "-z" -z
     want 2 "--output" -o
-    want 2 "--output" -o a.jpg
+    want 2 "--output" -o a.gif
     want 2 ".png" -o .png
     want 2 "--depth" --depth d.png
     want 2 "--ao" --ao a.exr
