@@ -17,7 +17,7 @@ fi
 draw() {
     local status=0
     rm -f "$2" stats.json
-    timeout 120 "$render" -s 640x360 -o "$2" --stats stats.json "$1" 2>log || status=$?
+    timeout 120 "$render" -s 640x360 --samples-per-pixel 4 -o "$2" --stats stats.json "$1" 2>log || status=$?
     local warnings
     warnings=$(sed -n "s|^.*: warning: ||p" log | paste -sd';' | sed 's/;/; /g')
     if [ $status = 0 ]; then

@@ -122,8 +122,3 @@ scene *scene_load(const char *path, char *error, size_t error_size)
 {
     return scene_load_with(path, NULL, error, error_size);
 }
-
-scene *scene_load_at(const char *path, double time_s, char *error, size_t error_size)
-{
-    return scene_load_with(path, &(scene_load_options){.timed = true, .time_s = time_s}, error, error_size);
-}
