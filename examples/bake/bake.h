@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * glssao-bake, part by part: the file's vertices as they stand in the world, rays, values at vertices, the file again.
+ * The parts of glssao-bake: reading the file's vertices, casting rays, computing values at vertices, writing the file.
  */
 #ifndef GLSSAO_EXAMPLES_BAKE_H
 #define GLSSAO_EXAMPLES_BAKE_H
@@ -15,7 +15,7 @@ extern "C" {
 typedef enum bake_method {
     BAKE_TRIANGLES = 0, /* rays from each triangle's centroid; a vertex gets the mean of its triangles */
     BAKE_VERTICES,      /* rays from the vertices */
-    BAKE_FIT            /* rays from many points of each triangle; vertices get what interpolates to them best */
+    BAKE_FIT            /* rays from many points of each triangle; the vertices' values are fitted to them */
 } bake_method;
 
 typedef struct bake_options {
@@ -26,7 +26,7 @@ typedef struct bake_options {
     float offset;      /* scene units, below 0: chosen by the scene's size */
     float floor_value; /* accessibility below it is raised to it */
     bool cosine, accessibility_only;
-    scene_load_options file;           /* how to load the input; but for its memory: */
+    scene_load_options file;           /* how to load the input, except the memory limit: */
     int memory_mib;                    /* 0: half of the machine's */
     bool in_place; /* the output may be the input */
     bool vertices, fit, help, version; /* as given */
@@ -99,8 +99,8 @@ typedef struct bake_stats {
 } bake_stats;
 bool bake_cast(bake_model *m, const bake_options *o, bake_stats *out, scene_fault *fault);
 
-/* bake_write.cpp: the file as it was, as a GLB, with the parts' accessibility as COLOR_0: multiplied with what is
- * there, or alone. A mesh that more than one node shows becomes one mesh a node. */
+/* bake_write.cpp: writes the file as a GLB with the parts' accessibility in COLOR_0, multiplied by the colours there or
+ * alone. A mesh that several nodes share becomes one mesh for each node. */
 bool bake_write(const bake_model *m, const bake_options *o, scene_fault *fault);
 
 #ifdef __cplusplus

@@ -55,8 +55,8 @@ static bool cast_points(caster *c, const bake_points *p, float *out)
     return true;
 }
 
-/* One instance's values; what is seen from both sides counts by its more accessible one, since the other may be the
- * inside of something closed. */
+/* The values of one instance. A double-sided surface takes the more accessible side, since the other may be the inside
+ * of a closed object. */
 static bool cast_instance(caster *c, const bake_part *part, bake_points *p, float *values, float *scratch)
 {
     if (!cast_points(c, p, values)) {

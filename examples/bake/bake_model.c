@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Reads a file's vertices node by node, posed as the renderer draws them, but with the file's own numbering, so that
+ * Reads a file's vertices node by node, in the pose that the renderer draws, with the file's own numbering, so that
  * the results can be written back.
  */
 #include "bake.h"

@@ -125,7 +125,8 @@ static vector normal_to_world(const double m[16], const float n[3])
     return out;
 }
 
-/* At vertices: their own normals; where the file has none, or none with a direction, the sum of their faces'. */
+/* Rays from vertices start along the vertex normal. If the file has none, or it has no direction, the sum of the
+ * adjacent faces' normals takes its place. */
 static bool make_vertices(bake_points *p, const bake_part *part, const double m[16], const double origin[3],
                           scene_fault *fault)
 {

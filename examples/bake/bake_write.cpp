@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Writes the file back as a GLB. Its JSON is edited, not made anew, so that whatever it says stays as it was written:
-// names, extras, extensions nobody here knows. All buffers and images become one BIN chunk. No exception leaves this
-// file.
+// Writes the file back as a GLB. Its JSON is edited, so that names, extras and unknown extensions stay as they were.
+// All buffers and images become one BIN chunk. No exception leaves this file.
 #include "bake.h"
 #include "whole_file.h"
 
@@ -127,7 +126,7 @@ void erase_packing(const gltf_document &document, json *root)
     }
 }
 
-// What an image's first bytes tell; NULL where they don't.
+// The media type by the image's first bytes; NULL if unknown.
 const char *mime_type(const gltf_image &image)
 {
     const std::string begin(reinterpret_cast<const char *>(image.encoded), std::min<size_t>(image.encoded_size, 4));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Draws a scene_renderer's items: the pre-pass, layers, and for draw_shadow.c and draw_main.c what those passes draw.
- * Each public function sets all the state it needs and leaves GL's defaults behind.
+ * Draws a scene_renderer's items for every pass: the pre-pass, the layers, the shadow map and the main pass. Each
+ * public function sets all the state that it needs, and restores GL's defaults.
  */
 #include "draw_internal.h"
 #include "gl.h"
@@ -108,7 +108,7 @@ static void use_map(const scene_renderer *r, unsigned unit, int texture, bool is
     gl.Uniform4fv(uv_location, more_uvs ? 5 : 3, rows[0]);
 }
 
-/* The maps of the program; those that the item has none of are neutral. */
+/* Binds the program's maps. A neutral texture takes the place of a map that the item lacks. */
 static void use_maps(const scene_renderer *r, const scene_material *m, const draw_program *p, unsigned variant,
                      unsigned own)
 {
@@ -249,7 +249,7 @@ scene_seen scene_find_seen(const scene_renderer *r, const scene_view *view)
 
 void scene_draw_layer(scene_renderer *r, const scene_view *view, unsigned depth_texture, scene_layer layer)
 {
-    /* Two steps of a 24-bit depth buffer: the same triangle, drawn again, has the same depth but for rounding. */
+    /* Two steps of a 24-bit depth buffer. A triangle that is drawn again has the same depth up to rounding. */
     const float rounding = 1.2e-7f, far_depth = 1;
     if (!draw_is_ready(r) || !r->options.layers)
         return;

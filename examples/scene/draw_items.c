@@ -37,7 +37,7 @@ static bool reads_more_uvs(const scene_material *m)
     return any;
 }
 
-/* What the material and the vertices call for in the main pass, whatever the options. */
+/* The variant that the material and the vertices need in the main pass, before the options add to it. */
 static unsigned choose_variant(const scene *s, const scene_material *m, bool colored)
 {
     const struct {
@@ -160,7 +160,7 @@ static int group_of(const draw_item *item)
     return item->blended ? 2 : item->topology != SCENE_TRIANGLES;
 }
 
-/* A total order, so that the same scene is drawn in the same order everywhere. */
+/* A total order, so that every platform draws the same scene in the same order. */
 static int compare_items(const void *a, const void *b)
 {
     const draw_item *x = a, *y = b;
@@ -213,7 +213,7 @@ bool draw_item_is_seen(const draw_item *item, const double clip_from_world[16])
         }
         unsigned beyond = 0;
         for (unsigned axis = 0; axis < 3; axis++) {
-            /* False for NaN, so that bounds without meaning are drawn. */
+            /* Comparisons with NaN are false, so an item with invalid bounds is drawn. */
             beyond |= clip[axis] < -clip[3] - slack * largest ? 1u << (2 * axis) : 0u;
             beyond |= clip[axis] > clip[3] + slack * largest ? 2u << (2 * axis) : 0u;
         }

@@ -118,8 +118,8 @@ static void set_lighting(draw_pass *pass, const scene_lighting *lighting)
         pack_light(&lighting->lights[i], pass->view, pass->lights[i]);
 }
 
-/* Whether the sky of this view was drawn before and no pixel of it passed: the scene stands still, so none will. Never
- * waits; where it is not known, the sky may be seen. */
+/* Whether the sky was drawn for this view before and no pixel passed the depth test. The scene is static, so none will
+ * pass now. Never waits for the query: without a result, the sky counts as visible. */
 static bool is_sky_hidden(scene_renderer *r, const scene_view *view)
 {
     draw_sky_seen *seen = &r->sky_seen;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Which shader variant each draw call takes in each pass, what that means in words, and building those that are
- * missing. A variant is built once and kept.
+ * Chooses the shader variant of each draw call in each pass, describes the choice in words, and builds missing
+ * variants. Each variant is built once.
  */
 #include "draw_internal.h"
 #include "gl.h"
@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Index of the program, built where it is not there yet; -1 on failure. */
+/* Index of the program, built on first use; -1 on failure. */
 static int find_program(draw_pool *pool, draw_kind kind, unsigned variant, char *error, size_t error_size)
 {
     static const char *const what[] = {"scene normals pass", "scene main pass", "shadow pass", "layer pass",
@@ -69,7 +69,7 @@ static unsigned main_variant(const draw_item *item, const scene_lighting *lighti
            (options->multi_bounce && occluded ? VARIANT_MULTI_BOUNCE : 0u);
 }
 
-/* Depth alone, of what the alpha test leaves: the shadow map and the layers. */
+/* The shadow map and the layers need depth alone, after the alpha test. */
 static unsigned depth_variant(unsigned normals)
 {
     const unsigned test = VARIANT_MASKED | VARIANT_COLORED | VARIANT_BASE_MAPPED | VARIANT_TEXTURED;

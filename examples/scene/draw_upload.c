@@ -87,7 +87,7 @@ static unsigned upload_image(const scene_image *image, bool is_srgb, bool mipmap
     return texture;
 }
 
-/* The textures that a draw call reads, as the variants of its material say. */
+/* The textures that a draw call reads, according to the variant of its material. */
 typedef struct texture_list {
     int texture[5];
     bool is_srgb[5];
@@ -140,7 +140,7 @@ static bool upload_texture(scene_renderer *r, int index, bool is_srgb, const boo
     return true;
 }
 
-/* Only what the items use, each image once for colours and once for other data. */
+/* Uploads only images that the items use: once as sRGB for colours, once as linear for other data. */
 static bool upload_textures(scene_renderer *r, char *error, size_t error_size)
 {
     const scene *s = r->scene;
@@ -232,7 +232,7 @@ void scene_renderer_destroy(scene_renderer *r)
 {
     if (!r)
         return;
-    /* GL ignores the name 0, which is what was not made. */
+    /* GL ignores the name 0, which stands for an object that was not created. */
     unsigned buffers[] = {r->vertex_buffer, r->tangent_buffer, r->more_uv_buffer, r->index_buffer, r->instance_buffer};
     unsigned vertex_arrays[] = {r->vertex_array, r->empty_vertex_array};
     unsigned samplers[] = {r->linear_sampler, r->nearest_sampler};

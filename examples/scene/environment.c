@@ -37,7 +37,7 @@ static bool make_sky(environment *e, int width, int height)
     return e->sky.rgb;
 }
 
-/* Adds the file's row to the one of the sky that it belongs to; what is left over at the ends goes to none. */
+/* Adds a row of the file to the row of the sky that contains it. Leftover rows and columns at the ends are dropped. */
 static void add_row(environment *e, int by, int y, const float *row)
 {
     if (y / by >= e->sky.height)

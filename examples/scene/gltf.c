@@ -77,7 +77,9 @@ bool gltf_warn_of_omissions(gltf_loader *l)
             snprintf(line + used, sizeof line - used, "%s%u %s", used ? ", " : "left out: ", parts[i].count,
                      parts[i].count == 1 ? parts[i].one : parts[i].more);
         }
-    return !*line || scene_warn(l->document->warnings, l->fault, "%s", line);
+    const bool empty = !l->builder->made->instance_count;
+    return (!*line || scene_warn(l->document->warnings, l->fault, "%s", line)) &&
+           (!empty || scene_warn(l->document->warnings, l->fault, "the scene has nothing to draw"));
 }
 
 /* The warnings become the scene's. */
@@ -119,9 +121,4 @@ scene *scene_load_with(const char *path, const scene_load_options *options, char
 scene *scene_load(const char *path, char *error, size_t error_size)
 {
     return scene_load_with(path, NULL, error, error_size);
-}
-
-scene *scene_load_at(const char *path, double time_s, char *error, size_t error_size)
-{
-    return scene_load_with(path, &(scene_load_options){.timed = true, .time_s = time_s}, error, error_size);
 }

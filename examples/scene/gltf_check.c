@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Every reference, range and count of a glTF document, checked once, so that the loader may follow them. What buffers
- * hold (vertex indices, joints, sparse positions) is checked where it is read.
+ * Checks every reference, range and count of a glTF document once, so that the loader may follow them. Values inside
+ * buffers (vertex indices, joints, sparse positions) are checked when they are read.
  */
 #include "gltf_document.h"
 
@@ -93,7 +93,7 @@ static bool check_range(const gltf_document *d, size_t number, int view_index, i
     return scene_fail(fault, "accessor %zu: %.0f bytes asked, its buffer view holds %zu", number, asked, length);
 }
 
-/* The bytes of a matrix but for the padding after its last column. */
+/* The bytes of a matrix without the padding after its last column. */
 static size_t last_element_size(const gltf_accessor *a)
 {
     const size_t column = gltf_element_size(a) / (size_t)a->columns;
@@ -264,8 +264,9 @@ static bool check_light(const gltf_document *d, size_t number, scene_fault *faul
     for (int i = 0; i < 3; ++i)
         if (!(light->color[i] >= 0 && isfinite(light->color[i] * light->intensity)))
             return scene_fail(fault, "light %zu: its colour or intensity is negative or not finite", number);
-    const bool cones = light->inner_cone_rad >= 0 && light->inner_cone_rad < light->outer_cone_rad &&
-                       light->outer_cone_rad <= 1.5707964; /* half of pi, as written with few digits */
+    const bool cones =
+        light->inner_cone_rad >= 0 && light->inner_cone_rad < light->outer_cone_rad &&
+        light->outer_cone_rad <= 1.5707964; /* half of pi, rounded up, since files write it with few digits */
     return (light->intensity >= 0 && light->range >= 0 && isfinite(light->range) &&
             (strcmp(light->type, "spot") != 0 || cones)) ||
            scene_fail(fault, "light %zu: its intensity, range or cone is out of range", number);

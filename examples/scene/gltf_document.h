@@ -20,7 +20,7 @@
 extern "C" {
 #endif
 
-/* glTF's numbers, which are OpenGL's. */
+/* glTF's component types and primitive modes, which are OpenGL's constants. */
 enum {
     GLTF_BYTE = 5120,
     GLTF_UNSIGNED_BYTE = 5121,
@@ -94,7 +94,7 @@ typedef struct gltf_mesh {
 
 typedef struct gltf_node {
     int mesh, skin, camera, light;
-    bool hidden; /* by KHR_node_visibility, and with it whatever is below */
+    bool hidden; /* by KHR_node_visibility, which hides the node's descendants too */
     const int *children;
     size_t child_count;
     bool has_matrix;
@@ -208,7 +208,7 @@ void gltf_document_close(gltf_document *document);
  * does not. Factors may still be out of range by a rounding error. */
 bool gltf_check(const gltf_document *document, scene_fault *fault);
 
-/* The accessor of that name, -1 where the list has none. */
+/* The accessor of the attribute of that name, -1 if the list has none. */
 int gltf_find_attribute(const gltf_attribute_list *list, const char *name);
 
 /* Bytes of one component, 0 for a type that glTF does not have; of one element, columns aligned as glTF asks. */

@@ -13,7 +13,7 @@
 
 enum { CHUNK_HEADER = 8, MOST_JSON_DEPTH = 64, JSON_VALUE_BYTES = 200 };
 
-/* What the first bytes of a file tell when somebody fetched or packed the wrong thing; NULL where they don't. */
+/* Recognises files that were fetched or packed wrongly by their first bytes; NULL for all others. */
 static const char *find_mistake(const uint8_t *data, size_t size)
 {
     static const struct {
@@ -126,8 +126,8 @@ static bool skip_string(const char *text, size_t size, size_t *at, scene_fault *
     return true;
 }
 
-/* Depth and count of values only: the parser says whether it is JSON at all. A parsed value and what is made of it take
- * up to JSON_VALUE_BYTES. */
+/* Checks only the depth and the number of values; the parser checks the syntax. A parsed value and the structure built
+ * from it take up to JSON_VALUE_BYTES. */
 static bool check_json(const gltf_file *f, memory_budget *budget, scene_fault *fault)
 {
     const char *text = (const char *)f->data + f->json_begin;

@@ -22,12 +22,12 @@ typedef struct gltf_file {
     bool binary;                  /* GLB */
     bool unaligned;               /* a chunk's length is no multiple of 4 */
     size_t json_begin, json_size; /* in `data` */
-    size_t bin_begin, bin_size;   /* of the GLB's BIN chunk; 0: it has none */
+    size_t bin_begin, bin_size;   /* of the GLB's BIN chunk; 0: no such chunk */
 } gltf_file;
 
-/* The whole of a regular file of at most `limit` bytes, or of standard input where the path is "-"; to be freed by the
- * caller, never NULL for an empty one. NULL on failure, with the reason in words: also for a Git LFS pointer, an HTML
- * page, and what is packed with gzip or ZIP. */
+/* Reads a regular file of at most `limit` bytes, or standard input if the path is "-". The caller frees the result,
+ * which is not NULL for an empty file. NULL on failure, with the reason in words. Git LFS pointers, HTML pages, gzip
+ * and ZIP files are refused. */
 uint8_t *gltf_read_file(const char *path, uint64_t limit, size_t *out_size, const char **out_reason);
 
 /* Reads a .gltf or .glb file, told apart by its first bytes, and checks it. The caller frees `data`. */

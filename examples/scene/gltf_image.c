@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Images: found, measured and decoded only for what is drawn. One that is missing or cannot be decoded is left out with
- * a warning: the material's factor then stands alone.
+ * Decodes the images of materials that are drawn. An image that is missing or cannot be decoded is left out with a
+ * warning, and the material keeps its factor alone.
  */
 #include "gltf_loader.h"
 #include "image_decode.h"
@@ -26,7 +26,7 @@ static image_bytes find_bytes(const gltf_document *d, const gltf_image *from)
     return (image_bytes){d->buffers[view->buffer].data + view->offset, view->length};
 }
 
-/* What this build cannot decode; NULL where it should be able to. */
+/* Why this build cannot decode images of that kind; NULL if it can. */
 static const char *find_obstacle(image_kind kind)
 {
     switch (kind) {

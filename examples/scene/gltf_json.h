@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Reads members of JSON objects with their types checked. What a file gets wrong is thrown as a gltf_json_error, whose
-// text names the object and the member. C++ only.
+// Reads members of JSON objects and checks their types. A wrong type throws a gltf_json_error whose text names the
+// object and the member. C++ only.
 #ifndef GLSSAO_EXAMPLES_GLTF_JSON_H
 #define GLSSAO_EXAMPLES_GLTF_JSON_H
 
@@ -19,7 +19,7 @@ struct gltf_json_error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// An object of the file, and what to call it in a message: "node 5".
+// An object of the file, with its name for messages, such as "node 5".
 class gltf_object
 {
   public:
@@ -65,7 +65,7 @@ class gltf_object
         return found ? found->get<std::string>() : missing;
     }
 
-    // An index: -1 where it is missing. Negative ones are kept, for the check that names what does not exist.
+    // An index, -1 if it is missing. Other negative values are kept: gltf_check() names them in its message.
     int index(const char *member) const
     {
         const double value = number(member, -1);

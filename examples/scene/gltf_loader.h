@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * What the parts of the glTF loader share: the checked document, the scene that is being built from it, and the limits
- * that keep a small file from asking for much.
+ * State shared by the parts of the glTF loader: the checked document, the scene under construction, and the limits on
+ * time and memory.
  */
 #ifndef GLSSAO_EXAMPLES_GLTF_LOADER_H
 #define GLSSAO_EXAMPLES_GLTF_LOADER_H
@@ -16,8 +16,8 @@ typedef struct gltf_uv_slots {
     int count;
 } gltf_uv_slots;
 
-/* A primitive's vertices, read and posed, before they become the scene's. Arrays of `count`, NULL where the file has
- * none. */
+/* The vertices of a primitive after reading and posing, before they are added to the scene. Arrays of `count` elements,
+ * NULL if the file has no such attribute. */
 typedef struct gltf_vertices {
     const gltf_primitive *source; /* NULL: empty */
     size_t pose;                  /* the node whose weights or skin they follow, SIZE_MAX: none */
@@ -29,14 +29,14 @@ typedef struct gltf_vertices {
     float (*uvs[SCENE_UV_COUNT])[2];
     float (*colors)[4];
     float (*tangents)[4]; /* NULL too where they are posed or have no use: then they are computed */
-    bool mirrored;        /* posed by a skin that turns it inside out: windings are to be swapped */
+    bool mirrored;        /* a skin turns the primitive inside out: the triangles' winding must be swapped */
     bool normals_ok;      /* all finite and of some length */
     bool translucent;     /* a vertex colour's alpha is below 1 */
     bool emitted;         /* they are in the scene from `first` on */
     uint32_t first;
 } gltf_vertices;
 
-/* What is left out of the scene, for one warning. */
+/* Counts of things that are left out of the scene, for one warning. */
 typedef struct gltf_omissions {
     unsigned without_positions, empty, flattened, cameras;
 } gltf_omissions;
@@ -57,7 +57,7 @@ typedef struct gltf_loader {
     int *opaque_map, *unlit_map;                 /* variations: of each of the scene's materials, index + 1 */
     size_t opaque_room, unlit_room;
     gltf_mesh_range *mesh_map; /* for meshes that are drawn as they are; first -1: not made yet */
-    gltf_vertices recent;      /* what the last primitive used: the next one often shares it */
+    gltf_vertices recent;      /* of the last primitive; the next one often shares them */
     gltf_omissions omitted;
     uint64_t reads_left;
 } gltf_loader;
@@ -104,8 +104,8 @@ gltf_uv_slots gltf_find_uv_slots(const gltf_material *m);
  * a warning. False on failure. */
 bool gltf_add_image(gltf_loader *l, int image, int *out_image);
 
-/* gltf_vertices.c: reads a primitive's vertices into l->recent in the pose that the node gives them, where they are not
- * there yet. */
+/* gltf_vertices.c: reads a primitive's vertices into l->recent, in the pose of the node, unless l->recent holds them
+ * already. */
 bool gltf_read_vertices(gltf_loader *l, const gltf_primitive *primitive, size_t node, const gltf_uv_slots *slots);
 /* Makes `positions` (double precision) relative to their middle where that is far from zero, and stores both. */
 void gltf_center_vertices(gltf_vertices *v, double (*positions)[3]);
@@ -131,7 +131,8 @@ bool gltf_add_mesh(gltf_loader *l, size_t node, gltf_mesh_range *out);
  * computed from uv set `uv`, for which vertices are split (and indices changed) where triangles disagree. */
 bool gltf_add_tangents(gltf_loader *l, gltf_triangles *triangles, int uv);
 
-/* gltf_node.c: world matrices of all nodes; then instances and cameras of the scene that is to be drawn. */
+/* gltf_node.c: computes the world matrices of all nodes, then adds instances, cameras and lights of the chosen scene.
+ */
 bool gltf_place_nodes(gltf_loader *l);
 /* The world matrices of a node's EXT_mesh_gpu_instancing instances, for the caller to free; NULL on failure. */
 double (*gltf_read_instances(gltf_loader *l, size_t node, size_t *out_count))[16];

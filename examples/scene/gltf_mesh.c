@@ -22,7 +22,7 @@ static void face_vector(const gltf_vertices *v, const uint32_t *corners, double 
         out[axis] = a[(axis + 1) % 3] * b[(axis + 2) % 3] - a[(axis + 2) % 3] * b[(axis + 1) % 3];
 }
 
-/* Upwards where the vector has no direction: the face has no area then, and nobody sees it. */
+/* A zero vector gives (0, 1, 0). Its face has no area and is never seen. */
 static void set_normal(scene_vertex *to, const double vector[3])
 {
     const double length = sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]);
@@ -30,11 +30,16 @@ static void set_normal(scene_vertex *to, const double vector[3])
         to->normal[axis] = length > 0 ? (float)(vector[axis] / length) : (float)(axis == 1);
 }
 
+static bool has_direction(const float n[3])
+{
+    return n[0] != 0 || n[1] != 0 || n[2] != 0;
+}
+
 static void copy_vertex(const gltf_vertices *v, uint32_t from, scene_vertex *to)
 {
     static const float white[4] = {1, 1, 1, 1}, upwards[3] = {0, 1, 0}, none[2] = {0, 0};
     memcpy(to->position, v->positions[from], sizeof to->position);
-    memcpy(to->normal, v->normals ? v->normals[from] : upwards, sizeof to->normal);
+    memcpy(to->normal, v->normals && has_direction(v->normals[from]) ? v->normals[from] : upwards, sizeof to->normal);
     for (int set = 0; set < 2; ++set)
         memcpy(to->uv[set], v->uvs[set] ? v->uvs[set][from] : none, sizeof to->uv[set]);
     memcpy(to->color, v->colors ? v->colors[from] : white, sizeof to->color);
@@ -98,8 +103,7 @@ static bool repair_normals(gltf_loader *l, const gltf_triangles *triangles, scen
                 sums[triangles->indices[i + k]][axis] += face[axis];
     }
     for (uint32_t i = 0; i < v->count; ++i) {
-        const float *n = v->normals[i];
-        if (n[0] == 0 && n[1] == 0 && n[2] == 0)
+        if (!has_direction(v->normals[i]))
             set_normal(&vertices[i], sums[i]);
     }
     free(sums);
@@ -107,7 +111,7 @@ static bool repair_normals(gltf_loader *l, const gltf_triangles *triangles, scen
 }
 
 /* The vertices as they are, once for all primitives that share them; the indices follow. */
-static bool add_shared(gltf_loader *l, gltf_triangles *triangles)
+static bool add_shared(gltf_loader *l, gltf_triangles *triangles, bool repairs)
 {
     gltf_vertices *v = &l->recent;
     if (!v->emitted) {
@@ -115,7 +119,7 @@ static bool add_shared(gltf_loader *l, gltf_triangles *triangles)
         for (uint32_t i = 0; to && i < v->count; ++i)
             copy_vertex(v, i, &to[i]);
         if (!to || !copy_more_uvs(l, v->first, v->count, NULL) ||
-            (v->normals && !v->normals_ok && !repair_normals(l, triangles, to)))
+            (repairs && !v->normals_ok && !repair_normals(l, triangles, to)))
             return false;
         /* Another primitive has other faces to repair normals by. */
         v->emitted = v->normals_ok;
@@ -131,7 +135,7 @@ static bool add_shapes(gltf_loader *l, gltf_triangles *shapes, int material, sce
     const scene_map *normal_map = &l->builder->made->materials[material].normal_map;
     const bool flat = topology == SCENE_TRIANGLES && !l->recent.normals && !normal_map->used;
     const bool corners = topology == SCENE_TRIANGLES && !l->recent.normals && normal_map->used;
-    if (!(corners ? add_corners(l, shapes) : add_shared(l, shapes)))
+    if (!(corners ? add_corners(l, shapes) : add_shared(l, shapes, topology == SCENE_TRIANGLES && l->recent.normals)))
         return false;
     if (normal_map->used && !gltf_add_tangents(l, shapes, normal_map->uv))
         return false;
@@ -147,7 +151,7 @@ static bool add_shapes(gltf_loader *l, gltf_triangles *shapes, int material, sce
     return true;
 }
 
-/* Vertices about another center than those before make another of the scene's meshes. */
+/* Vertices with another center than those before start another mesh of the scene. */
 static bool choose_mesh(gltf_loader *l, gltf_mesh_range *meshes)
 {
     const double *center = l->recent.center;

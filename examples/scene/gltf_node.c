@@ -47,7 +47,7 @@ static bool compose(const double t[3], const double r[4], const double s[3], dou
     return true;
 }
 
-/* Within what single precision holds, too. */
+/* Also false for values that single precision cannot hold. */
 static bool matrix_is_finite(const double m[16])
 {
     bool finite = true;
@@ -85,7 +85,7 @@ static bool place_branch(gltf_loader *l, size_t node, const double world_from_pa
     return true;
 }
 
-/* The nodes that are nobody's children; NULL on failure. */
+/* The nodes without a parent; NULL on failure. */
 static bool *find_roots(gltf_loader *l)
 {
     const gltf_document *d = l->document;
@@ -240,7 +240,7 @@ static void cross(const double a[3], const double b[3], double out[3])
         out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-/* Axes at right angles and of unit length whatever the node's scale; false where the node's have no such. */
+/* Makes the axes perpendicular and of unit length; false if the node's axes are degenerate. */
 static bool make_axes(const double world_from_node[16], float out[16])
 {
     double axes[3][3];
@@ -278,7 +278,7 @@ static bool add_camera(gltf_loader *l, size_t node)
     return scene_builder_add_camera(l->builder, &camera, l->world_from_node[node] + 12) >= 0;
 }
 
-/* It shines along -z of its node, whatever the node's scale. */
+/* A light shines along -z of its node; the node's scale does not matter. */
 static bool add_light(gltf_loader *l, size_t node)
 {
     const gltf_light *from = &l->document->lights[l->document->nodes[node].light];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the parts that fill a gltf_document share: the memory that its pointers lead into. C++ only.
+// Owns the memory behind a gltf_document's pointers, for the files that fill the document. C++ only.
 #ifndef GLSSAO_EXAMPLES_GLTF_OWNER_H
 #define GLSSAO_EXAMPLES_GLTF_OWNER_H
 
@@ -113,7 +113,8 @@ void gltf_unpack_primitives(gltf_owner *owner, gltf_source *source, const gltf_o
 void gltf_read_surfaces(gltf_owner *owner, const gltf_object &root);
 void gltf_read_views(gltf_owner *owner, const gltf_object &root);
 
-// gltf_extensions.cpp: refuses what the file cannot be drawn without, and warns of what is drawn in another way.
+// gltf_extensions.cpp: refuses a file that requires an unknown extension, and warns of extensions that are
+// approximated.
 void gltf_check_extensions(gltf_source *source, const gltf_object &root);
 
 #endif

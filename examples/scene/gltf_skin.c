@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * A skin's pose as the nodes stand in the file, baked into the vertices: each goes to world space by the weighted mean
- * of its joints' matrices. The transform of the node that draws the mesh plays no part, as glTF says.
+ * Bakes a skin's pose into the vertices: the weighted mean of its joints' matrices takes each vertex to world space.
+ * As glTF says, the transform of the node that draws the mesh is ignored.
  */
 #include <math.h>
 #include <stdio.h>

@@ -104,7 +104,7 @@ static bool has_scheme(const char *uri)
 /* Resolves "." and ".." in place. False where the name leads out of the folder that it is relative to. */
 static bool normalize(char *name)
 {
-    char *out = name; /* never past `in`: no more is written than was read */
+    char *out = name; /* never passes `in`: the result is no longer than the text read so far */
     for (const char *in = name; *in; in += *in == '/') {
         const size_t length = strcspn(in, "/");
         if (length == 2 && !strncmp(in, "..", 2)) {
@@ -162,7 +162,8 @@ static char *resolve(char *name, const char *folder, const char *root)
     return NULL;
 }
 
-/* The spellings that are tried: decoded, as written, and decoded with the backslashes of another system. */
+/* Spellings of a file name, in the order that they are tried: percent-decoded, as written, and decoded with backslashes
+ * turned into slashes. */
 enum { SPELLING_COUNT = 3 };
 
 static void spell(const char *uri, int spelling, char *out)

@@ -15,8 +15,8 @@ extern "C" {
 
 bool gltf_uri_is_data(const char *uri);
 
-/* The bytes of a data URI (RFC 2397), in memory for free(), never NULL for no bytes. The media type and its parameters
- * are ignored: the bytes tell what they are. NULL where the text is no base64, or memory is short. */
+/* Decodes a data URI (RFC 2397) into memory for free(), which is not NULL for zero bytes. The media type and its
+ * parameters are ignored, since files get them wrong. NULL if the text is not base64, or without memory. */
 uint8_t *gltf_uri_decode_data(const char *uri, size_t *out_size);
 
 /* The path, in memory for free(), of the file that a relative URI names, `folder` being "" or ending in a slash.

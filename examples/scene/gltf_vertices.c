@@ -141,7 +141,7 @@ void gltf_center_vertices(gltf_vertices *v, double (*positions)[3])
             v->positions[i][axis] = (float)(positions[i][axis] - v->center[axis]);
 }
 
-/* The same for positions as the file has them, in place: near zero, as a rule, so that nothing changes. */
+/* The same in place, for positions that the file stores near zero as a rule: then nothing changes. */
 static void center_in_place(gltf_vertices *v)
 {
     float low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};

@@ -7,7 +7,7 @@
 #include "image_header.h"
 
 #include <setjmp.h>
-#include <stdio.h> /* before jpeglib.h, which wants it */
+#include <stdio.h> /* jpeglib.h needs it */
 #include <stdlib.h>
 #include <string.h>
 
@@ -73,7 +73,7 @@ static void set_png_transforms(png_structp png, png_infop info)
     png_read_update_info(png, info);
 }
 
-/* Between setjmp and its return only what `out` points to changes. */
+/* After setjmp, only the memory behind `out` changes. */
 static bool read_png(png_structp png, png_infop info, decoded *out)
 {
     if (setjmp(png_jmpbuf(png)))

@@ -31,19 +31,19 @@ image_kind image_find_kind(const uint8_t *data, size_t size)
     return begins(data, size, 0, "DDS ", 4) ? IMAGE_DDS : IMAGE_UNKNOWN;
 }
 
-/* The size stands in the first chunk. */
+/* The first chunk holds the size. */
 static bool measure_png(const uint8_t *data, size_t size, unsigned *out_width, unsigned *out_height)
 {
     if (size < 33 || memcmp(data + 12, "IHDR", 4) != 0)
         return false;
-    /* More than 16 bits is too large whatever the rest says. */
+    /* A size of more than 16 bits is too large in any case. */
     *out_width = read_be16(data + 16) ? UINT16_MAX : read_be16(data + 18);
     *out_height = read_be16(data + 20) ? UINT16_MAX : read_be16(data + 22);
     return *out_width && *out_height;
 }
 
-/* Goes from marker to marker as a decoder does: what lies between segments, coded pixels too, is passed over byte by
- * byte up to the next one. */
+/* Follows the markers as a decoder does. Bytes between segments, such as coded pixels, are skipped up to the next
+ * marker. */
 static bool measure_jpeg(const uint8_t *data, size_t size, unsigned *out_width, unsigned *out_height)
 {
     enum { SOF0 = 0xc0, DHT = 0xc4, JPG = 0xc8, DAC = 0xcc, SOF15 = 0xcf, RST0 = 0xd0, SOI = 0xd8, EOI = 0xd9 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * What an image's first bytes say, before a decoder may see it.
+ * Finds an image's kind and size from its first bytes, before a decoder sees it.
  */
 #ifndef GLSSAO_EXAMPLES_IMAGE_HEADER_H
 #define GLSSAO_EXAMPLES_IMAGE_HEADER_H

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * How much memory a file may take. Everything that a file makes the loader allocate is charged here before it is
- * allocated, so that a small hostile file costs no more than the budget, and a large honest one fails only when the
- * budget ends.
+ * Limits the memory that loading a file may take. The loader charges each allocation before making it. A small hostile
+ * file therefore costs no more than the budget, and a large file fails only at the end of the budget.
  */
 #ifndef GLSSAO_EXAMPLES_MEMORY_BUDGET_H
 #define GLSSAO_EXAMPLES_MEMORY_BUDGET_H

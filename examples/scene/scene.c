@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * What every scene has in common, wherever it came from: its end.
+ * Frees scenes.
  */
 #include "scene.h"
 

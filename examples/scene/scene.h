@@ -18,9 +18,9 @@ extern "C" {
 
 typedef struct scene_vertex {
     float position[3]; /* mesh space */
-    float normal[3];   /* mesh space, unit length; from the file, or computed where the file has none */
+    float normal[3];   /* mesh space, unit length; not to be used where the primitive is flat */
     float uv[2][2];    /* of the first two uv sets that the material reads, as in the file: v grows downwards */
-    float color[4];    /* linear; 1, 1, 1, 1 where the file has none */
+    float color[4];    /* linear; 1, 1, 1, 1 without vertex colours */
 } scene_vertex;
 
 /* Rows top to bottom, as in the file. */
@@ -88,7 +88,7 @@ typedef struct scene_mesh {
 } scene_mesh;
 
 typedef struct scene_instance {
-    float world_from_mesh[16]; /* affine; may mirror or flatten to a plane, but never to a line or a point */
+    float world_from_mesh[16]; /* affine; may mirror, or flatten to a plane, but not to a line or a point */
 } scene_instance;
 
 typedef struct scene_camera {
@@ -136,34 +136,31 @@ typedef struct scene {
     uint32_t camera_count;
     scene_light *lights;
     uint32_t light_count;
-    double origin[3]; /* in the file's coordinates, of the zero of world space. 0, 0, 0 but for scenes whose
-                         middle is so far from the file's zero that single precision would coarsen them */
+    /* Place of world space's zero in the file's coordinates. It is 0, 0, 0 unless the scene's middle is so far from the
+     * file's zero that single precision would coarsen the scene. */
+    double origin[3];
     char **warnings;
     size_t warning_count;               /* one line each, without the file's name */
-    float bounds_min[3], bounds_max[3]; /* world space, of what is drawn; all 0 where nothing is */
+    float bounds_min[3], bounds_max[3]; /* world space, of everything drawn; all 0 in an empty scene */
 } scene;
 
 typedef struct scene_load_options { /* all zero: the file as it stands */
     bool timed;
-    double
-        time_s; /* where timed: the animation at this time; before its first key and after its last it stands still */
-    int scene, animation;  /* which of the file's, from 1 on; 0: the one that the file shows, and the first */
+    double time_s; /* if timed: pose the nodes as the animation has them at this time; it stops at its first and last
+                      key */
+    int scene, animation;  /* which of the file's, counted from 1; 0: its default scene, its first animation */
     const char *variant;   /* KHR_materials_variants: its name, or its number from 1 on; NULL: none */
-    bool strict;           /* every warning is a fault */
-    const char *root;      /* files that the glTF file names may lie below this folder, too; NULL: only below its own */
-    uint64_t memory_bytes; /* the most that the file may make the loader allocate; 0: half of the machine's memory */
+    bool strict;           /* fail where there would be a warning */
+    const char *root;      /* files that the glTF file names may also lie below this folder; NULL: only below its own */
+    uint64_t memory_bytes; /* limit on what loading the file may allocate; 0: half of the machine's memory */
 } scene_load_options;
 
-/* Loads a .gltf or .glb file, or standard input where the path is "-". NULL on failure, with one line in `error` that
- * names the file and the fault. `options` may be NULL. Nothing in the file is trusted: every index, offset, count and
- * reference is checked before use, memory is limited, and files that it names must lie in its own folder or below. What
- * is drawn in another way than the file says, or not at all, is named in the scene's warnings. */
+/* Loads a .gltf or .glb file, or standard input if the path is "-". `options` may be NULL. NULL on failure, with one
+ * line in `error` that names the file and the fault. Nothing in the file is trusted: every index, offset, count and
+ * reference is checked before use, memory is limited, and files that it names must lie in its own folder or below. The
+ * scene's warnings name everything that is drawn in another way than the file says, or not at all. */
 scene *scene_load_with(const char *path, const scene_load_options *options, char *error, size_t error_size);
 scene *scene_load(const char *path, char *error, size_t error_size);
-
-/* The same, as the file's first animation has it at a time in seconds. A file without animation, or with one that is
- * wrong, fails. */
-scene *scene_load_at(const char *path, double time_s, char *error, size_t error_size);
 
 /* Makes a built-in scene: "columns", "cornell", "steps" or "plane". NULL on failure, as above. */
 scene *scene_make(const char *name, char *error, size_t error_size);

@@ -28,7 +28,7 @@ typedef void (*trace_progress_fn)(double done, void *user);
 typedef struct trace_options {
     float radius;               /* scene units: a hit farther away does not block (hard cut) */
     int samples;                /* rays a pixel or point, >= 1 */
-    uint32_t seed;              /* same seed, same bits, whatever the number of threads */
+    uint32_t seed;              /* the same seed gives the same bits for any number of threads */
     int threads;                /* 0: as many as there are cores */
     trace_progress_fn progress; /* may be NULL */
     void *progress_user;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * A scene's triangles in Embree. Meshes that stand in the world once are placed there; the others are built once and
- * instanced, so that thousands of copies cost little memory.
+ * Builds a scene's triangles in Embree. A mesh with one instance is placed in the world. Other meshes are built once
+ * and instanced, so that thousands of copies take little memory.
  */
 #include "trace_internal.h"
 
@@ -18,8 +18,8 @@ static void prepare_instance(const float m[16], trace_instance *out)
     out->mirrored = matrix_for_normals(m, out->normal_from_mesh);
 }
 
-/* Embree takes rays to mesh space and back: not through a matrix that is flat, or so uneven that the inverse would lose
- * what single precision has. */
+/* Embree transforms rays to mesh space and back. A flat or very uneven matrix would lose all precision in the inverse.
+ */
 static bool can_be_instanced(const float m[16])
 {
     double longest = 0, shortest = INFINITY, determinant = 0, lengths = 1;
@@ -171,7 +171,7 @@ static bool place_mesh(trace_scene *t, uint32_t mesh, uint32_t *part_count, cons
     return true;
 }
 
-/* How many parts stand in the world themselves. */
+/* The number of parts placed in the world without an instance. */
 static size_t count_world_parts(const scene *s)
 {
     size_t count = 0;

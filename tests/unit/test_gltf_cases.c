@@ -367,8 +367,10 @@ static void what_is_left_out_is_named(void **state)
                                     "\"POSITION\":0}}]}],\"nodes\":[{\"mesh\":0},{\"camera\":0}],\"cameras\":[{"
                                     "\"type\":\"perspective\",\"perspective\":{\"yfov\":0,\"znear\":1}}]"),
                          NULL);
-    assert_warning(s, "left out: 1 primitive without positions, 1 primitive without a whole triangle, line or point, 1 "
-                      "camera that cannot see");
+    assert_int_equal(s->warning_count, 2);
+    assert_string_equal(s->warnings[0], "left out: 1 primitive without positions, 1 primitive without a whole triangle, "
+                                        "line or point, 1 camera that cannot see");
+    assert_string_equal(s->warnings[1], "the scene has nothing to draw");
     scene_destroy(s);
 }
 
@@ -484,7 +486,7 @@ static void solid_pictures_fit_the_budget_by_their_decoded_size(void **state)
     assert_int_equal(s->image_count, 3);
     scene_destroy(s);
     assert_null(scene_load_with(path, &(scene_load_options){.memory_bytes = 150 << 20}, error, sizeof error));
-    assert_non_null(strstr(error, "the file's images needs 64 MiB, and 21 of the 150 MiB allowed are left"));
+    assert_non_null(strstr(error, "the file's images: 64 MiB needed, and 21 of the 150 MiB allowed are left"));
 }
 
 /* ---- Coordinates ---- */

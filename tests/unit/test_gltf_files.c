@@ -201,7 +201,7 @@ static void scenes_without_anything_to_draw_are_empty(void **state)
     scene_destroy(s);
 }
 
-/* Two of them want a later glTF and an extension that nobody knows, and say so. */
+/* Two files require a later version of glTF and an unknown extension. */
 static void asset_generator_files_load(void **state)
 {
     NEED_FOLDER();

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * What a glTF file means, by small files made here.
+ * The meaning of glTF files, tested with small files made here.
  */
 #include "gltf_writer.h"
 #include "scene_validity.h"

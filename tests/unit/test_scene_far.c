@@ -207,7 +207,7 @@ static void packed_files_are_baked(void **state)
     }
 }
 
-/* Each option of the loader, with what the program then says. */
+/* Each option of the loader, with a part of the program's message. */
 static void options_reach_the_loader(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Files that nobody should trust: each is refused with one line that names it and the fault, and none crashes.
+ * Hostile files: each is refused with one line that names the file and the fault, and none crashes.
  */
 #include "gltf_writer.h"
 #include "scene_validity.h"
@@ -302,7 +302,7 @@ static void json_that_would_take_the_stack_or_the_memory_is_refused(void **state
     assert_non_null(s);
     scene_destroy(s);
     assert_null(scene_load_with(gltf_writer_path("full.gltf"), &small, error, sizeof error));
-    assert_non_null(strstr(error, "its JSON needs 10 MiB, and 3 of the 4 MiB allowed are left"));
+    assert_non_null(strstr(error, "its JSON: 10 MiB needed, and 3 of the 4 MiB allowed are left"));
     free(text);
 }
 

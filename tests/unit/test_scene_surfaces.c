@@ -77,7 +77,7 @@ static void factors_have_gltfs_defaults_and_are_kept(void **state)
     assert_int_equal(s->image_count, 1); /* one image, however many maps */
     assert_null(s->tangents);
     scene_destroy(s);
-    /* Unlit, or a factor of 0: nobody would see the map. */
+    /* The map has no effect on an unlit material, or with a factor of 0. */
     s = load(&w, "", "\"emissiveTexture\":{\"index\":0}", ONE_NODE);
     assert_int_equal(s->image_count, 0);
     scene_destroy(s);
