@@ -15,7 +15,7 @@ uniform vec4 u_base_color;
 
 #if BASE_MAPPED
 uniform sampler2D u_base_color_map; // sRGB texture: sampled as linear
-uniform vec4 u_base_color_uv[3];
+uniform vec4 u_base_color_uv[UV_ROWS];
 #endif
 #if COLORED
 in vec4 v_color;
@@ -45,7 +45,7 @@ uniform vec2 u_pixel_uv;         // one pixel of what the ambient map covers
 uniform vec2 u_origin;           // its lower left corner, in pixels
 #endif
 
-#if REFLECTIVE || LIGHTS
+#if (REFLECTIVE || LIGHTS) && !FLAT // else surface.glsl has it
 in vec3 v_position_view;
 #endif
 #if REFLECTIVE
@@ -54,18 +54,18 @@ uniform bool u_is_orthographic;
 #endif
 #if ROUGHNESS_MAPPED
 uniform sampler2D u_metallic_roughness_map; // roughness in green, metallic in blue
-uniform vec4 u_metallic_roughness_uv[3];
+uniform vec4 u_metallic_roughness_uv[UV_ROWS];
 #endif
 #if BAKED
 uniform sampler2D u_occlusion_map; // accessibility in red
-uniform vec4 u_occlusion_uv[3];
+uniform vec4 u_occlusion_uv[UV_ROWS];
 uniform float u_occlusion_strength;
 #endif
 #if EMISSIVE
 uniform vec3 u_emission;
 #if EMISSION_MAPPED
 uniform sampler2D u_emission_map;
-uniform vec4 u_emission_uv[3];
+uniform vec4 u_emission_uv[UV_ROWS];
 #endif
 #endif
 
@@ -217,6 +217,9 @@ layout(location = 0) out vec4 o_color;
 
 void main()
 {
+#if LIT
+    vec3 normal_view = shading_normal(); // before a pixel may be discarded, as it takes derivatives
+#endif
     vec4 color = u_base_color;
 #if BASE_MAPPED
     color *= texture(u_base_color_map, map_uv(u_base_color_uv));
@@ -231,7 +234,7 @@ void main()
 #endif
 
 #if LIT
-    surface s = surface(shading_normal(), vec3(0.0, 0.0, 1.0), color.rgb, vec3(0.0), 1.0);
+    surface s = surface(normal_view, vec3(0.0, 0.0, 1.0), color.rgb, vec3(0.0), 1.0);
 #if REFLECTIVE
     vec2 metallic_roughness = u_metallic_roughness;
 #if ROUGHNESS_MAPPED

@@ -13,7 +13,7 @@ uniform vec4 u_base_color;
 uniform float u_alpha_cutoff;
 #if BASE_MAPPED
 uniform sampler2D u_base_color_map;
-uniform vec4 u_base_color_uv[3];
+uniform vec4 u_base_color_uv[UV_ROWS];
 #endif
 #if COLORED
 in vec4 v_color;
@@ -31,6 +31,9 @@ layout(location = 0) out vec4 o_normal_view;
 
 void main()
 {
+#if LIT
+    vec3 normal_view = shading_normal(); // before a pixel may be discarded, as it takes derivatives
+#endif
 #if BEHIND
     if (gl_FragCoord.z <= texelFetch(u_first_depth_map, ivec2(gl_FragCoord.xy), 0).r + u_depth_offset)
         discard;
@@ -49,6 +52,6 @@ void main()
 #endif
 
 #if LIT
-    o_normal_view = vec4(shading_normal(), 0.0);
+    o_normal_view = vec4(normal_view, 0.0);
 #endif
 }
