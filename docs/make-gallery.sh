@@ -16,8 +16,8 @@ page=$docs/gallery.md
 cat >"$page" <<'PAGE'
 # Gallery
 
-Each strip: without occlusion, with it (the default: horizon, high), and with ray-traced accessibility (512 rays a pixel) in its place.
-All three differ in ambient light alone. Made by `docs/make-gallery.sh`, at twice the size shown.
+Each strip shows a scene without occlusion, with it (the default: horizon, high), and with ray-traced accessibility (512 rays a
+pixel). Only ambient light differs. `docs/make-gallery.sh` renders them at twice the size shown.
 PAGE
 
 strip() { # name, title, credit, options of glssao-render...

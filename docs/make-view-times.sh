@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# make-view-times.sh GLSSAO_VIEW SCENES: makes docs/view-times.md: for every scene in the folder, how long the viewer takes
-# to start and to draw a frame at 1280x720 while the camera turns. Needs xvfb-run and xdotool.
+# make-view-times.sh GLSSAO_VIEW SCENES: writes docs/data/view-times.tsv: for every scene in the folder, how long the viewer
+# takes to start and to draw a frame at 1280x720 while the camera turns. Needs xvfb-run and xdotool.
+#   first picture, with occlusion   from the start of the window system, with Mesa's shader cache filled
+#   frame                           median while the camera turns: pre-pass, occlusion and main pass
 set -euo pipefail
 [ $# = 2 ] || { sed -n 3,4p "$0"; exit 2; }
 if [ -z "${INSIDE_XVFB:-}" ]; then
@@ -11,20 +13,13 @@ view=$(realpath "$1")
 scenes=$(realpath "$2")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-page=$(dirname "$(realpath "$0")")/view-times.md
+table=$(dirname "$(realpath "$0")")/data/view-times.tsv
 model=$(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -n 1)
-cat >"$page" <<PAGE
-# The viewer's times
-
-glssao-view at 1280x720 on Mesa's software rasteriser, $(nproc) cores (${model:-unknown}), horizon at its default quality (high),
-made by \`docs/make-view-times.sh\`. Start: from the start of the window system to the first picture, and to the first with
-occlusion, with Mesa's shader cache filled. Frame: the median while the camera turns (pre-pass, occlusion, main pass; the panel and the copy to the
-window come on top). The last column is that beside the built-in columns. Other work moves all of them: the load average was
-$(cut -d ' ' -f 1 /proc/loadavg) when they were taken.
-
-| scene | first picture, ms | with occlusion, ms | frame, ms | columns = 1 |
-|---|---|---|---|---|
-PAGE
+{
+    echo "# docs/make-view-times.sh: glssao-view at 1280x720 on llvmpipe, $(nproc) cores (${model:-unknown})," \
+        "load average $(cut -d ' ' -f 1 /proc/loadavg), horizon high, Mesa's shader cache filled"
+    printf 'scene\tfirst picture, ms\twith occlusion, ms\tframe, ms\tcolumns = 1\n'
+} >"$table"
 columns=
 row() { # name, arguments
     local name=$1 window= first occluded frame pid
@@ -46,8 +41,8 @@ row() { # name, arguments
     read -r first occluded frame < <(sed -n 's/.*shown after \([0-9]*\) ms, with occlusion after \([0-9]*\) ms.*takes \([0-9.]*\) ms$/\1 \2 \3/p' "$work/err") || true
     [ -n "${frame:-}" ] || { echo "$name: $(head -n 1 "$work/err")" >&2; return 0; }
     columns=${columns:-$frame}
-    printf '| %s | %s | %s | %s | %s |\n' "$name" "$first" "$occluded" "$frame" \
-        "$(awk "BEGIN {printf \"%.2f\", $frame / $columns}")" >>"$page"
+    printf '%s\t%s\t%s\t%s\t%s\n' "$name" "$first" "$occluded" "$frame" \
+        "$(awk "BEGIN {printf \"%.2f\", $frame / $columns}")" >>"$table"
 }
 for name in columns cornell steps plane; do # once without being counted, so that the cache is filled
     [ -n "$columns" ] || { "$view" -s 64x64 --scene columns >/dev/null 2>&1 & sleep 5; kill $! 2>/dev/null || true; wait || true; }

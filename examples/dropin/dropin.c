@@ -16,7 +16,7 @@ static void *find_function(const char *name, void *user)
 {
     (void)user;
     GLFWglproc function = glfwGetProcAddress(name);
-    void *address; /* ISO C has no cast from a function's address to an object's; POSIX and Windows promise one */
+    void *address; /* ISO C forbids the cast; POSIX and Windows define it */
     memcpy(&address, &function, sizeof address);
     return address;
 }
@@ -65,6 +65,7 @@ static void draw_boxes(GLuint program, mat4 projection)
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, 24);
 }
 
+/* snippet: attach */
 /* Gives the texture storage and attaches it to the bound framebuffer. */
 static void attach(GLenum point, GLuint texture, GLint format, GLenum components, int width, int height)
 {
@@ -72,6 +73,7 @@ static void attach(GLenum point, GLuint texture, GLint format, GLenum components
     glTexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, components, GL_UNSIGNED_INT, NULL);
     glFramebufferTexture2D(GL_FRAMEBUFFER, point, GL_TEXTURE_2D, texture, 0);
 }
+/* end */
 
 int main(int argc, char **argv)
 {
@@ -79,12 +81,15 @@ int main(int argc, char **argv)
     GLFWwindow *window = dropin_open_window("glssao dropin", &o);
     int width = 0, height = 0;
     mat4 projection;
-    GLuint vertex_array, framebuffer, color, depth, program = make_program();
+    GLuint vertex_array, program = make_program();
     glGenVertexArrays(1, &vertex_array);
     glBindVertexArray(vertex_array);
+    /* snippet: targets */
+    GLuint framebuffer, color, depth;
     glGenFramebuffers(1, &framebuffer);
     glGenTextures(1, &color);
     glGenTextures(1, &depth);
+    /* end */
     glEnable(GL_DEPTH_TEST);
 
     /* glssao, snippet: create */
@@ -97,11 +102,15 @@ int main(int argc, char **argv)
     /* end */
 
     while (!o.ended && !glfwWindowShouldClose(window)) {
+        /* snippet: bind */
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+        /* end */
         if (dropin_take_size(window, &width, &height)) {
+            /* snippet: storage */
             attach(GL_COLOR_ATTACHMENT0, color, GL_RGBA8, GL_RGBA, width, height);
             attach(GL_DEPTH_ATTACHMENT, depth, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, width, height);
             glViewport(0, 0, width, height);
+            /* end */
             glm_perspective(0.8f, (float)width / (float)height, 0.1f, 50.0f, projection);
             /* glssao, snippet: resize */
             glssao_resize(effect, width, height);
@@ -116,8 +125,10 @@ int main(int argc, char **argv)
                 glssao_apply(effect, framebuffer);
             /* end */
         }
+        /* snippet: show */
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
         glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        /* end */
         dropin_show(window, &o, width, height);
     }
     /* glssao, snippet: destroy */

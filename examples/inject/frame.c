@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * One effect for each context of the program, made when it first swaps, and what happens at each swap: the window's
- * depth copied, accessibility computed and multiplied into the window's picture. Where that can't work the reason is
- * said once and the program goes on as if nothing were there.
+ * Draws the effect: depth is copied, accessibility computed and multiplied into the picture. Where that can't work the
+ * reason is said once and the program goes on as if nothing were there.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "inject.h"
@@ -14,26 +13,14 @@
 #include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-enum { CONTEXTS = 16, FRAMES_TO_FIND_A_PROJECTION = 60, FRAMES_PER_RADIUS = 60, FRAMES_PER_LOOK = 10, REASONS = 16 };
+/* Rules count frames, for programs that draw all the time, and seconds, for those that draw on demand. */
+enum { FRAMES_TO_FIND = 60, FRAMES_PER_RADIUS = 60, FRAMES_PER_LOOK = 10, FRAMES_WITHOUT = 60, REASONS = 16 };
+static const double SECONDS_TO_FIND = 3.0, SECONDS_PER_RADIUS = 1.0, SECONDS_PER_LOOK = 0.25, SECONDS_WITHOUT = 2.0,
+                    SECONDS_PER_LINE = 2.0;
 
-typedef struct target {
-    void *context;
-    bool given_up;
-    glssao_effect *effect;
-    window_depth *depth;
-    int width, height;
-    int frame; /* swaps so far */
-    float radius;
-    bool works;    /* said so once */
-    bool is_drawn; /* in this frame, by a blit */
-} target;
-
-static target targets[CONTEXTS];
-static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static volatile sig_atomic_t is_on = 1;
+static bool has_drawn; /* the effect, in any context */
 
 static void toggle(int signal_number)
 {
@@ -52,7 +39,7 @@ static void set_up(void)
     }
 }
 
-static void say_once(const char *reason)
+void inject_say_once(const char *reason)
 {
     static char said[REASONS][160];
     static int count;
@@ -64,68 +51,20 @@ static void say_once(const char *reason)
     inject_say("%s", reason);
 }
 
-static void log_line(glssao_log_level level, const char *message, void *user)
-{
-    (void)user;
-    if (level == GLSSAO_LOG_ERROR)
-        say_once(message);
-}
-
-static target *find_target(void *context)
-{
-    for (int i = 0; i < CONTEXTS; ++i)
-        if (targets[i].context == context || !targets[i].context) {
-            targets[i].context = context;
-            return &targets[i];
-        }
-    return NULL;
-}
-
-static bool prepare(target *t, int width, int height)
-{
-    if (!t->effect) {
-        glssao_config config = {
-            .load = inject_real, .log = log_line, .width = width, .height = height, .no_timers = true};
-        glssao_result result = glssao_create(&config, &t->effect);
-        t->depth = result == GLSSAO_OK ? window_depth_create(inject_real, NULL) : NULL;
-        if (!t->depth) {
-            INJECT_REAL(PFNGLGETSTRINGPROC, GetString);
-            const char *version = GetString ? (const char *)GetString(GL_VERSION) : NULL;
-            inject_say("no effect in this context (%s): %s", version ? version : "version unknown",
-                       glssao_result_string(result));
-            glssao_destroy(t->effect);
-            t->effect = NULL;
-            return false;
-        }
-        t->width = width;
-        t->height = height;
-    }
-    if (t->width != width || t->height != height) {
-        if (glssao_resize(t->effect, width, height) != GLSSAO_OK)
-            return false;
-        t->width = width;
-        t->height = height;
-    }
-    return true;
-}
-
-static bool get_projection(const target *t, GLuint framebuffer, inject_projection *out)
+static bool get_projection(const inject_context *c, unsigned framebuffer, int width, int height, inject_projection *out)
 {
     const inject_options *o = inject_get_options();
-    const bool found = inject_get_projection(framebuffer, out);
-    if (o->fov > 0.0f) {
-        const float focal = 1.0f / tanf(o->fov * 3.14159265f / 360.0f), n = o->near_plane, f = o->far_plane;
-        *out = (inject_projection){{0}, false};
-        out->matrix[0] = focal * (float)t->height / (float)t->width;
-        out->matrix[5] = focal;
-        out->matrix[10] = (f + n) / (n - f);
-        out->matrix[11] = -1.0f;
-        out->matrix[14] = 2.0f * f * n / (n - f);
-        return true;
-    }
-    if (!found && t->frame >= FRAMES_TO_FIND_A_PROJECTION)
-        say_once("no projection was seen; GLSSAO_INJECT_FOV, _NEAR and _FAR can tell a perspective one");
-    return found;
+    const bool found = inject_get_projection((inject_place){c->context, framebuffer}, out);
+    if (o->fov == 0.0f)
+        return found;
+    const float focal = 1.0f / tanf(o->fov * 3.14159265f / 360.0f), n = o->near_plane, f = o->far_plane;
+    *out = (inject_projection){{0}, false};
+    out->matrix[0] = focal * (float)height / (float)width;
+    out->matrix[5] = focal;
+    out->matrix[10] = (f + n) / (n - f);
+    out->matrix[11] = -1.0f;
+    out->matrix[14] = 2.0f * f * n / (n - f);
+    return true;
 }
 
 /* glDepthRange(1, 0) turns depth about after the projection. */
@@ -140,117 +79,127 @@ static void follow_depth_range(inject_projection *p)
     p->matrix[14] = -p->matrix[14];
 }
 
-static void say_on(const target *t, const inject_projection *projection)
+static void describe(const inject_context *c, const inject_projection *projection, char *out, size_t size)
 {
     const float *p = projection->matrix, low = projection->zero_to_one ? 0.0f : -1.0f;
     if (p[11] == 0.0f) {
-        inject_say("on: %d x %d, orthographic, %g high, %g deep, radius %g", t->width, t->height, (double)(2.0f / p[5]),
-                   (double)fabsf((1.0f - low) / p[10]), (double)t->radius);
+        snprintf(out, size, "on: %d x %d, orthographic, %g high, %g deep, radius %g", c->width, c->height,
+                 (double)(2.0f / p[5]), (double)fabsf((1.0f - low) / p[10]), (double)c->radius);
         return;
     }
     const float at_low = p[14] / (low + p[10]), at_high = p[14] / (1.0f + p[10]);
     const bool is_reversed = fabsf(low + p[10]) < fabsf(1.0f + p[10]); /* the far end is where this is least */
     const float far_plane = is_reversed ? at_low : at_high;
-    inject_say("on: %d x %d, field of view %.1f degrees, near %g, far %g, radius %g%s", t->width, t->height,
-               (double)(atanf(1.0f / p[5]) * 114.591559f), (double)(is_reversed ? at_high : at_low),
-               far_plane > 0.0f ? (double)far_plane : HUGE_VAL, (double)t->radius, is_reversed ? ", reversed" : "");
+    snprintf(out, size, "on: %d x %d, field of view %.1f degrees, near %g, far %g, radius %g%s", c->width, c->height,
+             (double)(atanf(1.0f / p[5]) * 114.591559f), (double)(is_reversed ? at_high : at_low),
+             far_plane > 0.0f ? (double)far_plane : HUGE_VAL, (double)c->radius, is_reversed ? ", reversed" : "");
 }
 
-/* The first frames, of which some programs draw no more, then now and then. */
-static bool is_radius_due(const target *t)
+/* How far two "on:" lines agree that tell of the same picture: size, kind, and field of view or the word
+ * "orthographic". Planes and radius change all the time in programs that fit them to the view. */
+static size_t length_of_kind(const char *line)
 {
-    const bool known = t->radius > 0.0f;
-    return t->frame % (known ? FRAMES_PER_RADIUS : FRAMES_PER_LOOK) == 1 || (!known && t->frame < FRAMES_PER_LOOK);
+    const char *const near_plane = strstr(line, ", near "), *const high = strstr(line, ", orthographic");
+    return near_plane ? (size_t)(near_plane - line) : high ? (size_t)(high - line) + 14 : strlen(line);
 }
 
-/* Into the window, 0, or a framebuffer of the program's own; false where nothing was drawn. */
-static bool draw_effect(target *t, GLuint framebuffer)
+static void say_on(inject_context *c, const inject_projection *projection)
+{
+    char line[sizeof c->said];
+    const inject_locale before = inject_use_plain_locale();
+    describe(c, projection, line, sizeof line);
+    inject_restore_locale(before);
+    const size_t length = length_of_kind(line);
+    const double now = inject_seconds();
+    const bool is_same = c->said[0] && length == length_of_kind(c->said) && strncmp(line, c->said, length) == 0;
+    if (is_same || (c->said[0] && now - c->said_time < SECONDS_PER_LINE))
+        return;
+    memcpy(c->said, line, sizeof line);
+    c->said_time = now;
+    inject_say("%s", line);
+}
+
+/* Reading depth back is slow, so it is done now and then; more often while nothing was found. */
+static bool is_radius_due(const inject_context *c)
+{
+    const bool known = c->radius > 0.0f;
+    const int frames = c->frame - c->radius_frame;
+    const double seconds = inject_seconds() - c->radius_time;
+    return frames >= (known ? FRAMES_PER_RADIUS : FRAMES_PER_LOOK) ||
+           seconds >= (known ? SECONDS_PER_RADIUS : SECONDS_PER_LOOK);
+}
+
+static bool is_long_enough(const inject_context *c)
+{
+    return c->frame >= FRAMES_TO_FIND || (c->frame > 1 && inject_seconds() - c->first >= SECONDS_TO_FIND);
+}
+
+static bool find_radius(inject_context *c, unsigned depth, const inject_projection *projection)
 {
     const inject_options *o = inject_get_options();
+    if (o->radius > 0.0f) {
+        c->radius = o->radius;
+    } else if (is_radius_due(c)) {
+        const float radius = inject_fitting_radius(depth, c->width, c->height, projection);
+        c->radius = radius > 0.0f ? radius : c->radius;
+        c->radius_frame = c->frame;
+        c->radius_time = inject_seconds();
+    }
+    if (!(c->radius > 0.0f) && is_long_enough(c))
+        inject_say_once("the depth buffer is empty: if a scene is in view, the program draws it in a way that is not "
+                        "followed; try it with its post-processing and anti-aliasing switched off, and see "
+                        "docs/inject.md");
+    return c->radius > 0.0f;
+}
+
+bool inject_draw_effect(inject_context *c, unsigned framebuffer, int width, int height)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, set_up);
+    const inject_options *o = inject_get_options();
     inject_projection projection;
-    if (!get_projection(t, framebuffer, &projection) || !is_on)
+    if (!get_projection(c, framebuffer, width, height, &projection) || !is_on ||
+        !inject_prepare_context(c, width, height))
         return false;
     follow_depth_range(&projection);
     const char *why = NULL;
-    const GLuint depth = window_depth_copy(t->depth, framebuffer, t->width, t->height, &why);
+    const GLuint depth = window_depth_copy(c->depth, framebuffer, width, height, &why);
     if (!depth) {
-        say_once(why);
+        inject_say_once(why);
         return false;
     }
-    if (o->radius > 0.0f)
-        t->radius = o->radius;
-    else if (is_radius_due(t)) {
-        const float radius = inject_fitting_radius(depth, t->width, t->height, &projection);
-        t->radius = radius > 0.0f ? radius : t->radius;
-    }
-    if (!(t->radius > 0.0f)) {
-        if (t->frame >= FRAMES_TO_FIND_A_PROJECTION)
-            say_once(
-                "the window's depth is empty: the program draws elsewhere, or clears it before it shows a picture");
+    if (!find_radius(c, depth, &projection))
         return false;
-    }
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)o->quality);
-    settings.radius = t->radius;
+    settings.radius = c->radius;
     if (o->power > 0.0f)
         settings.power = o->power;
     glssao_frame frame = {.depth_texture = depth, .clip_zero_to_one = projection.zero_to_one};
     memcpy(frame.projection, projection.matrix, sizeof frame.projection);
-    if (glssao_compute(t->effect, &frame, &settings) != GLSSAO_OK)
+    if (glssao_compute(c->effect, &frame, &settings) != GLSSAO_OK)
         return false;
     if (o->map)
         inject_clear_to_white(framebuffer);
-    if (glssao_apply(t->effect, framebuffer) != GLSSAO_OK)
+    if (glssao_apply(c->effect, framebuffer) != GLSSAO_OK)
         return false;
-    if (!t->works) {
-        t->works = true;
-        say_on(t, &projection);
-    }
+    has_drawn = true;
+    c->drawn_time = inject_seconds();
+    c->drawn_frame = c->frame;
+    say_on(c, &projection);
     return true;
 }
 
-/* Locked until release; NULL, and not locked, where there is no effect to be had. */
-static target *acquire(void *context)
+void inject_end_of_frame(inject_context *c, bool has_effect)
 {
-    static pthread_once_t once = PTHREAD_ONCE_INIT;
-    pthread_once(&once, set_up);
-    pthread_mutex_lock(&lock);
-    target *t = context ? find_target(context) : NULL;
-    if (!t)
-        pthread_mutex_unlock(&lock);
-    return t;
-}
-
-static bool is_ready(target *t, int width, int height)
-{
-    if (!t->given_up)
-        t->given_up = !prepare(t, width, height);
-    return !t->given_up;
-}
-
-void inject_blit(void *context, unsigned framebuffer, int width, int height)
-{
-    target *t = acquire(context);
-    if (!t)
+    const double now = inject_seconds();
+    if (has_effect || !is_on || c->given_up)
         return;
-    inject_projection unused; /* a framebuffer that was not drawn anew must not be darkened once more */
-    if (!t->is_drawn && inject_get_projection(framebuffer, &unused) && is_ready(t, width, height))
-        t->is_drawn = draw_effect(t, framebuffer);
-    pthread_mutex_unlock(&lock);
-}
-
-void inject_swap(void *context, int width, int height)
-{
-    target *t = width > 0 && height > 0 ? acquire(context) : NULL;
-    if (!t)
-        return;
-    const inject_options *o = inject_get_options();
-    const bool is_last = ++t->frame == o->picture_frame && o->picture;
-    const bool ok = !is_last || !o->before || inject_write_picture(o->before, width, height);
-    if (!t->is_drawn && is_ready(t, width, height))
-        draw_effect(t, 0);
-    t->is_drawn = false;
-    inject_end_frame();
-    if (is_last)
-        _Exit(inject_write_picture(o->picture, width, height) && ok ? 0 : 1);
-    pthread_mutex_unlock(&lock);
+    if (c->said[0] && c->frame - c->drawn_frame >= FRAMES_WITHOUT && now - c->drawn_time >= SECONDS_WITHOUT) {
+        c->said[0] = '\0';
+        inject_say("off: no scene for %.0f seconds", SECONDS_WITHOUT);
+    }
+    inject_projection unused;
+    /* A program may draw its scene in one context and show it by another. */
+    if (!has_drawn && is_long_enough(c) && !get_projection(c, 0, 1, 1, &unused))
+        inject_say_once("no projection was seen; GLSSAO_INJECT_FOV, _NEAR and _FAR can tell a perspective one");
 }

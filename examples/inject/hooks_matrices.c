@@ -20,21 +20,13 @@ HOOK void glMultMatrixf(const float *m);
 HOOK void glMultMatrixd(const double *m);
 HOOK void glOrtho(double left, double right, double bottom, double top, double near_plane, double far_plane);
 HOOK void glFrustum(double left, double right, double bottom, double top, double near_plane, double far_plane);
+HOOK void glPopMatrix(void);
 HOOK void glClipControl(unsigned origin, unsigned depth);
 HOOK void glBufferData(unsigned target, ptrdiff_t size, const void *data, unsigned usage);
 HOOK void glBufferSubData(unsigned target, ptrdiff_t offset, ptrdiff_t size, const void *data);
 HOOK void glNamedBufferData(unsigned buffer, ptrdiff_t size, const void *data, unsigned usage);
 HOOK void glNamedBufferSubData(unsigned buffer, ptrdiff_t offset, ptrdiff_t size, const void *data);
 HOOK unsigned char glUnmapBuffer(unsigned target);
-
-unsigned hooks_framebuffer(GLenum binding)
-{
-    REAL(PFNGLGETINTEGERVPROC, glGetIntegerv);
-    GLint framebuffer = 0;
-    if (glGetIntegerv_real)
-        glGetIntegerv_real(binding, &framebuffer);
-    return (unsigned)framebuffer;
-}
 
 static void note_uniform(int count, unsigned char transpose, const float *values)
 {
@@ -43,7 +35,7 @@ static void note_uniform(int count, unsigned char transpose, const float *values
     float m[16];
     for (int i = 0; i < 16; ++i)
         m[i] = values[transpose ? 4 * (i % 4) + i / 4 : i];
-    inject_note_matrix(m, hooks_framebuffer(GL_DRAW_FRAMEBUFFER_BINDING));
+    inject_note_matrix(m, hooks_place(GL_DRAW_FRAMEBUFFER_BINDING));
 }
 
 void glUniformMatrix4fv(int location, int count, unsigned char transpose, const float *values)
@@ -68,7 +60,7 @@ static void note_stack(void)
     REAL(PFNGLGETINTEGERVPROC, glGetIntegerv);
     REAL(PFNGLGETFLOATVPROC, glGetFloatv);
     GLint mode = 0, render_mode = GL_RENDER;
-    if (!glGetIntegerv_real || !glGetFloatv_real)
+    if (!glGetIntegerv_real || !glGetFloatv_real || hooks_this_thread.in_primitive)
         return;
     glGetIntegerv_real(GL_MATRIX_MODE, &mode);
     glGetIntegerv_real(GL_RENDER_MODE, &render_mode);
@@ -77,7 +69,7 @@ static void note_stack(void)
         return;
     float m[16];
     glGetFloatv_real(GL_PROJECTION_MATRIX, m);
-    inject_note_matrix(m, hooks_framebuffer(GL_DRAW_FRAMEBUFFER_BINDING));
+    inject_note_matrix(m, hooks_place(GL_DRAW_FRAMEBUFFER_BINDING));
 }
 
 #define STACK_HOOK(name, type)                                                                                         \
@@ -105,6 +97,15 @@ STACK_HOOK(glMultMatrixd, double)
     }
 BOX_HOOK(glFrustum)
 BOX_HOOK(glOrtho)
+
+void glPopMatrix(void)
+{
+    typedef void (*pop_fn)(void);
+    REAL(pop_fn, glPopMatrix);
+    if (glPopMatrix_real)
+        glPopMatrix_real();
+    note_stack();
+}
 
 void glClipControl(unsigned origin, unsigned depth)
 {

@@ -2,10 +2,12 @@
  *
  * The environment, and the one voice that speaks to the user: lines on stderr that begin with "glssao-inject:".
  */
+#define _POSIX_C_SOURCE 200809L
 #include "inject.h"
 #include "words.h"
 
 #include <glssao/glssao.h>
+#include <locale.h>
 #include <pthread.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -15,14 +17,37 @@
 static inject_options options;
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 
+/* The program may have chosen one with a decimal comma. */
+static locale_t plain;
+
+static void make_plain_locale(void)
+{
+    plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+}
+
+inject_locale inject_use_plain_locale(void)
+{
+    static pthread_once_t made = PTHREAD_ONCE_INIT;
+    pthread_once(&made, make_plain_locale);
+    return (inject_locale){plain ? uselocale(plain) : NULL};
+}
+
+void inject_restore_locale(inject_locale before)
+{
+    if (before.handle)
+        uselocale(before.handle);
+}
+
 void inject_say(const char *format, ...)
 {
+    const inject_locale before = inject_use_plain_locale();
     va_list arguments;
     va_start(arguments, format);
     fputs("glssao-inject: ", stderr);
     vfprintf(stderr, format, arguments);
     fputc('\n', stderr);
     va_end(arguments);
+    inject_restore_locale(before);
 }
 
 static float number(const char *name, float least, float most)
@@ -31,10 +56,12 @@ static float number(const char *name, float least, float most)
     if (!text || !*text)
         return 0.0f;
     char *end;
-    float value = strtof(text, &end);
+    const inject_locale before = inject_use_plain_locale();
+    const float value = strtof(text, &end);
+    inject_restore_locale(before);
     if (*end == '\0' && value >= least && value <= most)
         return value;
-    inject_say("%s=%s is no number from %g to %g and is not used", name, text, (double)least, (double)most);
+    inject_say("%s=%s is not a number from %g to %g and is not used", name, text, (double)least, (double)most);
     return 0.0f;
 }
 

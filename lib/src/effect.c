@@ -4,10 +4,13 @@
  */
 #include "effect.h"
 
+#include "gpu/program_cache.h"
+#include "random.h"
+
 #include <stdlib.h>
 #include <string.h>
 
-static bool check_size(const glssao__log_sink *log, int width, int height, int max_size)
+static bool check_size(const glssao__log *log, int width, int height, int max_size)
 {
     if (width >= 1 && height >= 1 && width <= max_size && height <= max_size)
         return true;
@@ -15,50 +18,65 @@ static bool check_size(const glssao__log_sink *log, int width, int height, int m
     return false;
 }
 
-static bool check_path(const glssao__log_sink *log, glssao_path path)
+static glssao_result check_config(const glssao_config *config, const glssao__gl *gl, const glssao__log *log)
 {
-    if ((unsigned)path <= GLSSAO_PATH_COMPUTE)
-        return true;
-    glssao__log_write(log, GLSSAO_LOG_ERROR, "config.path = %d: unknown", (int)path);
-    return false;
-}
-
-static glssao_result make_sized(glssao_effect *effect, int width, int height, glssao__target *out_normal,
-                                glssao__ambient_maps *out_ambient)
-{
-    glssao_result result = glssao__maps_make_normal(effect, width, height, out_normal);
-    if (result != GLSSAO_OK)
-        return result;
-    result = glssao__maps_make_ambient(effect, (width + 1) / 2, (height + 1) / 2, out_ambient);
-    if (result != GLSSAO_OK)
-        glssao__maps_delete_target(&effect->gl, out_normal);
-    return result;
-}
-
-static glssao_result make_objects(glssao_effect *effect)
-{
-    const glssao__gl *gl = &effect->gl;
-    /* Compiling a pass checks the driver's layout of the blocks; this one takes the least time. */
-    glssao__program_object program;
-    glssao_result result = glssao__program_get(effect, SHADER_APPLY, 0, &program);
-    if (result == GLSSAO_OK)
-        result = glssao__maps_make_random_vector(effect);
-    if (result == GLSSAO_OK)
-        result = make_sized(effect, effect->width, effect->height, &effect->normal_map, &effect->ambient);
-    if (result != GLSSAO_OK)
-        return result;
-    effect->ambient_is_one = true;
-    glssao__maps_make_samplers(effect);
-    glssao__stats_make_timers(effect);
-    gl->GenVertexArrays(1, &effect->vertex_array);
-    gl->GenBuffers(BLOCK_COUNT, effect->uniform_buffers);
-    const gl_sizeiptr sizes[BLOCK_COUNT] = {sizeof effect->constants, sizeof effect->frame_constants,
-                                            sizeof effect->hemisphere_constants};
-    for (int i = 0; i < BLOCK_COUNT; ++i) {
-        gl->BindBuffer(GL_UNIFORM_BUFFER, effect->uniform_buffers[i]);
-        gl->BufferData(GL_UNIFORM_BUFFER, sizes[i], NULL, GL_STREAM_DRAW);
+    if (!check_size(log, config->width, config->height, gl->max_size))
+        return GLSSAO_INVALID_ARGUMENT;
+    if ((unsigned)config->path > GLSSAO_PATH_COMPUTE)
+        return glssao__log_refuse(log, "config.path = %d: unknown", (int)config->path);
+    if (config->path == GLSSAO_PATH_COMPUTE && !gl->compute) {
+        glssao__log_write(log, GLSSAO_LOG_ERROR,
+                          "the context lacks compute shaders that write images, which config.path requires");
+        return GLSSAO_UNSUPPORTED_CONTEXT;
     }
     return GLSSAO_OK;
+}
+
+/* A folder that others can write to is not used: a linked program is code that the driver runs. */
+static char *copy_cache_folder(const char *folder, const glssao__log *log)
+{
+    if (!folder)
+        return NULL;
+    if (!glssao__program_cache_trusts(folder)) {
+        glssao__log_write(log, GLSSAO_LOG_WARNING,
+                          "config.program_cache = %s: not a folder that this user owns and nobody else can write to; "
+                          "programs are not kept",
+                          folder);
+        return NULL;
+    }
+    char *copy = malloc(strlen(folder) + 1);
+    return copy ? strcpy(copy, folder) : NULL; /* without it, programs are compiled each time */
+}
+
+static glssao_result init(glssao_effect *effect, const glssao_config *config)
+{
+    const glssao__gl_loader loader = {config->load, config->load_user, config->get_proc};
+    glssao__gl *gl = &effect->gl;
+    const char *missing = NULL;
+    if (!glssao__gl_load(gl, &loader, &missing)) {
+        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "the context lacks %s", missing);
+        return GLSSAO_UNSUPPORTED_CONTEXT;
+    }
+    const glssao_result result = check_config(config, gl, &effect->log);
+    if (result != GLSSAO_OK)
+        return result;
+    effect->can = (glssao__capabilities){.compute = gl->compute,
+                                         .path = config->path,
+                                         .is_software = gl->is_software,
+                                         .max_size = gl->max_size,
+                                         .max_point_size = gl->max_point_size};
+    effect->host_restores_state = config->host_restores_state;
+    effect->seed = config->seed;
+    effect->size[0] = config->width;
+    effect->size[1] = config->height;
+    effect->accumulation.sampling_error = -1.0;
+    effect->last.result = MAP_AMBIENT_0;
+    effect->last.other = MAP_AMBIENT_1;
+    effect->resources.gl = gl;
+    effect->resources.log = &effect->log;
+    effect->resources.programs.cache_folder = copy_cache_folder(config->program_cache, &effect->log);
+    glssao__uniforms_init(&effect->uniforms, effect->seed);
+    return glssao__state_check(gl, &effect->log, "glssao_create");
 }
 
 glssao_result glssao_create(const glssao_config *config, glssao_effect **out_effect)
@@ -67,55 +85,29 @@ glssao_result glssao_create(const glssao_config *config, glssao_effect **out_eff
         *out_effect = NULL;
     if (!config)
         return GLSSAO_INVALID_ARGUMENT;
-    glssao__log_sink log = {config->log, config->log_user};
-    if (!out_effect || !config->load) {
-        glssao__log_write(&log, GLSSAO_LOG_ERROR, "%s is NULL", out_effect ? "config.load" : "out_effect");
-        return GLSSAO_INVALID_ARGUMENT;
-    }
+    const glssao__log log = {config->log, config->log_user};
+    if (!out_effect)
+        return glssao__log_refuse(&log, "out_effect is NULL");
+    if (!config->load && !config->get_proc)
+        return glssao__log_refuse(&log, "config.load and config.get_proc are NULL: one of them must find GL functions");
     glssao_effect *effect = calloc(1, sizeof *effect);
     if (!effect) {
         glssao__log_write(&log, GLSSAO_LOG_ERROR, "no memory for the effect");
         return GLSSAO_OUT_OF_MEMORY;
     }
     effect->log = log;
-    effect->seed = config->seed;
-    effect->has_timers = !config->no_timers;
-    effect->path = config->path;
-    effect->accumulation.sampling_error = -1.0;
-    effect->width = config->width;
-    effect->height = config->height;
-
-    const char *missing = NULL;
-    if (!glssao__gl_load(&effect->gl, config->load, config->load_user, &missing)) {
-        glssao__log_write(&log, GLSSAO_LOG_ERROR, "the context lacks %s", missing);
+    glssao_result result = init(effect, config);
+    if (result != GLSSAO_OK) {
+        free(effect->resources.programs.cache_folder);
         free(effect);
-        return GLSSAO_UNSUPPORTED_CONTEXT;
+        return result;
     }
-    if (!check_size(&log, config->width, config->height, effect->gl.max_size) || !check_path(&log, config->path)) {
-        free(effect);
-        return GLSSAO_INVALID_ARGUMENT;
-    }
-    if (glssao__compute_is_out(effect)) /* its state is then none of ours */
-        effect->gl.compute = false;
-    if (config->path == GLSSAO_PATH_COMPUTE && !effect->gl.compute) {
-        glssao__log_write(&log, GLSSAO_LOG_ERROR,
-                          "the context lacks compute shaders that write images, which config.path requires");
-        free(effect);
-        return GLSSAO_UNSUPPORTED_CONTEXT;
-    }
-    if (config->program_cache) {
-        const size_t size = strlen(config->program_cache) + 1;
-        effect->cache_folder = malloc(size);
-        if (effect->cache_folder) /* without it, programs are compiled */
-            memcpy(effect->cache_folder, config->program_cache, size);
-    }
-    glssao__constants_init(&effect->constants, effect->seed);
-    glssao__constants_init_hemisphere(&effect->hemisphere_constants, effect->seed);
-
-    glssao__host_state host;
-    glssao__state_save(&effect->gl, &host);
-    glssao_result result = make_objects(effect);
+    const glssao__state_need need = {STATE_DRAW | STATE_UNIFORMS | STATE_TRANSFER, .units = 1u};
+    glssao__state host;
+    glssao__state_save(&effect->gl, &need, effect->host_restores_state, &host);
+    result = glssao__resources_init(&effect->resources, effect->size, effect->seed, !config->no_timers);
     glssao__state_restore(&effect->gl, &host);
+    glssao__resources_check(&effect->resources, "glssao_create");
     if (result != GLSSAO_OK) {
         glssao_destroy(effect);
         return result;
@@ -128,29 +120,11 @@ void glssao_destroy(glssao_effect *effect)
 {
     if (!effect)
         return;
-    const glssao__gl *gl = &effect->gl;
-    if (effect->between_normals)
-        (void)glssao_end_normals(effect); /* the host's framebuffer comes back; deleting a bound one would bind 0 */
-    for (int i = 0; i < effect->program_count; ++i)
-        gl->DeleteProgram(effect->programs[i].object.name);
-    free(effect->programs);
-    free(effect->cache_folder);
-    for (int i = 0; i < INPUT_COUNT; ++i)
-        glssao__maps_delete_target(gl, &effect->inputs[i]); /* names of 0 are ignored, here and below */
-    glssao__maps_delete_target(gl, &effect->normal_map);
-    glssao__maps_delete_ambient(gl, &effect->ambient);
-    glssao__maps_delete_ambient(gl, &effect->paired);
-    glssao__maps_delete_target(gl, &effect->distance_map);
-    glssao__maps_delete_target(gl, &effect->result_map);
-    glssao__maps_delete_target(gl, &effect->block_map);
-    glssao__tiles_destroy(effect);
-    glssao__accumulate_destroy(effect);
-    gl->DeleteTextures(1, &effect->random_vector_map);
-    gl->DeleteSamplers(SAMPLER_COUNT, effect->samplers);
-    gl->DeleteVertexArrays(1, &effect->vertex_array);
-    gl->DeleteBuffers(BLOCK_COUNT, effect->uniform_buffers);
-    for (int i = 0; i < TIMER_FRAMES; ++i)
-        gl->DeleteQueries(GLSSAO_PASS_COUNT * 2, effect->timers[i].queries[0]);
+    if (effect->normals.is_open) /* the host's framebuffer comes back; deleting a bound one would bind 0 */
+        glssao__normals_close(&effect->normals, &effect->gl, &effect->resources.targets[MAP_NORMAL],
+                              effect->host_restores_state);
+    glssao__accumulate_destroy(&effect->accumulation, &effect->gl);
+    glssao__resources_destroy(&effect->resources);
     free(effect);
 }
 
@@ -158,40 +132,33 @@ glssao_result glssao_resize(glssao_effect *effect, int width, int height)
 {
     if (!effect)
         return GLSSAO_INVALID_ARGUMENT;
-    if (effect->between_normals) {
-        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "glssao_resize called before glssao_end_normals");
-        return GLSSAO_INVALID_ARGUMENT;
-    }
+    if (effect->normals.is_open)
+        return glssao__log_refuse(&effect->log, "glssao_resize called before glssao_end_normals");
     if (!check_size(&effect->log, width, height, effect->gl.max_size))
         return GLSSAO_INVALID_ARGUMENT;
-    if (width == effect->width && height == effect->height)
+    if (width == effect->size[0] && height == effect->size[1])
         return GLSSAO_OK;
-    glssao__target normal;
-    glssao__ambient_maps ambient;
-    glssao__host_state host;
-    glssao__state_save(&effect->gl, &host);
-    glssao_result result = make_sized(effect, width, height, &normal, &ambient);
-    glssao__state_restore(&effect->gl, &host);
+    glssao_result result = glssao__state_check(&effect->gl, &effect->log, "glssao_resize");
     if (result != GLSSAO_OK)
         return result;
-    for (int i = 0; i < INPUT_COUNT; ++i)
-        glssao__maps_delete_target(&effect->gl, &effect->inputs[i]);
-    glssao__maps_delete_target(&effect->gl, &effect->normal_map);
-    glssao__maps_delete_ambient(&effect->gl, &effect->ambient);
-    glssao__maps_delete_ambient(&effect->gl, &effect->paired); /* made again when next needed, as are these: */
-    glssao__maps_delete_target(&effect->gl, &effect->distance_map);
-    glssao__maps_delete_target(&effect->gl, &effect->result_map);
-    glssao__maps_delete_target(&effect->gl, &effect->block_map);
-    glssao__tiles_destroy(effect);
-    glssao__accumulate_destroy(effect);
-    effect->has_result_map = false;
-    effect->margin = 0;
-    effect->is_paired = false;
-    effect->normal_map = normal;
-    effect->ambient = ambient;
-    effect->ambient_is_one = true;
-    effect->width = width;
-    effect->height = height;
+    const int size[2] = {width, height};
+    const glssao__state_need need = {STATE_DRAW | STATE_TRANSFER, .units = 1u};
+    glssao__state host;
+    glssao__state_save(&effect->gl, &need, effect->host_restores_state, &host);
+    result = glssao__resources_resize(&effect->resources, size);
+    glssao__state_restore(&effect->gl, &host);
+    glssao__resources_collect(&effect->resources);
+    glssao__resources_check(&effect->resources, "glssao_resize");
+    if (result != GLSSAO_OK)
+        return result;
+    glssao__accumulate_stop(&effect->accumulation, &effect->gl);
+    memcpy(effect->size, size, sizeof effect->size);
+    effect->known = (glssao__host_textures){0};
+    effect->normals.known_depth = 0;
+    effect->last.result = MAP_AMBIENT_0;
+    effect->last.other = MAP_AMBIENT_1;
+    effect->last.has_tiles = false;
+    effect->last.margin = 0;
     return GLSSAO_OK;
 }
 
@@ -199,36 +166,36 @@ uint32_t glssao_map(const glssao_effect *effect, glssao_map_id id, int *out_widt
 {
     uint32_t texture = 0;
     int width = 0, height = 0;
+    enum glssao__map map = MAP_NONE;
     if (effect)
         switch (id) {
         case GLSSAO_MAP_AMBIENT:
-            texture = glssao__maps_result(effect, &width, &height);
+            map = effect->last.result;
             break;
         case GLSSAO_MAP_AMBIENT_OTHER:
-            texture = effect->is_paired ? effect->paired.texture[1] : effect->ambient.texture[1];
-            width = effect->ambient.width;
-            height = effect->ambient.height;
+            map = effect->last.other;
             break;
         case GLSSAO_MAP_NORMAL:
-            texture = effect->normal_map.texture;
-            width = effect->width;
-            height = effect->height;
-            break;
-        case GLSSAO_MAP_RANDOM_VECTOR:
-            texture = effect->random_vector_map;
-            width = height = RANDOM_VECTOR_MAP_SIZE;
+            map = MAP_NORMAL;
             break;
         case GLSSAO_MAP_TILES:
-            texture = effect->tiles.used ? effect->tiles.rings.texture : 0;
-            width = texture ? effect->tiles.rings.width : 0;
-            height = texture ? effect->tiles.rings.height : 0;
+            map = effect->last.has_tiles ? MAP_TILE_RINGS : MAP_NONE;
+            break;
+        case GLSSAO_MAP_RANDOM_VECTOR:
+            texture = effect->resources.random_vector_map;
+            width = height = RANDOM_VECTOR_MAP_SIZE;
             break;
         case GLSSAO_MAP_DEPTH:
-            texture = effect->depth_texture;
-            width = texture ? effect->width : 0;
-            height = texture ? effect->height : 0;
+            texture = effect->last.depth_texture;
+            width = texture ? effect->size[0] : 0;
+            height = texture ? effect->size[1] : 0;
             break;
         }
+    if (map != MAP_NONE) {
+        texture = effect->resources.targets[map].texture;
+        width = effect->resources.targets[map].width;
+        height = effect->resources.targets[map].height;
+    }
     if (out_width)
         *out_width = width;
     if (out_height)
@@ -238,5 +205,5 @@ uint32_t glssao_map(const glssao_effect *effect, glssao_map_id id, int *out_widt
 
 const glssao_constants *glssao_get_constants(const glssao_effect *effect)
 {
-    return effect ? &effect->constants : NULL;
+    return effect ? &effect->uniforms.ssao : NULL;
 }

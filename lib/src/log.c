@@ -1,21 +1,36 @@
 /* SPDX-License-Identifier: MIT
  *
- * The log, and the texts that need no effect.
+ * The log, and the public functions that need no effect.
  */
-#include "effect.h"
+#include "log.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 
-void glssao__log_write(const glssao__log_sink *log, glssao_log_level level, const char *format, ...)
+static void write_line(const glssao__log *log, glssao_log_level level, const char *format, va_list arguments)
 {
     if (!log->write)
         return;
     char message[512];
+    vsnprintf(message, sizeof message, format, arguments);
+    log->write(level, message, log->user);
+}
+
+void glssao__log_write(const glssao__log *log, glssao_log_level level, const char *format, ...)
+{
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(message, sizeof message, format, arguments);
+    write_line(log, level, format, arguments);
     va_end(arguments);
-    log->write(level, message, log->user);
+}
+
+glssao_result glssao__log_refuse(const glssao__log *log, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    write_line(log, GLSSAO_LOG_ERROR, format, arguments);
+    va_end(arguments);
+    return GLSSAO_INVALID_ARGUMENT;
 }
 
 void glssao_log_to_stderr(glssao_log_level level, const char *message, void *user)
@@ -37,9 +52,9 @@ const char *glssao_result_string(glssao_result result)
     case GLSSAO_OUT_OF_MEMORY:
         return "out of memory";
     case GLSSAO_SHADER_ERROR:
-        return "the driver does not take a shader";
+        return "the driver rejects a shader";
     case GLSSAO_FRAMEBUFFER_ERROR:
-        return "the driver does not take a framebuffer";
+        return "the driver rejects a framebuffer";
     }
     return "unknown result";
 }

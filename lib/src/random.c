@@ -3,9 +3,9 @@
  * Random inputs that repeat: PCG32, XSH-RR variant (M. O'Neill, "PCG: A Family of Simple Fast Space-Efficient
  * Statistically Good Algorithms for Random Number Generation", 2014), and the random vector map made with it.
  */
-#include "effect.h"
+#include "random.h"
 
-/* `stream` keeps the uses of one seed apart. The generator has one increment; the first steps mix the bits. */
+/* The generator has one fixed increment. The stream goes into the state instead, and two steps mix its bits. */
 glssao__random glssao__random_seed(uint32_t seed, uint32_t stream)
 {
     glssao__random r = {(uint64_t)stream << 32 | seed};
@@ -30,7 +30,7 @@ float glssao__random_unit(glssao__random *r)
 
 void glssao__random_vector_texels(uint32_t seed, uint8_t *out_rgba)
 {
-    glssao__random r = glssao__random_seed(seed, 1);
+    glssao__random r = glssao__random_seed(seed, GLSSAO__STREAM_VECTORS);
     for (int i = 0; i < RANDOM_VECTOR_MAP_SIZE * RANDOM_VECTOR_MAP_SIZE * 4; ++i)
         out_rgba[i] = (uint8_t)(glssao__random_next(&r) >> 24);
 }

@@ -37,10 +37,11 @@ static double frame_ms(glssao_effect *effect, const glssao_frame *frame, GLuint 
 
 static double pair_ms(const glssao_effect *effect)
 {
+    const glssao__state_need need = {.parts = STATE_DRAW | STATE_UNIFORMS, .units = 0x3F, .blocks = BLOCK_HEMISPHERE};
     const double start = now_ms();
     for (int i = 0; i < PAIRS; ++i) {
-        glssao__host_state state;
-        glssao__state_save(&effect->gl, &state);
+        glssao__state state;
+        glssao__state_save(&effect->gl, &need, false, &state);
         glssao__state_restore(&effect->gl, &state);
     }
     gl.Finish();

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * Compiled, not run: the snippets of docs/integration.md that no example program holds. tests/docs/snippets.sh
- * compares each with the page.
+ * The snippets of docs/integration.md that no example program contains. This file is compiled and never run;
+ * tests/docs/snippets.sh compares each snippet with the page.
  */
 #include <GL/glcorearb.h>
 #include <glssao/glssao.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "gl.h"
@@ -20,20 +21,33 @@ typedef struct eye {
     float projection[16];
 } eye;
 
-void forward_normals(glssao_effect *effect, GLuint depth, const float *projection, const glssao_settings *settings,
+void forward_normals(glssao_effect *effect, GLuint depth, const float *projection, glssao_settings settings,
                      void (*draw_opaque_with_normals)(void));
-void deferred(glssao_effect *effect, GLuint depth, GLuint normals, const float *projection,
-              const glssao_settings *settings, void (*draw_lights)(void));
-void linear_depth(glssao_effect *effect, GLuint view_distance, const float *projection,
-                  const glssao_settings *settings);
+void deferred(glssao_effect *effect, GLuint depth, GLuint normals, const float *projection, glssao_settings settings,
+              void (*draw_lights)(void));
+void linear_depth(glssao_effect *effect, GLuint view_distance, const float *projection, glssao_settings settings);
 void multisampled(glssao_effect *effect, GLuint multisampled_framebuffer, GLuint resolved_framebuffer, GLuint depth,
-                  const float *projection, const glssao_settings *settings, int width, int height);
+                  const float *projection, glssao_settings settings, int width, int height);
 void reversed(glssao_effect *effect, GLuint depth, float aspect, float focal, float near_plane,
-              const glssao_settings *settings);
-void two_eyes(glssao_effect *effect, const eye eyes[2], const glssao_settings *settings);
-void large_frames(glssao_settings *settings);
+              glssao_settings settings);
+void two_eyes(glssao_effect *effect, const eye eyes[2], glssao_settings settings);
+glssao_settings large_frames(void);
+void logarithmic(glssao_effect *effect, GLuint depth, float far_plane, const float *projection,
+                 glssao_settings settings);
+void several_samples(glssao_effect *effect, GLuint multisampled_depth, const float *projection,
+                     glssao_settings settings);
+void part_of_a_texture(glssao_effect *effect, GLuint depth, int x, int y, int width, int height,
+                       const float *projection, glssao_settings settings);
+void beyond(glssao_effect *effect, GLuint depth, GLuint back, GLuint second, const float *wide_projection,
+            glssao_settings settings);
+double still_view(glssao_effect *effect, GLuint depth, const float *projection, glssao_settings settings,
+                  bool scene_changed);
+glssao_effect *ahead_of_time(glssao_config config, GLuint depth, const float *projection, glssao_settings settings);
+void print_costs(glssao_effect *effect, glssao_frame frame, glssao_settings settings);
+void night(glssao_effect *effect, glssao_frame frame, glssao_settings settings, bool has_ambient_light);
+glssao_effect *without_compute(glssao_config config);
 
-void forward_normals(glssao_effect *effect, GLuint depth, const float *projection, const glssao_settings *settings,
+void forward_normals(glssao_effect *effect, GLuint depth, const float *projection, glssao_settings settings,
                      void (*draw_opaque_with_normals)(void))
 {
     /* snippet: normals */
@@ -43,37 +57,37 @@ void forward_normals(glssao_effect *effect, GLuint depth, const float *projectio
 
     glssao_frame frame = {.depth_texture = depth, .normal_texture = glssao_map(effect, GLSSAO_MAP_NORMAL, NULL, NULL)};
     memcpy(frame.projection, projection, sizeof frame.projection);
-    glssao_compute(effect, &frame, settings);
+    glssao_compute(effect, &frame, &settings);
     /* end */
 }
 
-void deferred(glssao_effect *effect, GLuint depth, GLuint normals, const float *projection,
-              const glssao_settings *settings, void (*draw_lights)(void))
+void deferred(glssao_effect *effect, GLuint depth, GLuint normals, const float *projection, glssao_settings settings,
+              void (*draw_lights)(void))
 {
     /* snippet: deferred */
     glssao_frame frame = {.depth_texture = depth,
                           .normal_texture = normals, /* view space, stored as 0..1 */
                           .normal_kind = GLSSAO_NORMAL_UNSIGNED};
     memcpy(frame.projection, projection, sizeof frame.projection);
-    glssao_compute(effect, &frame, settings);
+    glssao_compute(effect, &frame, &settings);
     glActiveTexture(GL_TEXTURE0 + 5);
     glBindTexture(GL_TEXTURE_2D, glssao_map(effect, GLSSAO_MAP_AMBIENT, NULL, NULL));
     draw_lights(); /* its shader scales ambient light alone */
     /* end */
 }
 
-void linear_depth(glssao_effect *effect, GLuint view_distance, const float *projection, const glssao_settings *settings)
+void linear_depth(glssao_effect *effect, GLuint view_distance, const float *projection, glssao_settings settings)
 {
     /* snippet: linear */
     glssao_frame frame = {.depth_texture = view_distance, /* red channel: -z in view space; 0 or infinite is sky */
                           .depth_kind = GLSSAO_DEPTH_VIEW_DISTANCE};
     memcpy(frame.projection, projection, sizeof frame.projection);
-    glssao_compute(effect, &frame, settings);
+    glssao_compute(effect, &frame, &settings);
     /* end */
 }
 
 void multisampled(glssao_effect *effect, GLuint multisampled_framebuffer, GLuint resolved_framebuffer, GLuint depth,
-                  const float *projection, const glssao_settings *settings, int width, int height)
+                  const float *projection, glssao_settings settings, int width, int height)
 {
     /* snippet: multisampled */
     /* `depth` is attached to resolved_framebuffer and has the format of the multisampled one. */
@@ -83,13 +97,13 @@ void multisampled(glssao_effect *effect, GLuint multisampled_framebuffer, GLuint
 
     glssao_frame frame = {.depth_texture = depth};
     memcpy(frame.projection, projection, sizeof frame.projection);
-    glssao_compute(effect, &frame, settings);
+    glssao_compute(effect, &frame, &settings);
     glssao_apply(effect, resolved_framebuffer);
     /* end */
 }
 
 void reversed(glssao_effect *effect, GLuint depth, float aspect, float focal, float near_plane,
-              const glssao_settings *settings)
+              glssao_settings settings)
 {
     /* snippet: reversed */
     /* Infinite and reversed: window depth is near / distance, so 1 at the near plane and 0 at infinity. */
@@ -98,27 +112,130 @@ void reversed(glssao_effect *effect, GLuint depth, float aspect, float focal, fl
     frame.projection[5] = focal;
     frame.projection[11] = -1.0f;
     frame.projection[14] = near_plane;
-    glssao_compute(effect, &frame, settings);
+    glssao_compute(effect, &frame, &settings);
     /* end */
 }
 
-void two_eyes(glssao_effect *effect, const eye eyes[2], const glssao_settings *settings)
+void two_eyes(glssao_effect *effect, const eye eyes[2], glssao_settings settings)
 {
     /* snippet: eyes */
     for (int i = 0; i < 2; ++i) { /* one effect serves all views of its size, one after the other */
         glssao_frame frame = {.depth_texture = eyes[i].depth};
         memcpy(frame.projection, eyes[i].projection, sizeof frame.projection); /* off-centre is fine */
-        if (glssao_compute(effect, &frame, settings) == GLSSAO_OK)
+        if (glssao_compute(effect, &frame, &settings) == GLSSAO_OK)
             glssao_apply(effect, eyes[i].framebuffer);
     }
     /* end */
 }
 
-void large_frames(glssao_settings *settings)
+glssao_settings large_frames(void)
 {
+    glssao_settings settings;
     /* snippet: cheaper */
-    *settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
-    settings->half_resolution = true; /* a quarter of the pixels */
-    settings->upsample = false;       /* and the half-size map for your own shader to filter */
+    settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
+    settings.half_resolution = true; /* a quarter of the pixels */
+    settings.upsample = false;       /* the map stays at half size; your shader's linear filter enlarges it */
     /* end */
+    return settings;
+}
+
+void logarithmic(glssao_effect *effect, GLuint depth, float far_plane, const float *projection,
+                 glssao_settings settings)
+{
+    /* snippet: logarithmic */
+    glssao_frame frame = {.depth_texture = depth,
+                          .depth_kind = GLSSAO_DEPTH_LOGARITHMIC,
+                          .log_depth_far = far_plane}; /* log_depth_constant: 1 unless you set it, as in three.js */
+    memcpy(frame.projection, projection, sizeof frame.projection);
+    glssao_compute(effect, &frame, &settings);
+    /* end */
+}
+
+void several_samples(glssao_effect *effect, GLuint multisampled_depth, const float *projection,
+                     glssao_settings settings)
+{
+    /* snippet: multisample textures */
+    glssao_frame frame = {.depth_texture = multisampled_depth, .multisample = true}; /* GL_TEXTURE_2D_MULTISAMPLE */
+    memcpy(frame.projection, projection, sizeof frame.projection);
+    glssao_compute(effect, &frame, &settings);
+    /* end */
+}
+
+void part_of_a_texture(glssao_effect *effect, GLuint depth, int x, int y, int width, int height,
+                       const float *projection, glssao_settings settings)
+{
+    /* snippet: viewport */
+    glssao_frame frame = {.depth_texture = depth,
+                          .viewport = {x, y, width, height}}; /* the effect is width by height */
+    memcpy(frame.projection, projection, sizeof frame.projection);
+    glssao_compute(effect, &frame, &settings);
+    /* end */
+}
+
+void beyond(glssao_effect *effect, GLuint depth, GLuint back, GLuint second, const float *wide_projection,
+            glssao_settings settings)
+{
+    /* snippet: beyond */
+    glssao_frame frame = {.depth_texture = depth,
+                          .margin = 64,              /* pixels on each side of the picture that `depth` also holds */
+                          .back_texture = back,      /* nearest back face at or behind the visible surface */
+                          .second_texture = second}; /* nearest front face behind the visible surface */
+    memcpy(frame.projection, wide_projection, sizeof frame.projection); /* of the picture with its margin */
+    glssao_compute(effect, &frame, &settings);
+    /* end */
+}
+
+double still_view(glssao_effect *effect, GLuint depth, const float *projection, glssao_settings settings,
+                  bool scene_changed)
+{
+    /* snippet: still view */
+    glssao_frame frame = {.depth_texture = depth};
+    memcpy(frame.projection, projection, sizeof frame.projection);
+    if (scene_changed)
+        glssao_restart_accumulation(effect); /* a new projection restarts by itself */
+    glssao_accumulate(effect, &frame, &settings);
+    double error = glssao_get_stats(effect).sampling_error; /* RMS accessibility; negative: not known yet */
+    /* end */
+    return error;
+}
+
+glssao_effect *ahead_of_time(glssao_config config, GLuint depth, const float *projection, glssao_settings settings)
+{
+    /* snippet: prepare */
+    config.program_cache = "cache/glssao"; /* an existing folder; compiled programs are kept in it */
+    glssao_effect *effect = NULL;
+    glssao_create(&config, &effect);
+    glssao_frame frame = {.depth_texture = depth};
+    memcpy(frame.projection, projection, sizeof frame.projection);
+    glssao_prepare(effect, &frame, &settings); /* compiles and allocates; draws nothing */
+    /* end */
+    return effect;
+}
+
+void print_costs(glssao_effect *effect, glssao_frame frame, glssao_settings settings)
+{
+    /* snippet: costs */
+    glssao_plan plan = glssao_plan_frame(effect, &frame, &settings);
+    glssao_stats stats = glssao_get_stats(effect); /* of an earlier frame: it never waits for the GPU */
+    for (int i = 0; i < GLSSAO_PASS_COUNT; ++i)
+        printf("%-12s %6.3f ms  %s\n", stats.passes[i].name, stats.passes[i].gpu_ms, plan.passes[i].reason);
+    /* end */
+}
+
+void night(glssao_effect *effect, glssao_frame frame, glssao_settings settings, bool has_ambient_light)
+{
+    /* snippet: nothing to do */
+    frame.no_ambient_light = !has_ambient_light; /* no pass runs, and the result is 1 everywhere */
+    glssao_compute(effect, &frame, &settings);
+    /* end */
+}
+
+glssao_effect *without_compute(glssao_config config)
+{
+    /* snippet: path */
+    config.path = GLSSAO_PATH_FRAGMENT; /* or GLSSAO_PATH_COMPUTE: glssao_create then fails where there are none */
+    glssao_effect *effect = NULL;
+    glssao_create(&config, &effect);
+    /* end */
+    return effect;
 }

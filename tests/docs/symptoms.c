@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * symptoms FOLDER: the pictures of the troubleshooting table in docs/integration.md, each made with the mistake that it
- * shows. Fails where a mistake does not show.
+ * symptoms FOLDER: makes the pictures of docs/troubleshooting.md, each with the mistake that it shows. Fails where a
+ * mistake does not show in its picture.
  */
 #include "analytic.h"
 #include "fixture.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Settings and frames, and the passes, draws, compilations and textures that each must cause and no more, counted at
+ * The passes, draws, compilations and textures that each kind of setting and frame must cause, and no more, counted at
  * the table of GL functions.
  */
 #include "analytic.h"
@@ -125,7 +125,7 @@ static const struct row {
     change_fn change;
     struct calls {
         const char *passes;
-        int draws, programs, textures; /* of the first frame; later ones make nothing */
+        int draws, programs, textures; /* of the first frame; later ones create nothing */
     } fragment, compute;               /* draws and dispatches together; no passes: the same */
 } rows[] = {
     {"horizon low", GLSSAO_HORIZON, GLSSAO_LOW, NULL, {"DEB", 5, 4, 3}, {"DEB", 3, 3, 3}},
@@ -148,7 +148,7 @@ static const struct row {
     {"only sky", GLSSAO_HEMISPHERE, GLSSAO_HIGH, only_sky, {"", 0, 0, 2}, {NULL, 0, 0, 0}},
 };
 
-/* Passes that compute shaders run: these of whichever run, where tiles are not asked for. */
+/* The passes that compute shaders run, of those that run at all, unless tiles are requested. */
 static bool is_dispatched(const struct row *row, const glssao_settings *settings, int pass)
 {
     if (settings->tiles == GLSSAO_TILES_ON)
@@ -163,7 +163,7 @@ static void check_row(fixture *f, const struct row *row, glssao_path path)
     glssao_effect *effect = counted_effect(f, path);
     const gl_counts made = gl_counter_take();
     assert_int_equal(made.draws, 0);
-    assert_int_equal(made.programs, 1); /* it tells how the driver lays out blocks */
+    assert_int_equal(made.programs, 1); /* shows how the driver lays out blocks */
     assert_int_equal(made.textures, 4); /* normals, two ambient maps, random vectors */
     glssao_frame frame = room_frame();
     glssao_frame changed = frame;
@@ -236,7 +236,7 @@ static void *gpu_load(const char *name, void *user)
     return found;
 }
 
-/* Sorting tiles pays where the processor rasterises, compute shaders where it does not. */
+/* Sorting tiles pays off on software rasterisers, compute shaders on GPUs. */
 static void tiles_and_path_depend_on_the_driver(void **state)
 {
     fixture *f = *state;
@@ -262,7 +262,7 @@ static void tiles_and_path_depend_on_the_driver(void **state)
     fixture_delete_frame(&frame);
 }
 
-/* After glssao_prepare a frame compiles and makes nothing, and preparing draws nothing. */
+/* After glssao_prepare a frame compiles and allocates nothing; preparing draws nothing. */
 static void prepared_frames_make_nothing(void **state)
 {
     glssao_effect *effect = counted_effect(*state, GLSSAO_PATH_AUTO);
@@ -298,11 +298,11 @@ static void make_masked(scene *s)
     s->materials[0].alpha = SCENE_ALPHA_MASK;
 }
 
-/* Scenes, and what glssao-render's first frame of each causes, its targets included. */
+/* Scenes, and what the first frame of glssao-render causes for each, its targets included. */
 static const struct scene_row {
     const char *what, *scene; /* "": no meshes at all */
     void (*change)(scene *s);
-    bool away;                             /* the eye looks up, past all there is */
+    bool away;                             /* the eye looks up, past every mesh */
     bool dark;                             /* no ambient light */
     int passes, draws, programs, textures; /* full-screen draws: the effect's and the sky; draw calls of meshes */
 } scene_rows[] = {
@@ -349,7 +349,7 @@ static void each_scene_causes_these_calls(void **state)
     fixture *f = *state;
     char error[1024] = "";
     gl_counter_start(fixture_load, f->context);
-    assert_true(gl_load(gl_counter_load, NULL, error, sizeof error)); /* the scene's calls, too */
+    assert_true(gl_load(gl_counter_load, NULL, error, sizeof error)); /* the scene's calls too */
     for (size_t i = 0; i < sizeof scene_rows / sizeof *scene_rows; ++i) {
         const struct scene_row *row = &scene_rows[i];
         const scene empty = {.name = ""};
@@ -367,7 +367,7 @@ static void each_scene_causes_these_calls(void **state)
     assert_true(gl_load(fixture_load, f->context, error, sizeof error));
 }
 
-/* How many pixels of the normal map the pre-pass of a frame has drawn; the floor's normals don't face the eye. */
+/* The number of normal-map pixels that the pre-pass of a frame drew; the floor's normals do not face the eye. */
 static int drawn_normals(fixture *f, const scene *s, bool wanted)
 {
     char error[1024] = "";
@@ -403,7 +403,8 @@ static void normals_are_drawn_where_they_are_read(void **state)
     scene_destroy(s);
 }
 
-/* A wall before the whole view: its sky is asked for once. Seen past it, it is drawn again. */
+/* A wall that fills the view hides the sky, which is then drawn once only. From farther away it is drawn every
+ * frame. */
 static void hidden_sky_is_not_drawn_again(void **state)
 {
     (void)state;
@@ -422,7 +423,7 @@ static void hidden_sky_is_not_drawn_again(void **state)
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
     camera near_wall = camera_frame_scene(s, (float)W / H), far_off = near_wall;
-    for (int k = 0; k < 3; ++k) /* close to what it looks at */
+    for (int k = 0; k < 3; ++k) /* close to its target */
         near_wall.eye[k] += 0.9f * (near_wall.target[k] - near_wall.eye[k]);
     camera_fit_planes(&near_wall, s);
     const camera cameras[] = {near_wall, near_wall, far_off, far_off, near_wall};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Tiles left out change nothing: with and without them the picture is the same within a step of R16, on every scene,
- * technique and quality; and they are left out where nothing can occlude.
+ * Skipping tiles changes nothing: with and without, the picture is the same within a step of R16, on every scene,
+ * technique and quality. Tiles are skipped where nothing can occlude.
  */
 #include "analytic.h"
 #include "camera.h"
@@ -16,7 +16,7 @@
 enum { W = 320, H = 192, TECHNIQUES = 3, QUALITIES = 4 };
 static const double STEP = 1.0 / 65535.0;
 
-/* Depth and normals of a scene lie in the effect's own map and in `depth`. */
+/* Depth and normals of a scene, in the effect's own map and in `depth`. */
 static glssao_frame draw_scene(glssao_effect *effect, const scene *s, const camera *c, GLuint depth)
 {
     char error[1024];
@@ -32,7 +32,7 @@ static glssao_frame draw_scene(glssao_effect *effect, const scene *s, const came
     return frame;
 }
 
-/* Share of the tiles that the last frame left out. */
+/* Share of the tiles that the last frame skipped. */
 static double left_out(const glssao_effect *effect)
 {
     int w, h, count = 0;
@@ -54,7 +54,7 @@ static void set_radius(glssao_settings *s, float radius)
         *lengths[i] *= scale;
 }
 
-/* Fails where a pixel is off by more than a step; returns the share of tiles left out. */
+/* Fails if a pixel differs by more than a step. Returns the share of tiles skipped. */
 static double assert_same_picture(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
                                   const char *what)
 {
@@ -80,7 +80,7 @@ static double assert_same_picture(glssao_effect *effect, const glssao_frame *fra
     return left_out(effect);
 }
 
-/* Techniques and qualities all, or one of them by turns. Returns the greatest share left out. */
+/* All techniques and qualities, or one of them in turn. Returns the greatest share skipped. */
 static double compare_scene(fixture *f, const scene *s, const camera *c, float radius, bool all, const char *name)
 {
     static int turn;
@@ -118,7 +118,8 @@ static void built_in_scenes_look_the_same(void **state)
     }
 }
 
-/* Their collection's views and radii. Where a file is heavy to draw in software, glssao-economy --check looks at it. */
+/* Views and radii from the collection of the scenes. glssao-economy --check covers files that are slow to draw in
+ * software. */
 static void shared_scenes_look_the_same(void **state)
 {
     static const struct {
@@ -188,7 +189,7 @@ static void every_projection_looks_the_same(void **state)
     }
 }
 
-/* The share of tiles that a technique leaves out of these shapes. */
+/* The share of tiles that a technique skips for these shapes. */
 static double share_of(fixture *f, const analytic_shape *shapes, int count, glssao_technique technique, float radius)
 {
     const glssao_frame frame = shapes_frame(PERSPECTIVE, shapes, count, 1.0);
@@ -209,7 +210,7 @@ static void sky_is_left_out(void **state)
         assert_true(share_of(*state, &nothing, 1, (glssao_technique)t, 0.5f) == 1.0);
 }
 
-/* All of it but the picture's edge, where samples are clamped. */
+/* Everything but the picture's edge, where samples are clamped. */
 static void a_plane_is_left_out(void **state)
 {
     const analytic_shape wall = {ANALYTIC_PLANE, {0, 0, -8}, {0.28, 0, 0.96}};
@@ -227,7 +228,7 @@ static void a_radius_under_half_a_pixel_is_left_out(void **state)
     assert_true(above > 0.5 && above < 1.0);
 }
 
-/* Classic: a step towards the eye of less than epsilon does not count, one of more does. */
+/* Classic: a step towards the eye of less than epsilon does not count; a larger one does. */
 static void range_within_epsilon_is_left_out(void **state)
 {
     analytic_shape walls[2] = {{ANALYTIC_PLANE, {0, 0, -8}, {0, 0, 1}}, {ANALYTIC_BOX, {0, 0, -8}, {1, 1, 0.04}}};
@@ -237,7 +238,7 @@ static void range_within_epsilon_is_left_out(void **state)
     assert_true(share > 0.0 && share < 1.0);
 }
 
-/* What rises from a plane takes the tiles in its reach along. */
+/* Whatever rises from a plane also needs the tiles in its reach estimated. */
 static void a_plane_near_an_occluder_is_estimated(void **state)
 {
     const analytic_shape shapes[2] = {{ANALYTIC_PLANE, {0, 0, -8}, {0, 0, 1}},
@@ -247,12 +248,12 @@ static void a_plane_near_an_occluder_is_estimated(void **state)
     assert_true(large > 0.0 && large < small && small < 1.0);
 }
 
-/* Bumps at several places within a tile, and a radius that ends near a tile's border: what blur and upsampling read
- * beside the tiles that are estimated is what an estimate leaves there. */
+/* Bumps at several places inside a tile, and a radius that ends near a tile's border. Where blur and upsampling read
+ * beyond the estimated tiles, they must find what an estimate would leave there. */
 static void tiles_beside_estimated_ones_look_the_same(void **state)
 {
     enum { BUMPS = 6, WIDE = 2 * W, HIGH = 2 * H };
-    const double tile = 0.755; /* scene units that a tile of the half-size estimate is wide */
+    const double tile = 0.755; /* width in scene units of a tile of the half-size estimate */
     static const struct {
         glssao_technique technique;
         glssao_quality quality;
@@ -260,7 +261,7 @@ static void tiles_beside_estimated_ones_look_the_same(void **state)
         float radius;
     } cases[] = {{GLSSAO_HORIZON, GLSSAO_LOW, 4, 0.72f},
                  {GLSSAO_HORIZON, GLSSAO_MEDIUM, 4, 0.72f},
-                 {GLSSAO_CLASSIC, GLSSAO_HIGH, 1, 0.13f}, /* whose offsets reach five times as far, past a tile */
+                 {GLSSAO_CLASSIC, GLSSAO_HIGH, 1, 0.13f}, /* its offsets reach five times as far, past a tile */
                  {GLSSAO_HEMISPHERE, GLSSAO_HIGH, 1, 0.72f}};
     analytic_shape shapes[BUMPS + 1] = {{ANALYTIC_PLANE, {0, 0, -8}, {0, 0, 1}}};
     for (int i = 0; i < BUMPS; ++i)
@@ -285,10 +286,10 @@ static void tiles_beside_estimated_ones_look_the_same(void **state)
 
 enum { IN_DEPTH = 1, IN_NORMALS = 2 };
 
-/* All tiles of 16 pixels but the picture's edge. */
+/* All tiles of 16 pixels except the picture's edge. */
 static const double INNER = (double)(W / 16 - 2) * (H / 16 - 2) / ((W / 16) * (H / 16));
 
-/* The share that horizon leaves out of a picture without perspective. */
+/* The share that horizon skips in an orthographic picture. */
 static double share_of_maps(fixture *f, const float *depth, const float *normals, float power)
 {
     const analytic_view view = analytic_make_view(ORTHOGRAPHIC, (double)W / H, 0.5, 40.0, 1.0);
@@ -306,8 +307,8 @@ static double share_of_maps(fixture *f, const float *depth, const float *normals
     return share;
 }
 
-/* Of two planes that meet in a valley along x or y, of that angle to the plane between them; in depth, in normals or in
- * both. */
+/* Two planes that meet in a valley along x or y, each at that angle to the plane between them; in depth, in normals or
+ * in both. */
 static double share_of_valley(fixture *f, double angle_rad, int axis, int where, float power)
 {
     analytic_shape planes[2] = {{ANALYTIC_PLANE, {0.1, 0.1, -8}, {0, 0, cos(angle_rad)}},
@@ -328,7 +329,7 @@ static double share_of_valley(fixture *f, double angle_rad, int axis, int where,
     return share;
 }
 
-/* What is flat but for two lines of pixels, off every tile's middle, is estimated there: along x or y. */
+/* A flat picture except for two lines of pixels away from every tile's middle, along x or y: they are estimated. */
 static void a_line_off_a_plane_is_estimated(void **state)
 {
     const analytic_shape flat = {ANALYTIC_PLANE, {0, 0, -8}, {0, 0, 1}};
@@ -351,12 +352,12 @@ static void a_line_off_a_plane_is_estimated(void **state)
         }
 }
 
-/* Up to the sine of docs/economy.md, over the power; beyond it the tiles along the bottom are estimated. */
+/* Up to the sine given in docs/economy.md, over the power; above it the tiles along the bottom are estimated. */
 static void a_plane_is_flat_to_0_0015(void **state)
 {
     for (int axis = 0; axis < 2; ++axis)
         for (int where = IN_DEPTH; where <= (IN_DEPTH | IN_NORMALS); ++where) {
-            /* Where normals bend, a tile's plane is one side's, which the other is twice as far off. */
+            /* Where normals bend, a tile's plane belongs to one side; the other is twice as far off. */
             const double half = where & IN_NORMALS ? 0.5 : 1;
             for (int power = 1; power <= 2; ++power) {
                 assert_true(share_of_valley(*state, 0.0013 * half / power, axis, where, (float)power) == INNER);

@@ -5,6 +5,15 @@
  *   ortho     an orthographic view
  *   reversed  glClipControl to 0..1, near plane at 1, infinitely far at 0
  *   range     glDepthRange(1, 0)
+ *   weapon    depth is cleared after the scene, and more is drawn with another projection
+ *   icon      a small picture in a corner, which sets more matrices than the scene
+ *   pick      the scene is drawn twice, first to read a pixel back
+ *   post      the scene in a framebuffer of its own, drawn into the window as a texture
+ *   resolve   the scene in a multisampled framebuffer, blitted to another, and that one into the window
+ *   zoom      from the 4th frame with another field of view
+ *   several   from the 4th frame in a framebuffer with two pictures, which is not followed
+ *   contexts  40 windows are opened and closed before
+ *   german    a locale with a decimal comma
  *   own       with the effect by glssao_compute, which is told the true matrix: what inject's should look like
  * Options as dropin's.
  */
@@ -13,6 +22,9 @@
 
 #include <cglm/cglm.h>
 #include <glssao/glssao.h>
+#include <locale.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define ZERO_TO_ONE 0x935F
@@ -58,27 +70,96 @@ static const char *const fragment_text =
     "in vec3 normal, color; out vec4 o_color;\n"
     "void main() { o_color = vec4(color * (0.6 + 0.4 * max(dot(normal, vec3(0.36, 0.8, 0.48)), 0.0)), 1.0); }\n";
 
-static GLuint make_program(bool buffer)
+static GLuint link_program(const char *const *vertex, int vertex_texts_count, const char *fragment)
 {
-    const char *const vertex[2] = {vertex_texts[buffer], rest_of_vertex_text};
     GLuint program = glCreateProgram();
     for (int i = 0; i < 2; ++i) {
         GLuint shader = glCreateShader(i == 0 ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER);
-        glShaderSource(shader, i == 0 ? 2 : 1, i == 0 ? vertex : &fragment_text, NULL);
+        glShaderSource(shader, i == 0 ? vertex_texts_count : 1, i == 0 ? vertex : &fragment, NULL);
         glCompileShader(shader);
         glAttachShader(program, shader);
     }
     glLinkProgram(program);
+    return program;
+}
+
+static GLuint make_program(bool buffer)
+{
+    const char *const vertex[2] = {vertex_texts[buffer], rest_of_vertex_text};
+    const GLuint program = link_program(vertex, 2, fragment_text);
     glUseProgram(program);
     return program;
 }
 
-static void make_projection(bool ortho, bool reversed, mat4 out)
+static GLuint make_show_program(void)
+{
+    static const char *const vertex = "#version 330\nvoid main() { gl_Position = vec4(vec2(gl_VertexID % 2, "
+                                      "gl_VertexID / 2) * 4.0 - 1.0, 0.0, 1.0); }\n";
+    return link_program(&vertex, 1,
+                        "#version 330\nuniform sampler2D picture; out vec4 o_color;\n"
+                        "void main() { o_color = texelFetch(picture, ivec2(gl_FragCoord.xy), 0); }\n");
+}
+
+/* ---- framebuffers of its own ---- */
+
+enum { WIDTH = 640, HEIGHT = 480 };
+
+typedef struct buffers {
+    GLuint scene, resolved; /* framebuffers; 0: the window, or none */
+    GLuint texture;         /* the scene's colours, where they are to be drawn */
+} buffers;
+
+static GLuint make_framebuffer(int samples, GLuint *out_texture)
+{
+    GLuint framebuffer, renderbuffers[2];
+    glGenFramebuffers(1, &framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glGenRenderbuffers(2, renderbuffers);
+    glBindRenderbuffer(GL_RENDERBUFFER, renderbuffers[0]);
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH24_STENCIL8, WIDTH, HEIGHT);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, renderbuffers[0]);
+    if (out_texture) {
+        glGenTextures(1, out_texture);
+        glBindTexture(GL_TEXTURE_2D, *out_texture);
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, WIDTH, HEIGHT, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *out_texture, 0);
+    } else {
+        glBindRenderbuffer(GL_RENDERBUFFER, renderbuffers[1]);
+        glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_RGBA8, WIDTH, HEIGHT);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, renderbuffers[1]);
+    }
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        exit(3);
+    return framebuffer;
+}
+
+/* Brings the scene's picture into the window. */
+static void show(const buffers *b, GLuint show_program)
+{
+    if (b->resolved) {
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, b->scene);
+        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, b->resolved);
+        glBlitFramebuffer(0, 0, WIDTH, HEIGHT, 0, 0, WIDTH, HEIGHT, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, b->resolved);
+        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+        glBlitFramebuffer(0, 0, WIDTH, HEIGHT, 0, 0, WIDTH, HEIGHT, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    } else if (b->texture) {
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        glDisable(GL_DEPTH_TEST);
+        glUseProgram(show_program);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+        glEnable(GL_DEPTH_TEST);
+    }
+}
+
+static void make_projection(bool ortho, bool reversed, float field, mat4 out)
 {
     if (ortho) {
         glm_ortho(-2.4f, 2.4f, -1.8f, 1.8f, 0.5f, 10.0f, out);
     } else {
-        glm_perspective(0.8f, 640.0f / 480.0f, 0.1f, 50.0f, out);
+        glm_perspective(field, 640.0f / 480.0f, 0.1f, 50.0f, out);
     }
     if (reversed) {
         out[2][2] = 0.0f;
@@ -100,16 +181,60 @@ static void write_block(mat4 clip_from_world, bool mapped)
     glUnmapBuffer(GL_UNIFORM_BUFFER);
 }
 
+/* The boxes once more by other matrices, each moved a little. */
+static void draw_more(GLuint program, float field, int copies)
+{
+    mat4 projection, matrix;
+    glm_perspective(field, 640.0f / 480.0f, 0.05f, 20.0f, projection);
+    for (int i = 0; i < copies; ++i) {
+        mat4 model;
+        glm_translate_make(model, (vec3){0.9f, -0.9f, -3.0f - 0.1f * (float)i});
+        glm_scale_uni(model, 0.15f);
+        glm_mat4_mul(projection, model, matrix);
+        glUniformMatrix4fv(glGetUniformLocation(program, "clip_from_world"), 1, GL_FALSE, matrix[0]);
+        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, 24);
+    }
+}
+
+static void add_second_picture(GLuint framebuffer)
+{
+    GLuint texture;
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glGenTextures(1, &texture);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, WIDTH, HEIGHT, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, texture, 0);
+    glDrawBuffers(2, (const GLenum[]){GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1});
+}
+
+static void open_and_close_windows(const dropin_options *o)
+{
+    for (int i = 0; i < 40; ++i) {
+        GLFWwindow *window = dropin_open_window("one of many", o);
+        glEnable(GL_DEPTH_TEST);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        glfwSwapBuffers(window);
+        glfwDestroyWindow(window);
+    }
+}
+
 int main(int argc, char **argv)
 {
     dropin_options o = dropin_read_options(argc, argv);
     const bool mapped = has(argc, argv, "mapped"), buffer = mapped || has(argc, argv, "ubo");
     const bool reversed = has(argc, argv, "reversed"), range = has(argc, argv, "range");
-    const bool own = has(argc, argv, "own");
+    const bool own = has(argc, argv, "own"), weapon = has(argc, argv, "weapon"), icon = has(argc, argv, "icon");
+    const bool pick = has(argc, argv, "pick"), post = has(argc, argv, "post"), resolve = has(argc, argv, "resolve");
+    if (has(argc, argv, "german") && !setlocale(LC_ALL, "de_DE.UTF-8")) {
+        fprintf(stderr, "there is no locale de_DE.UTF-8\n");
+        return 77;
+    }
+    if (has(argc, argv, "contexts"))
+        open_and_close_windows(&o);
     GLFWwindow *window = dropin_open_window("foreign", &o);
     GLuint vertex_array, block, program = make_program(buffer);
     mat4 projection, view, clip_from_world;
-    make_projection(has(argc, argv, "ortho"), reversed, projection);
+    make_projection(has(argc, argv, "ortho"), reversed, 0.8f, projection);
     glm_lookat((vec3){2.2f, 2.4f, 3.6f}, (vec3){0.0f, 0.4f, 0.0f}, (vec3){0.0f, 1.0f, 0.0f}, view);
     glm_mat4_mul(projection, view, clip_from_world);
     glGenVertexArrays(1, &vertex_array);
@@ -134,6 +259,13 @@ int main(int argc, char **argv)
         glDepthFunc(GL_GREATER);
     }
 
+    buffers b = {0};
+    const GLuint show_program = make_show_program();
+    if (post || resolve)
+        b.scene = make_framebuffer(resolve ? 4 : 0, post ? &b.texture : NULL);
+    if (resolve)
+        b.resolved = make_framebuffer(0, NULL);
+
     glssao_effect *effect = NULL;
     glssao_config config = {.load = find_function, .log = glssao_log_to_stderr, .width = 640, .height = 480};
     window_depth *depth = own ? window_depth_create(find_function, NULL) : NULL;
@@ -142,16 +274,33 @@ int main(int argc, char **argv)
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     settings.radius = 0.5f;
 
-    while (!o.ended && !glfwWindowShouldClose(window)) {
+    for (int number = 1; !o.ended && !glfwWindowShouldClose(window); ++number) {
+        if (number == 4 && has(argc, argv, "zoom")) {
+            make_projection(false, false, 0.4f, projection);
+            glm_mat4_mul(projection, view, clip_from_world);
+        }
+        if (number == 4 && has(argc, argv, "several")) {
+            b.scene = make_framebuffer(0, &b.texture);
+            add_second_picture(b.scene);
+            glBindTexture(GL_TEXTURE_2D, b.texture);
+        }
+        glUseProgram(program);
+        glBindFramebuffer(GL_FRAMEBUFFER, b.scene);
         if (buffer)
             write_block(clip_from_world, mapped);
         else
             glUniformMatrix4fv(glGetUniformLocation(program, "clip_from_world"), 1, GL_FALSE, clip_from_world[0]);
         glClearColor(0.3f, 0.4f, 0.6f, 1.0f);
+        if (pick) {
+            float pixel[4];
+            glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+            glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, 24);
+            glReadPixels(320, 240, 1, 1, GL_RGBA, GL_FLOAT, pixel);
+        }
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, 24);
         if (own) {
-            glssao_frame frame = {.depth_texture = window_depth_copy(depth, 0, 640, 480, NULL),
+            glssao_frame frame = {.depth_texture = window_depth_copy(depth, b.scene, WIDTH, HEIGHT, NULL),
                                   .clip_zero_to_one = reversed};
             memcpy(frame.projection, projection, sizeof frame.projection);
             if (range) { /* depth runs the other way round */
@@ -159,8 +308,18 @@ int main(int argc, char **argv)
                 frame.projection[14] = -frame.projection[14];
             }
             if (glssao_compute(effect, &frame, &settings) == GLSSAO_OK)
-                glssao_apply(effect, 0);
+                glssao_apply(effect, b.scene);
         }
+        if (weapon) {
+            glClear(GL_DEPTH_BUFFER_BIT);
+            draw_more(program, 1.2f, 1);
+        }
+        if (icon) {
+            glViewport(0, 0, 80, 60);
+            draw_more(program, 0.5f, 5);
+            glViewport(0, 0, WIDTH, HEIGHT);
+        }
+        show(&b, show_program);
         dropin_show(window, &o, 640, 480);
     }
     glssao_destroy(effect);

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # inject.sh LIBRARY CHECK FOLDER FOREIGN: the preload library in the dropin programs with their own effect off, under Xvfb: in the
 # fixed-function one, which draws into its window, and in the one that draws into a framebuffer of its own and blits it;
-# switched off by the environment and by a signal; in one that has its matrix in a uniform buffer, an orthographic view or
-# reversed depth, where the picture must be the one of a program that hands over its matrix itself; where no depth is to be had. Then in Debian's gears, and in an OpenGL ES
+# switched off by the environment and by a signal; in a program of ours that draws as many others do (foreign.c), where the
+# picture must be the one of a program that hands over its matrix itself. Then in Debian's gears, and in an OpenGL ES
 # program, which must run on and be told why nothing happens.
 set -euo pipefail
 library=$1 check=$2 folder=$3 foreign=$4
@@ -39,7 +39,7 @@ done
 # What is told wrongly is named, and not used.
 GLSSAO_INJECT_FOV=200 GLSSAO_INJECT_NEAR=0.1 GLSSAO_INJECT_FAR=50 GLSSAO_INJECT_POWER=65 GLSSAO_INJECT_QUALITY=best \
     inject wrong "$folder/dropin-legacy" --no-ao --frames 5
-for words in 'FOV=200 is no number from 1 to 179' 'a projection takes all of' 'POWER=65 is no number from 0 to 64' 'QUALITY=best is none of'; do
+for words in 'FOV=200 is not a number from 1 to 179' 'a projection takes all of' 'POWER=65 is not a number from 0 to 64' 'QUALITY=best is none of'; do
     grep -q "$words" log || fail "wrongly told: nothing says \"$words\""
 done
 cmp wrong-after.ppm legacy-after.ppm || fail "what was told wrongly is used"
@@ -67,6 +67,27 @@ for modes in "ubo ortho" "mapped reversed" range; do
     }
     "$check" --alike modes-after.ppm modes-before.ppm modes-own.ppm || fail "$modes: wrong picture"
 done
+# The effect is drawn before the frame ends, so the picture without it comes from a run that is switched off.
+for mode in weapon icon pick post resolve contexts; do
+    inject on "$foreign" $mode --frames 5
+    GLSSAO_INJECT_OFF=1 inject off "$foreign" $mode --frames 5
+    "$foreign" $mode own --frames 3 --picture own.ppm
+    "$check" --alike on-after.ppm off-after.ppm own.ppm || fail "$mode: wrong picture"
+done
+# Numbers are read and written with a point, whatever the program's locale.
+mkdir locales
+if localedef -i de_DE -f UTF-8 locales/de_DE.UTF-8 >/dev/null 2>&1; then
+    GLSSAO_INJECT_BEFORE=german-before.ppm GLSSAO_INJECT_PICTURE=german.ppm GLSSAO_INJECT_FRAME=3 LOCPATH=$PWD/locales \
+        LD_PRELOAD=$library "$foreign" german --frames 5 >log 2>&1 || fail "german: exit code $?"
+    grep -q 'on: .* field of view 45.8 degrees, near 0.1, .*radius 0.5$' log || fail "german: numbers are not read or written as such"
+else
+    echo "inject.sh: no localedef here: a decimal comma was not tried"
+fi
+# What was said is corrected when it no longer holds.
+LD_PRELOAD=$library "$foreign" zoom --frames 150 >log 2>&1 || fail "zoom: exit code $?"
+[ "$(grep -o 'field of view [0-9.]*' log | tr '\n' ,)" = 'field of view 45.8,field of view 22.9,' ] || fail "zoom: not told once each"
+LD_PRELOAD=$library "$foreign" several --frames 500 >log 2>&1 || fail "several: exit code $?"
+[ "$(grep -c 'glssao-inject: off: ' log)" = 1 ] || fail "several: not told that the effect is off"
 unset GLSSAO_INJECT_RADIUS
 
 for gears in glxgears eglgears_x11; do

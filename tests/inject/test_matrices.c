@@ -16,6 +16,21 @@
 
 typedef float matrix[16];
 
+static double now = 100.0; /* the clock of these tests */
+
+double inject_seconds(void)
+{
+    return now;
+}
+
+static char contexts[3]; /* stand for three contexts */
+
+/* A framebuffer of the first context. */
+static inject_place at(unsigned framebuffer)
+{
+    return (inject_place){&contexts[0], framebuffer};
+}
+
 static void multiply(const matrix a, const matrix b, matrix out)
 {
     for (int c = 0; c < 4; ++c)
@@ -179,9 +194,9 @@ static void matrices_in_a_uniform_buffer_are_found(void **state)
         block.row_major[i] = product[4 * (i % 4) + i / 4];
     inject_end_frame();
     inject_note_buffer(&block, sizeof block);
-    assert_true(inject_get_projection(0, &found));
+    assert_true(inject_get_projection(at(0), &found));
     assert_alike(p, found.matrix);
-    assert_true(inject_get_projection(7, &found)); /* whichever framebuffer is drawn with it */
+    assert_true(inject_get_projection(at(7), &found)); /* whichever framebuffer is drawn with it */
     inject_end_frame();
 }
 
@@ -194,14 +209,14 @@ static void perspective_goes_before_orthographic(void **state)
     orthographic(4.0f, 3.0f, 20.0f, false, false, box);
     inject_end_frame();
     for (int i = 0; i < 3; ++i)
-        inject_note_matrix(box, 0);
-    inject_note_matrix(p, 0);
-    assert_true(inject_get_projection(0, &found));
+        inject_note_matrix(box, at(0));
+    inject_note_matrix(p, at(0));
+    assert_true(inject_get_projection(at(0), &found));
     assert_alike(p, found.matrix);
-    for (int frame = 0; frame < 70; ++frame) { /* the scene's matrices stay, the interface's are set: for a second */
+    for (int frame = 0; frame < 70; ++frame) { /* the scene's matrices stay, the interface's are set */
         inject_end_frame();
-        inject_note_matrix(box, 0);
-        assert_true(inject_get_projection(0, &found));
+        inject_note_matrix(box, at(0));
+        assert_true(inject_get_projection(at(0), &found));
         assert_alike(frame < 60 ? p : box, found.matrix);
     }
     inject_end_frame();
@@ -212,21 +227,21 @@ static void the_projection_of_most_matrices_is_taken_and_kept(void **state)
     (void)state;
     matrix rare, usual;
     inject_projection found;
-    assert_false(inject_get_projection(0, &found));
+    assert_false(inject_get_projection(at(0), &found));
     frustum(0.0f, 0.1f, 10.0f, rare);
     frustum(0.0f, 0.5f, 60.0f, usual);
-    inject_note_matrix(rare, 0);
+    inject_note_matrix(rare, at(0));
     for (int i = 0; i < 3; ++i) {
         matrix v, product;
         model_view(1.0f + (float)i, 1.0f + (float)i, 1.0f + (float)i, v);
         multiply(usual, v, product);
-        inject_note_matrix(product, 0);
+        inject_note_matrix(product, at(0));
     }
-    assert_true(inject_get_projection(0, &found));
+    assert_true(inject_get_projection(at(0), &found));
     assert_alike(usual, found.matrix);
     inject_end_frame();
     memset(&found, 0, sizeof found);
-    assert_true(inject_get_projection(0, &found)); /* a frame that sets none */
+    assert_true(inject_get_projection(at(0), &found)); /* a frame that sets none */
     assert_alike(usual, found.matrix);
 }
 
@@ -238,16 +253,82 @@ static void each_framebuffer_has_its_own(void **state)
     frustum(0.0f, 0.1f, 10.0f, in_7);
     frustum(0.0f, 0.5f, 60.0f, in_window);
     inject_end_frame();
-    inject_note_matrix(in_7, 7);
-    inject_note_matrix(in_7, 7);
-    assert_false(inject_get_projection(0, &found)); /* the window's of old would be a guess here */
-    inject_note_matrix(in_window, 0);
-    assert_true(inject_get_projection(0, &found));
+    inject_note_matrix(in_7, at(7));
+    inject_note_matrix(in_7, at(7));
+    assert_false(inject_get_projection(at(0), &found)); /* the window's of old would be a guess here */
+    inject_note_matrix(in_window, at(0));
+    assert_true(inject_get_projection(at(0), &found));
     assert_alike(in_window, found.matrix);
-    assert_true(inject_get_projection(7, &found));
+    assert_true(inject_get_projection(at(7), &found));
     assert_alike(in_7, found.matrix);
     inject_end_frame();
-    assert_false(inject_get_projection(7, &found)); /* nothing of old, where nothing was drawn anew */
+    assert_false(inject_get_projection(at(7), &found)); /* nothing of old, where nothing was drawn anew */
+}
+
+/* A program that draws on demand draws few frames, but seconds pass. */
+static void orthographic_takes_over_after_a_second(void **state)
+{
+    (void)state;
+    matrix p, box;
+    inject_projection found;
+    frustum(0.0f, 0.5f, 60.0f, p);
+    orthographic(4.0f, 3.0f, 20.0f, false, false, box);
+    inject_end_frame();
+    inject_note_matrix(p, at(0));
+    assert_true(inject_get_projection(at(0), &found));
+    inject_end_frame();
+    inject_note_matrix(box, at(0));
+    now += 0.5;
+    assert_true(inject_get_projection(at(0), &found));
+    assert_alike(p, found.matrix);
+    now += 0.6;
+    assert_true(inject_get_projection(at(0), &found));
+    assert_alike(box, found.matrix);
+    inject_end_frame();
+}
+
+/* An icon in a corner sets more matrices than the scene. */
+static void the_projection_of_most_depth_goes_before_that_of_most_matrices(void **state)
+{
+    (void)state;
+    matrix icon, scene;
+    inject_projection found;
+    frustum(0.0f, 0.1f, 10.0f, icon);
+    frustum(0.0f, 0.5f, 60.0f, scene);
+    inject_end_frame();
+    inject_note_matrix(scene, at(0));
+    inject_note_draw(at(0), 1.0f);
+    for (int i = 0; i < 5; ++i) {
+        inject_note_matrix(icon, at(0));
+        inject_note_draw(at(0), 0.02f);
+    }
+    assert_true(inject_get_projection(at(0), &found));
+    assert_alike(scene, found.matrix);
+    inject_end_frame();
+}
+
+/* A window's projection is its context's, and goes with it. */
+static void contexts_do_not_mix(void **state)
+{
+    (void)state;
+    matrix first, second;
+    inject_projection found;
+    const inject_place other = {&contexts[1], 0}, third = {&contexts[2], 0};
+    frustum(0.0f, 0.1f, 10.0f, first);
+    frustum(0.0f, 0.5f, 60.0f, second);
+    inject_end_frame();
+    inject_note_matrix(first, at(0));
+    inject_note_matrix(second, other);
+    assert_true(inject_get_projection(at(0), &found));
+    assert_alike(first, found.matrix);
+    assert_true(inject_get_projection(other, &found));
+    assert_alike(second, found.matrix);
+    assert_false(inject_get_projection(third, &found));
+    inject_end_frame();
+    assert_true(inject_get_projection(other, &found));
+    inject_forget_projections(&contexts[1]);
+    assert_false(inject_get_projection(other, &found)); /* another context may have that address now */
+    assert_true(inject_get_projection(at(0), &found));
 }
 
 int main(void)
@@ -263,6 +344,9 @@ int main(void)
         cmocka_unit_test(each_framebuffer_has_its_own),
         cmocka_unit_test(matrices_in_a_uniform_buffer_are_found),
         cmocka_unit_test(perspective_goes_before_orthographic),
+        cmocka_unit_test(orthographic_takes_over_after_a_second),
+        cmocka_unit_test(the_projection_of_most_depth_goes_before_that_of_most_matrices),
+        cmocka_unit_test(contexts_do_not_mix),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

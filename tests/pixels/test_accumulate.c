@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * glssao_accumulate: the error of its mean falls with the number of estimates, and what it says of it is so.
+ * glssao_accumulate: the error of its mean falls with the number of estimates, and the error that it reports is true.
  */
 #include "analytic.h"
 #include "fixture.h"
@@ -64,7 +64,7 @@ static glssao_stats stats(const setup *s)
     return glssao_get_stats(s->effect);
 }
 
-/* Over surfaces alone: sky is 1 in both. */
+/* Over surfaces alone; sky is 1 in both. */
 static double rms(const setup *s, const float *a, const float *b)
 {
     float *depth = fixture_read_depth(s->frame.depth_texture, W, H);
@@ -81,7 +81,7 @@ static double rms(const setup *s, const float *a, const float *b)
 }
 
 /* Against the mean of many estimates with other noise. Measured with eight seeds: 0.050, 0.010, 0.0045 and 0.0018 after
- * 4, 16, 64 and 256 estimates, and what was told was 0.93 to 1.19 of it. */
+ * 4, 16, 64 and 256 estimates; the reported error was 0.93 to 1.19 of the true one. */
 static void error_falls_and_is_told(void **state)
 {
     setup reference = make(*state, 1), s = make(*state, 2);
@@ -126,14 +126,14 @@ static void same_seed_same_bits(void **state)
     delete (&c);
 }
 
-/* What starts the mean anew, and what does not. */
+/* What restarts the mean, and what does not. */
 static void another_view_starts_anew(void **state)
 {
     setup s = make(*state, 3);
     accumulate(&s, 1);
     float *first = result(&s);
     accumulate(&s, 2);
-    s.settings.power = 2.0f; /* the mean is raised, not the estimates */
+    s.settings.power = 2.0f; /* the exponent applies to the mean, not to each estimate */
     accumulate(&s, 1);
     assert_int_equal(stats(&s).estimates, 4);
     s.settings.power = 1.0f;
@@ -155,13 +155,13 @@ static void another_view_starts_anew(void **state)
     assert_int_equal(stats(&s).estimates, 0);
     accumulate(&s, 1);
     float *again = result(&s);
-    assert_true(rms(&s, first, again) < 1e-4); /* the projection came back but for rounding */
+    assert_true(rms(&s, first, again) < 1e-4); /* the projection is the same again, except for rounding */
     free(first);
     free(again);
     delete (&s);
 }
 
-/* Of a few estimates the tile's noise is blurred away; of many nothing is left to blur. */
+/* A few estimates need a blur to remove the tile's noise; many leave nothing to blur. */
 static void blur_serves_the_first(void **state)
 {
     setup reference = make(*state, 1), s = make(*state, 2), blurred = make(*state, 2);
@@ -198,7 +198,7 @@ static void refuses_and_skips(void **state)
     assert_int_equal(glssao_accumulate(NULL, &s.frame, &s.settings), GLSSAO_INVALID_ARGUMENT);
     glssao_restart_accumulation(NULL);
     fixture_clear_log(f);
-    assert_int_equal(stats(&s).estimates, 2); /* nothing was half changed */
+    assert_int_equal(stats(&s).estimates, 2); /* nothing is half changed */
     s.settings.radius = 0.0f;
     accumulate(&s, 1);
     assert_int_equal(stats(&s).draw_calls, 0);

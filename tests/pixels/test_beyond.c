@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * What lies beyond the one layer of the picture: the margin around it, and the second layer behind it.
+ * Occluders outside the single layer of the picture: the margin around it, and the second layer behind it.
  */
 #include "analytic.h"
 #include "fixture.h"
@@ -12,12 +12,12 @@
 enum {
     W = 96,
     H = 64,
-    MARGIN = 30 /* no multiple of the tiles of noise */,
+    MARGIN = 30 /* not a multiple of the noise tiles' size */,
     WIDE = W + 2 * MARGIN,
     HIGH = H + 2 * MARGIN
 };
 
-/* The room; `margin` pixels more on each side, under a projection that shows the middle alike. */
+/* The room, with `margin` more pixels on each side, under a projection that shows the middle unchanged. */
 static glssao_frame make_frame(int margin, float **out_depth)
 {
     const int width = W + 2 * margin, height = H + 2 * margin;
@@ -48,7 +48,7 @@ static void delete_frame(glssao_frame *frame)
 
 static const glssao_technique techniques[] = {GLSSAO_CLASSIC, GLSSAO_HEMISPHERE, GLSSAO_HORIZON};
 
-/* With a margin the result is the middle of what comes out for the whole: cutting passes short changes no pixel. */
+/* With a margin, the result is the middle of the whole picture's result: drawing less changes no pixel. */
 static void margin_is_cut_off(void **state)
 {
     for (int i = 0; i < 3; ++i)
@@ -86,7 +86,7 @@ static void margin_is_cut_off(void **state)
         }
 }
 
-/* A floor whose wall stands just outside of the picture: only the margin shows what darkens it. */
+/* A floor whose wall stands just outside the picture: only the margin shows the occluder. */
 static void margin_finds_occluders_beyond_the_edge(void **state)
 {
     double darkened[2];
@@ -122,7 +122,7 @@ static void margin_finds_occluders_beyond_the_edge(void **state)
     assert_true(darkened[1] > 0.25); /* exact: 0.40; the radius is eight pixels here. Measured: 0.295 */
 }
 
-/* What a plate of another thickness takes from the plane behind it, where nothing but a second layer can tell. */
+/* Occlusion of the plane behind a plate of varying thickness, which only a second layer can tell. */
 static double behind_a_plate(fixture *f, double thickness, bool layers, double sheet_behind)
 {
     analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
@@ -138,7 +138,7 @@ static double behind_a_plate(fixture *f, double thickness, bool layers, double s
     free(spare);
     for (int i = 0; i < W * H; ++i)
         if (normals[3 * i + 2] < 0.99f || depth[i] >= back[i])
-            back[i] = second[i] = 1.0f; /* the plane behind has neither */
+            back[i] = second[i] = 1.0f; /* the plane behind has neither layer */
     glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, depth),
                           .normal_texture = fixture_normal_texture(W, H, normals)};
     if (layers) {
@@ -181,9 +181,9 @@ static void thickness_is_read(void **state)
     const double seconded = behind_a_plate(*state, 0.05, true, 0.2);
     print_message("occlusion beside a plate: thin %.3f, thick %.3f; guessed %.3f, %.3f; second surface %.3f\n", thin,
                   thick, guess_thin, guess_thick, seconded);
-    assert_true(fabs(guess_thin - guess_thick) < 0.02); /* from the front both look alike */
+    assert_true(fabs(guess_thin - guess_thick) < 0.02); /* seen from the front, both look the same */
     assert_true(thick > thin + 0.05);
-    assert_true(seconded > thin + 0.02); /* what stands behind the plate occludes too */
+    assert_true(seconded > thin + 0.02); /* surfaces behind the plate occlude too */
 }
 
 static void refuses_what_it_cannot_use(void **state)
@@ -214,7 +214,7 @@ static void refuses_what_it_cannot_use(void **state)
     glssao_destroy(effect);
 }
 
-/* The margin of the frame before is none of the new size's: glssao_apply would draw less than nothing. */
+/* The last frame's margin does not apply to the new size; glssao_apply would draw a negative area. */
 static void resize_forgets_the_margin(void **state)
 {
     glssao_effect *effect = fixture_effect(*state, WIDE, HIGH);
@@ -229,7 +229,7 @@ static void resize_forgets_the_margin(void **state)
     gl.GenFramebuffers(1, &framebuffer);
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
-    assert_int_equal(glssao_apply(effect, framebuffer), GLSSAO_OK); /* the teardown looks for OpenGL errors */
+    assert_int_equal(glssao_apply(effect, framebuffer), GLSSAO_OK); /* the teardown checks for OpenGL errors */
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     gl.DeleteFramebuffers(1, &framebuffer);
     gl.DeleteTextures(1, &color);
@@ -237,7 +237,7 @@ static void resize_forgets_the_margin(void **state)
     delete_frame(&frame);
 }
 
-/* The mean of a frame with a margin, and that it ends at the mean of the frame without where nothing lies beyond. */
+/* The mean of a frame with a margin. Where nothing lies outside the picture, it converges to the mean without one. */
 static void accumulation_keeps_the_margin(void **state)
 {
     glssao_effect *effect = fixture_effect(*state, WIDE, HIGH), *wide_effect = fixture_effect(*state, WIDE, HIGH);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * The scene's draw passes, pixel by pixel: normals of every kind of instance, which triangles are seen, and that the
- * main pass covers what the pre-pass covered.
+ * The scene's draw passes, pixel by pixel: normals of every kind of instance, which triangles are visible, and that
+ * the main pass covers exactly what the pre-pass covered.
  */
 #include "camera.h"
 #include "draw.h"
@@ -19,7 +19,7 @@ static void normals_are_in_view_space(void **state)
 {
     (void)state;
     small_scene *s = frame_one_quad(small_scene_material(), NULL);
-    /* From the right and above: the quad's +z is then neither axis of view space. */
+    /* From the right and above, so that the quad's +z is no axis of view space. */
     camera c = {.eye = {2, 1, 2}, .up = {0, 1, 0}, .fov_y_rad = 0.6f, .near_plane = 1, .far_plane = 9};
     const scene_view view = camera_view(&c, FRAME_SIZE, FRAME_SIZE);
     const scene_lighting lighting = scene_default_lighting();
@@ -86,7 +86,7 @@ static void normals_of_zero_length_face_the_viewer(void **state)
     free(s);
 }
 
-/* ---- which triangles are seen --------------------------------------------------------------------------- */
+/* ---- which triangles are visible ------------------------------------------------------------------------ */
 
 static const float mirrored[16] = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 static const float turned_round[16] = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
@@ -142,7 +142,7 @@ static void mixed_instances_of_a_mesh_are_all_drawn(void **state)
     assert_int_equal(frame_count_drawn_by(s), 16 * (FRAME_SIZE / 16) * (FRAME_SIZE / 16));
 }
 
-/* Every variant of material, instances of all kinds, perspective: the main pass finds the pre-pass's depth. */
+/* Every material variant and instances of all kinds, in perspective: the main pass matches the pre-pass's depth. */
 static void depth_equal_covers_what_the_prepass_covered(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Shadows, normal maps, the sky, and that each is there only where the scene calls for it.
+ * Shadows, normal maps and the sky, and that each runs only if the scene needs it.
  */
 #include "camera.h"
 #include "draw.h"
@@ -30,7 +30,7 @@ static small_scene *floor_and_roof(scene_material roof)
     return s;
 }
 
-/* Light that travels to the right by as much as it goes down: the roof's shadow lies 0.5 to the right. */
+/* Light that travels as far right as it goes down: the roof's shadow lies 0.5 to the right. */
 static const scene_lighting aslant = {
     .ambient = {0.25f, 0.25f, 0.25f}, .direction_world = {0.70710678f, 0, -0.70710678f}, .directional = {2, 2, 2}};
 
@@ -73,7 +73,7 @@ static void holes_and_blended_cast_no_shadow(void **state)
     }
 }
 
-/* Whatever the light's angle, a surface on its own is lit all over: no speckles, no bands, no dark rim. */
+/* At any angle of the light, a lone surface is lit everywhere: no speckles, bands or dark rim. */
 static void smooth_surfaces_alone_do_not_shadow_themselves(void **state)
 {
     (void)state;
@@ -130,7 +130,7 @@ static void normal_map_bends_normals_in_the_tangent_frame(void **state)
         }
         frame_free(&f);
         f = frame_draw_with(s, &frame_front, &lighting, &(scene_draw_options){0}, 0);
-        assert_float_equal(f.normals[4 * FRAME_MIDDLE + 2], 1, 1e-6f); /* by default the mesh's own */
+        assert_float_equal(f.normals[4 * FRAME_MIDDLE + 2], 1, 1e-6f); /* the mesh's own by default */
         frame_free(&f);
         free(s);
     }
@@ -181,11 +181,11 @@ static void outside_the_view_nothing_is_drawn(void **state)
 {
     (void)state;
     small_scene *s = small_scene_create();
-    for (int k = 0; k < 9; k++) { /* the middle one is in the picture; the two next to it reach in by a corner */
+    for (int k = 0; k < 9; k++) { /* the middle one is inside the picture; its two neighbours reach in by a corner */
         const float m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1.4f * (float)(k - 4), 0, 0, 1};
         frame_add_quad(s, small_scene_material(), m);
     }
-    /* All its corners are outside, and it fills the picture. */
+    /* All its corners are outside the picture, and it fills the picture. */
     const float large[16] = {10, 0, 0, 0, 0, 10, 0, 0, 0, 0, 1, 0, 0, 0, -0.5f, 1};
     frame_add_quad(s, small_scene_material(), large);
     const scene_lighting lighting = scene_default_lighting();
@@ -217,7 +217,7 @@ static void effects_are_there_only_where_called_for(void **state)
     scene_renderer *r = scene_renderer_create(&s->scene, error, sizeof error);
     scene_lighting lighting = {.ambient = {1, 1, 1}, .direction_world = {0, -1, 0}};
     scene_effect effects[SCENE_EFFECT_COUNT];
-    assert_true(scene_renderer_configure(r, &lighting, &shadowed, error, sizeof error)); /* no light that casts */
+    assert_true(scene_renderer_configure(r, &lighting, &shadowed, error, sizeof error)); /* no light casts a shadow */
     scene_renderer_effects(r, &lighting, effects);
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         assert_false(uses(effects, names[i]));
@@ -231,7 +231,7 @@ static void effects_are_there_only_where_called_for(void **state)
     assert_int_equal(size, 512);
     scene_renderer_destroy(r);
 
-    /* All unlit: nothing receives. */
+    /* All unlit: nothing receives shadows. */
     s->materials[0].unlit = true;
     r = scene_renderer_create(&s->scene, error, sizeof error);
     assert_true(scene_renderer_configure(r, &lighting, &shadowed, error, sizeof error));
@@ -240,8 +240,8 @@ static void effects_are_there_only_where_called_for(void **state)
     free(s);
 }
 
-/* What the scene does not call for changes nothing where it is there: the picture that an unconditional renderer takes
- * longer for is the same. */
+/* An effect that the scene does not need changes no pixel: a renderer with every effect on takes longer and draws the
+ * same picture. */
 static void everything_on_shows_the_same(void **state)
 {
     (void)state;
@@ -252,7 +252,7 @@ static void everything_on_shows_the_same(void **state)
         material.metallic_roughness = true;
         material.roughness = 0.5f;
         material.base_color_texture = k == 1 ? small_scene_add_texture(s, 1, 1, texel) : -1;
-        material.base_color[3] = 0.2f; /* below the cut-off that an alpha test would have */
+        material.base_color[3] = 0.2f; /* below the cut-off of an alpha test */
         const float m[16] = {0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, k == 2 ? 9 : 0.6f * (float)k, 0, 0, 1};
         frame_add_quad(s, material, m);
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Light on a surface: the environment, reflections against a plain C model, punctual lights.
+ * Light on a surface: the environment, reflections compared with a plain C model, punctual lights.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "camera.h"
@@ -25,7 +25,7 @@ static void set_normals(small_scene *s, double x, double y, double z)
     }
 }
 
-/* Colour of the middle of the quad, linear; the frame's 8 bits resolve about 0.01 of it. */
+/* Linear colour at the middle of the quad; 8 bits resolve about 0.01 of it. */
 static void middle_color(small_scene *s, const scene_lighting *lighting, double out[3])
 {
     frame f = frame_draw_with(s, &frame_front, lighting, &(scene_draw_options){0}, 0);
@@ -76,7 +76,7 @@ static void gradient_lights_as_its_integral_says(void **state)
 /* glTF 2.0, appendix B, in double precision. */
 static double reflection_model(double base, double metallic, double roughness, double cos_eye, double angle)
 {
-    /* Eye along z; normal turned from it by acos(cos_eye) towards x, light by `angle` from the eye the same way. */
+    /* Eye along z. The normal is turned from it by acos(cos_eye) towards x, and the light by `angle` the same way. */
     const double n[2] = {sqrt(1 - cos_eye * cos_eye), cos_eye}, l[2] = {sin(angle), cos(angle)};
     const double h_length = hypot(l[0], l[1] + 1), h[2] = {l[0] / h_length, (l[1] + 1) / h_length};
     const double nl = n[0] * l[0] + n[1] * l[1], nh = n[0] * h[0] + n[1] * h[1], vh = h[1];
@@ -112,7 +112,7 @@ static void reflection_is_that_of_the_model(void **state)
             const double wanted = irradiance * reflection_model(base, (double)material.metallic,
                                                                 (double)material.roughness, cos_eye, angles[i]);
             middle_color(s, &lighting, got);
-            if (wanted < 0.98) { /* the frame holds no more than 1 */
+            if (wanted < 0.98) { /* the frame stores at most 1 */
                 compared++;
                 assert_near(got[0], wanted, 0.005 + 0.01 * wanted, "reflected");
             }
@@ -122,7 +122,7 @@ static void reflection_is_that_of_the_model(void **state)
     assert_true(compared > 60);
 }
 
-/* In light that comes evenly from everywhere, no surface sends out more than it gets. */
+/* In uniform light from all directions, no surface sends out more than it receives. */
 static void nothing_is_brighter_than_its_surroundings(void **state)
 {
     (void)state;
@@ -137,7 +137,7 @@ static void nothing_is_brighter_than_its_surroundings(void **state)
         set_normals(s, sqrt(1 - cos_eye * cos_eye), 0, cos_eye);
         double got[3];
         middle_color(s, &lighting, got);
-        /* A matte white with a clear coat adds the coat's share, as glTF's mix would take it away. */
+        /* A matte white surface with a clear coat gains the coat's share, where glTF's mix would remove it. */
         const double most = material.metallic > 0 ? 0.8 : 0.8 * 1.25;
         if (!(got[0] < most + 0.02 && got[0] > 0.45 * 0.8))
             fail_msg("metallic %g, roughness %g, cosine %g: %g of 0.8", (double)material.metallic,
@@ -152,7 +152,7 @@ static void punctual_lights_fall_off_as_the_extension_says(void **state)
     const float candela = 2;
     const struct {
         scene_light light;
-        double wanted; /* irradiance / pi on the middle of the quad, which faces +z */
+        double wanted; /* irradiance / pi at the middle of the quad, which faces +z */
         const char *what;
     } cases[] = {
         {{.kind = SCENE_LIGHT_POINT, .position_world = {0, 0, 1}}, 2 / pi, "point"},
@@ -175,7 +175,7 @@ static void punctual_lights_fall_off_as_the_extension_says(void **state)
           .inner_cos = 0.9f,
           .outer_cos = 0.7f},
          0.1896,
-         "half way out of it"}, /* 0.1592 in the very middle, 1/64 away */
+         "half way out of it"}, /* 0.1592 at the exact middle, 1/64 away */
         {{.kind = SCENE_LIGHT_SPOT,
           .position_world = {0, 0, 1},
           .direction_world = {0.8f, 0, -0.6f},
@@ -191,7 +191,7 @@ static void punctual_lights_fall_off_as_the_extension_says(void **state)
         const scene_lighting lighting = {.direction_world = {0, -1, 0}, .lights = &light, .light_count = 1};
         double got[3];
         middle_color(s, &lighting, got);
-        assert_near(got[0], cases[i].wanted, 0.012, cases[i].what); /* the middle pixel is beside the very middle */
+        assert_near(got[0], cases[i].wanted, 0.012, cases[i].what); /* the middle pixel lies beside the exact middle */
     }
     free(s);
 }
@@ -213,10 +213,10 @@ static void lights_of_the_scene_take_the_suns_place(void **state)
     l = scene_lighting_of(&s->scene, rest);
     assert_int_equal(l.light_count, 2);
     assert_float_equal(l.direction_world[0], 1, 0);
-    assert_float_equal(l.directional[0], (float)pi, 1e-5); /* dimmed from 100, and the rest alike */
+    assert_float_equal(l.directional[0], (float)pi, 1e-5); /* dimmed from 100; the others by the same factor */
     assert_float_equal(l.directional[1], (float)pi / 2, 1e-5);
     assert_float_equal(l.lights[1].color[0], (float)pi / 100, 1e-5);
-    lights[1].color[0] = lights[1].color[1] = 2; /* none too bright: as they are */
+    lights[1].color[0] = lights[1].color[1] = 2; /* none is too bright, so none changes */
     l = scene_lighting_of(&s->scene, rest);
     assert_float_equal(l.directional[0], 2, 0);
     assert_float_equal(l.lights[1].color[0], 1, 0);
@@ -229,7 +229,7 @@ static scene_environment *load_gradients(bool black)
     enum { WIDTH = 256, HEIGHT = WIDTH / 2 };
     char path[64], error[256];
     snprintf(path, sizeof path, "test_draw_light-%ld.hdr",
-             (long)getpid()); /* the other context's test runs beside it */
+             (long)getpid()); /* the test of the other context runs at the same time */
     FILE *file = fopen(path, "wb");
     assert_non_null(file);
     fprintf(file, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n", HEIGHT, WIDTH);
@@ -237,7 +237,7 @@ static scene_environment *load_gradients(bool black)
         for (int x = 0; x < WIDTH; x++) {
             const double turn = 2 * pi * ((x + 0.5) / WIDTH - 0.5), down = pi * (y + 0.5) / HEIGHT;
             const double direction[3] = {sin(down) * sin(turn), cos(down), -sin(down) * cos(turn)};
-            for (int k = 0; k < 3; k++) /* the exponent makes 256 of 1 */
+            for (int k = 0; k < 3; k++) /* the exponent makes 256 represent 1 */
                 fputc((int)(256 * (0.5 + 0.4 * direction[k]) + 0.5), file);
             fputc(black ? 0 : 128, file);
         }
@@ -258,12 +258,12 @@ static void assert_gradients(const uint8_t color[4], const double direction[3], 
     }
 }
 
-/* Seen from several sides: sky, matte surface and mirror show the world's directions, not the view's. */
+/* Seen from several sides, sky, matte surface and mirror show directions of the world, not of the view. */
 static void a_picture_surrounds_the_scene(void **state)
 {
     (void)state;
-    /* What is left of a gradient; and Karis's fit for metal, which at roughness 0 is 1 head-on and at 1 the same all
-     * over: see main.frag. A lobe of roughness 1 leaves what test_environment.c works out. */
+    /* What remains of a gradient, and Karis's fit for metal, which is 1 head-on at roughness 0 and the same in all
+     * directions at 1; see main.frag. test_environment.c computes what a lobe of roughness 1 leaves. */
     static const struct {
         const char *what;
         bool metal;
@@ -297,7 +297,7 @@ static void a_picture_surrounds_the_scene(void **state)
                 mirrored[k] = 2 * facing * n[k] - eye[k] / away;
             assert_gradients(f.color[FRAME_MIDDLE], surfaces[i].metal ? mirrored : n, surfaces[i].share,
                              surfaces[i].scale, surfaces[i].what);
-            /* The lower left corner's direction in the view, (-side, -side, -1), brought to the world. */
+            /* The direction of the lower left corner in view space, (-side, -side, -1), rotated to the world. */
             const float *m = view.view_from_world;
             const double side = 1 - 1.0 / FRAME_SIZE, length = sqrt(2 * side * side + 1);
             for (int k = 0; k < 3; k++)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * The examples' full-screen passes: view distance from window depth for every kind of projection, and showing maps.
+ * The examples' full-screen passes: view distance from window depth for every kind of projection, and the display of
+ * maps.
  */
 #include "draw.h"
 #include "fixture.h"
@@ -42,7 +43,7 @@ static void free_passes(passes *p)
     free(p->scene);
 }
 
-/* The z row of a projection and its w: ndc_z = (a z + b) / (c z + e). */
+/* Rows z and w of a projection: ndc_z = (a z + b) / (c z + e). */
 typedef struct projection {
     const char *name;
     double a, b, c, e;
@@ -66,7 +67,7 @@ static void view_distance_is_the_analytic_one(void **state)
         {"reversed infinite", 1, 2 * n, -1, 0, n, 500},
         {"orthographic", -2 / (f - n), -(f + n) / (f - n), 0, 1, n, 0.99 * f},
         {"reversed orthographic", 2 / (f - n), (f + n) / (f - n), 0, 1, n, 0.99 * f},
-        /* Planes on both sides of the eye: what is behind it has a negative distance. */
+        /* Planes on both sides of the eye; those behind it have a negative distance. */
         {"orthographic from behind", -2 / (f + 100), -(f - 100) / (f + 100), 0, 1, -99, 0.99 * f},
         {"tiny perspective", -(f + n) / (f - n), -2e-4 * f * n / (f - n), -1, 0, 1e-4 * n, 0.99e-4 * f},
     };
@@ -76,7 +77,7 @@ static void view_distance_is_the_analytic_one(void **state)
         float depth[COUNT];
         double distance[COUNT];
         for (int i = 0; i < COUNT - 1; i++) {
-            /* Even steps in the quantity that depth is linear in, so that the depth map's rounding is no issue. */
+            /* Even steps in the quantity that depth is linear in, so that rounding of the depth map does not matter. */
             const double t = (i + 0.5) / (COUNT - 1);
             distance[i] =
                 q->c != 0 ? 1 / ((1 - t) / q->nearest + t / q->farthest) : (1 - t) * q->nearest + t * q->farthest;
@@ -156,7 +157,7 @@ static void passes_leave_the_defaults(void **state)
     const scene_view view = {.width = COUNT, .height = 1};
     const scene_lighting lighting = scene_default_lighting();
     for (int k = 0; k < 4; k++) {
-        /* Whatever a pass finds, it draws the same and leaves the same. */
+        /* Whatever state a pass finds, it draws the same and restores the state. */
         gl.Enable(GL_BLEND);
         gl.Enable(GL_CULL_FACE);
         gl.DepthFunc(GL_NEVER);

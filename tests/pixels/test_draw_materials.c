@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * What each kind of material does to colour, normals and depth.
+ * How each kind of material changes colour, normals and depth.
  */
 #include "draw.h"
 #include "draw_frame.h"
@@ -124,13 +124,13 @@ static void accessibility_scales_ambient_light_alone(void **state)
     gl.DeleteTextures(1, &map);
 }
 
-/* The quad's uv (0, 0) is its upper left corner, as is the first texel of the image. */
+/* uv (0, 0) of the quad is its upper left corner, and so is the first texel of the image. */
 static void texels_are_where_the_uvs_say(void **state)
 {
     (void)state;
     static const uint8_t texels[2 * 2 * 4] = {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255};
     static const double colors[4][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
-    /* Which texel is at the upper left, upper right, lower left, lower right of the picture. */
+    /* The texels at the upper left, upper right, lower left and lower right of the picture. */
     static const struct {
         int uv_set;
         float transform[6];
@@ -138,7 +138,7 @@ static void texels_are_where_the_uvs_say(void **state)
     } cases[] = {
         {0, {1, 0, 0, 0, 1, 0}, {0, 1, 2, 3}},
         {1, {1, 0, 0, 0, 1, 0}, {0, 2, 1, 3}},    /* the second set has u and v swapped */
-        {0, {1, 0, 0.5f, 0, 1, 0}, {1, 0, 3, 2}}, /* half a picture on, and round again */
+        {0, {1, 0, 0.5f, 0, 1, 0}, {1, 0, 3, 2}}, /* shifted by half a picture, wrapping around */
         {0, {0, 1, 0, -1, 0, 1}, {2, 0, 3, 1}},   /* u' = v, v' = 1 - u */
     };
     const int at[4] = {
@@ -203,7 +203,7 @@ static void images_beyond_the_driver_are_refused(void **state)
     char error[512] = "";
     assert_null(scene_renderer_create(&s->scene, error, sizeof error));
     assert_non_null(strstr(error, "1048576 x 1"));
-    /* Unused, it does no harm. */
+    /* An unused one does no harm. */
     s->materials[0].base_color_texture = -1;
     scene_renderer *r = scene_renderer_create(&s->scene, error, sizeof error);
     assert_non_null(r);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * The horizon technique as each quality level ships it, against answers that are known: a plane is open, and what a
- * wall, two walls, and a sphere take from the surfaces beside them follows from geometry alone.
+ * The horizon technique at each quality level, compared with known answers: a plane is open, and geometry alone gives
+ * the occlusion beside a wall, two walls and a sphere.
  */
 #include "analytic.h"
 #include "fixture.h"
@@ -16,7 +16,7 @@ static const double R16_STEP = 1.0 / 65535.0;
 static const char *const level_names[] = {"low", "medium", "high", "ultra"};
 enum { LEVELS = 4, MAX_SHAPES = 3 };
 
-/* A picture of shapes, and what each pixel shows. */
+/* A picture of shapes, and the surface that each pixel shows. */
 typedef struct shot {
     const analytic_shape *shapes;
     int shape_count;
@@ -49,7 +49,7 @@ static void free_shot(shot *s)
     free(s->normals);
 }
 
-/* Accessibility at full size, LOW upsampled too, at a level's default settings but for the radius. */
+/* Accessibility at full size (LOW is upsampled too) with a level's default settings except the radius. */
 static float *shade(fixture *f, const shot *s, int level, double radius)
 {
     glssao_effect *effect = fixture_effect(f, s->width, s->height);
@@ -63,7 +63,7 @@ static float *shade(fixture *f, const shot *s, int level, double radius)
     return got;
 }
 
-/* Where the eye sees a pixel, in view space. */
+/* View-space position of a pixel's surface. */
 static void position(const shot *s, int x, int y, double out[3])
 {
     const float *p = s->view.projection;
@@ -73,7 +73,7 @@ static void position(const shot *s, int x, int y, double out[3])
     out[2] = -t;
 }
 
-/* Cosine between the normal of a pixel and the way to the eye. */
+/* Cosine between the normal of a pixel and the direction to the eye. */
 static double facing(const shot *s, int x, int y)
 {
     const float *n = s->normals + 3 * (y * s->width + x);
@@ -88,9 +88,9 @@ static double facing(const shot *s, int x, int y)
     return dot / sqrt(length2);
 }
 
-/* Exactly, but where the plane is seen at less than 3 degrees: below 1.5, samples off the slice are corrected for a
- * slope of 40 at most, and the blur takes the loss on. Measured there: low 2, medium 1, high 2, ultra 23 steps of R16.
- */
+/* Exact, except where the plane is seen at less than 3 degrees. Below 1.5 degrees the slope correction for samples
+ * off the slice ends at 40, and the blur spreads the loss. Measured there: low 2, medium 1, high 2, ultra 23 steps
+ * of R16. */
 static void plane_is_exactly_open_at_every_level(void **state)
 {
     static const double degrees[] = {0.0, 30.0, 60.0, 80.0, 89.0};
@@ -119,9 +119,9 @@ static void plane_is_exactly_open_at_every_level(void **state)
         }
 }
 
-/* Share of the hemisphere, cosine-weighted, that a half-space at distance d takes: directions are uniform over the unit
- * disc below the hemisphere (J. Nusselt's analogue), a wall at a right angle blocks those whose component towards it is
- * at least d / radius, and that is a segment of the disc. Two walls block the union of two segments, which overlap
+/* The cosine-weighted share of the hemisphere that a half-space at distance d blocks. Directions are uniform over the
+ * unit disc below the hemisphere (J. Nusselt's analogue). A wall at a right angle blocks those whose component towards
+ * it is at least d / radius, which is a segment of the disc. Two walls block the union of two segments, which overlap
  * where both components are large. d1, d2: in radii. */
 static double segment(double d)
 {
@@ -142,8 +142,8 @@ static double beside_walls(double d1, double d2)
     return 1.0 - (segment(d1) + segment(d2) - corner(d1, d2));
 }
 
-/* Accessibility of a point by the closed form: all shapes are planes at right angles that all points lie in front of.
- */
+/* Accessibility of a point by the closed form. All shapes are planes at right angles with every point in front of
+ * them. */
 static double beside_planes(const shot *s, const double at[3], const float normal[3])
 {
     double d[MAX_SHAPES] = {1.0, 1.0, 1.0};
@@ -159,7 +159,7 @@ static double beside_planes(const shot *s, const double at[3], const float norma
     return beside_walls(d[0], d[1]);
 }
 
-/* Largest errors that a level may make. */
+/* The largest errors that a level may make. */
 typedef struct limits {
     double mean, worst;
 } limits;
@@ -235,8 +235,8 @@ static void box_corner_is_near_the_integral(void **state)
 }
 
 /* A sphere of radius 0.8 that rests on a floor seen at 45 degrees. Measured, mean and worst: low 0.0220, 0.2718; medium
- * 0.0199, 0.2660; high 0.0168, 0.1828; ultra 0.0158, 0.1235. The worst are on the sphere's very rim, which half size does
- * not resolve. */
+ * 0.0199, 0.2660; high 0.0168, 0.1828; ultra 0.0158, 0.1235. The worst are on the sphere's very rim, which half size
+ * does not resolve. */
 static void sphere_on_plane_is_near_the_integral(void **state)
 {
     const double s = sqrt(0.5);
@@ -246,7 +246,7 @@ static void sphere_on_plane_is_near_the_integral(void **state)
             (const limits[LEVELS]){{0.025, 0.32}, {0.022, 0.29}, {0.0185, 0.2}, {0.0175, 0.14}});
 }
 
-/* The closed form and the rays that judge the sphere must agree, and with values worked out by hand. */
+/* The closed form must agree with the rays that judge the sphere, and with values worked out by hand. */
 static void closed_forms_agree_with_rays(void **state)
 {
     (void)state;

@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: MIT
  *
- * The horizon estimate against its double-precision model, pixel by pixel: rooms, slopes, posts and spheres, and frames
- * of random numbers.
+ * The horizon estimate compared with its double-precision model, pixel by pixel: rooms, slopes, posts and spheres, and
+ * frames of random numbers.
  *
- * Tolerance on accessibility: 1.5 steps of R16 and 5e-6 times power (the driver's pow()). What float arithmetic could
- * decide either way is in the model's interval; how wide those are is bounded too, so that the test can't pass by being
- * vague.
+ * Tolerance on accessibility: 1.5 steps of R16 and 5e-6 times power (the driver's pow()). Whatever float arithmetic
+ * leaves open is inside the model's interval. The width of the intervals is bounded too, so the test cannot pass by
+ * being vague.
  */
 #include "analytic.h"
 #include "fixture.h"
 #include "horizon_internals.h"
 #include "horizon_model.h"
-#include "shader_constants.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -21,7 +20,7 @@
 static const double R16_STEP = 1.0 / 65535.0;
 static const double PI = 3.14159265358979323846;
 
-/* Everything that was given to the estimate, in arrays. */
+/* All inputs of the estimate, as arrays. */
 typedef struct setup {
     glssao_effect *effect;
     glssao_frame frame;
@@ -42,14 +41,14 @@ static glssao_settings bare_settings(int sample_count, bool half, double radius)
     return s;
 }
 
-/* How vague the model may be: mean width of its intervals, and share of those wider than three sectors of 31. */
+/* How vague the model may be: mean width of its intervals, and share of those wider than three of 31 sectors. */
 typedef struct vagueness {
     double mean, wide;
 } vagueness;
 
 static const vagueness ORDINARY = {2e-4, 0.002};
 
-/* How far the distance map is off what the depth means, in units of what float rounding allows. */
+/* Error of the distance map against the depth, in units of what float rounding allows. */
 static double distance_error(const setup *s, const float *depth, const float *distance)
 {
     const float *p = s->frame.projection;
@@ -61,7 +60,7 @@ static double distance_error(const setup *s, const float *depth, const float *di
             const float stored = depth[y * factor * s->width + x * factor], got = distance[y * s->input.width + x];
             const bool window = s->frame.depth_kind == GLSSAO_DEPTH_WINDOW;
             const bool sky = window ? stored == sky_depth : !isfinite(stored);
-            double want[2]; /* of the stored depth, and of the next float's */
+            double want[2]; /* of the stored depth, and of the next float's depth */
             for (int i = 0; i < 2; ++i) {
                 const double d = (double)stored + i * 0x1p-24;
                 const double ndc = s->frame.clip_zero_to_one ? d : 2.0 * d - 1.0;
@@ -75,7 +74,7 @@ static double distance_error(const setup *s, const float *depth, const float *di
     return worst;
 }
 
-/* Thickness and how far behind the next front face lies. */
+/* Thickness, and distance to the next front face behind. */
 static float *read_layers(uint32_t map, int width, int height)
 {
     float *texels = fixture_read_texture(map, width, height, 3);
@@ -200,7 +199,7 @@ static void check_scene(fixture *f, const scene_options *o, const glssao_setting
     free(normals);
 }
 
-/* Both scenes for both sizes and both projections, by turns. */
+/* Both scenes for both sizes and both projections, in turn. */
 static void agrees_for_every_sample_count_and_size(void **state)
 {
     static const int counts[] = {12, 16, 24, 32, 48, 64};
@@ -229,7 +228,7 @@ static void agrees_for_every_projection(void **state)
     }
 }
 
-/* Radii from a few pixels to far more than the picture, another exponent, rebuilt normals. */
+/* Radii from a few pixels to far more than the picture; another exponent; rebuilt normals. */
 static void agrees_at_other_settings(void **state)
 {
     static const double radii[] = {0.15, 4.0};
@@ -262,7 +261,8 @@ static GLuint distance_texture(int width, int height, const float *distance)
     return texture;
 }
 
-/* Back faces and second front faces: some close, some far, some missing, and some, by rounding, before the surface. */
+/* Back faces and second front faces: some close, some far, some missing, and some, by rounding, in front of the
+ * surface. */
 static void add_layers(setup *s, const float *distance, double radius, uint32_t *random)
 {
     const int count = s->width * s->height;
@@ -287,8 +287,7 @@ typedef struct random_options {
     double scale; /* of distances */
 } random_options;
 
-/* Distances and normals of no scene at all: some sky, some normals that look away, all heights from runs of steps to
- * noise. */
+/* Random distances and normals: some sky, some normals facing away, heights from runs of steps to noise. */
 static void check_random_frame(fixture *f, const random_options *o, uint32_t *random, const char *name)
 {
     const int width = o->width, height = o->height;
@@ -352,8 +351,7 @@ static void agrees_on_random_frames(void **state)
     }
 }
 
-/* The radius is some 10^5 pixels, past which it counts as so many: in some pixels the first sample is then still in
- * the picture. */
+/* The radius is some 10^5 pixels, which is the bound. In some pixels the first sample is then still in the picture. */
 static void agrees_where_steps_are_bounded(void **state)
 {
     uint32_t random = 1;
@@ -362,7 +360,7 @@ static void agrees_where_steps_are_bounded(void **state)
     check_random_frame(*state, &o, &random, "steps that are bounded");
 }
 
-/* Lengths so small that the square of a missing layer's distance, in radii, is more than a float holds. */
+/* Lengths so small that the squared distance of a missing layer, in radii, exceeds a float. */
 static void agrees_on_layers_of_a_small_scene(void **state)
 {
     uint32_t random = 1;
@@ -370,7 +368,7 @@ static void agrees_on_layers_of_a_small_scene(void **state)
     check_random_frame(*state, &o, &random, "a small scene");
 }
 
-/* Each estimate that glssao_accumulate adds has other noise, and every second one the tile turned over. */
+/* Each estimate that glssao_accumulate adds has its own noise; every second one mirrors the tile. */
 static void agrees_for_each_estimate_of_a_still_view(void **state)
 {
     enum { WIDTH = 80, HEIGHT = 60, ESTIMATES = 5 };
@@ -432,7 +430,7 @@ static void agrees_for_each_estimate_of_a_still_view(void **state)
     free(normals);
 }
 
-/* The polynomial against the integral of cos(t - g) sin(t) over 0 <= t <= acos(c), g to either side. */
+/* Compares the polynomial with the integral of cos(t - g) sin(t) over 0 <= t <= acos(c), g to either side. */
 static void measure_is_near_the_integral(void **state)
 {
     (void)state;
@@ -450,21 +448,8 @@ static void measure_is_near_the_integral(void **state)
             worst = fmax(worst, fabs(horizon_measure(cos(g), sin(g), c) - integral));
         }
     print_message("worst %.5f\n", worst);
-    assert_true(worst < 0.0021); /* half of what h is off by, and the midpoint rule's own error */
-    assert_true(worst > 1e-4);   /* it is a polynomial */
-}
-
-static void constants_are_read_where_they_count(void **state)
-{
-    (void)state;
-    static const char *const pieces[] = {"#define A ", "1\n", "#define B 0\nconst float X = 2.5; // a\n#if B || !A\n",
-                                         "const float Y = 1.0;\n#elif A && !B\nconst float Y = -3.0;\n#else\n",
-                                         "const float Y = 4.0;\n#endif\nconst float Z = 1.0 / X;\n"};
-    double value;
-    assert_true(shader_constant(pieces, 5, "X", &value) && value == 2.5);
-    assert_true(shader_constant(pieces, 5, "Y", &value) && value == -3.0);
-    assert_false(shader_constant(pieces, 5, "Z", &value)); /* no number */
-    assert_false(shader_constant(pieces, 5, "W", &value));
+    assert_true(worst < 0.0021); /* half the error of h, and the midpoint rule's own error */
+    assert_true(worst > 1e-4);   /* a polynomial approximation */
 }
 
 int main(void)
@@ -472,7 +457,6 @@ int main(void)
 #define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(measure_is_near_the_integral),
-        cmocka_unit_test(constants_are_read_where_they_count),
         GL_TEST(agrees_for_every_sample_count_and_size),
         GL_TEST(agrees_for_every_projection),
         GL_TEST(agrees_at_other_settings),

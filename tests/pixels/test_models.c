@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * The classic and hemisphere estimates and the blur against their double-precision model, pixel by pixel.
+ * The classic and hemisphere estimates and the blur compared with their double-precision model, pixel by pixel.
  *
  * Tolerance on accessibility: 1.5 steps of R16 (rounding of the map and of the compared value) plus 2e-5 times power
- * (float arithmetic of 14 samples, steepened by the exponent); everything that a threshold could turn is in the
- * model's interval, and the share of pixels with a wide interval is bounded too, so that the test can't pass by
- * being vague.
+ * (float arithmetic of 14 samples, steepened by the exponent). Whatever a threshold could flip is inside the model's
+ * interval. The share of pixels with a wide interval is bounded too, so the test cannot pass by being vague.
  */
 #include "analytic.h"
 #include "fixture.h"
@@ -27,8 +26,8 @@ static GLuint compile(GLenum stage, const char *text)
     return shader;
 }
 
-/* What the linear wrap sampler delivers for each ambient pixel: drivers filter 8-bit texels with few bits, which is
- * theirs to choose, so the model is fed the filtered vectors. */
+/* The result of the linear wrapping sampler for each ambient pixel. Drivers may filter 8-bit texels with few bits, so
+ * the model is fed the filtered vectors. */
 static float *sampled_random_vectors(const glssao_effect *effect, int width, int height)
 {
     GLuint program = gl.CreateProgram();
@@ -165,11 +164,11 @@ static void check_estimate(setup *s, const char *what)
                   100.0 * occluded / (width * height), 100.0 * wide / (width * height));
     free(got);
     assert_int_equal(wrong, 0);
-    assert_true(wide * 20 < width * height);      /* under 5 % of pixels undecided */
-    assert_true(occluded * 200 > width * height); /* over 0.5 % of pixels have something to say */
+    assert_true(wide * 20 < width * height);      /* less than 5 % of pixels are undecided */
+    assert_true(occluded * 200 > width * height); /* more than 0.5 % of pixels are occluded */
 }
 
-/* `least_change`: what the blur must change somewhere, so that a blur that does nothing fails. */
+/* `least_change`: the least that the blur must change somewhere, so that a blur that does nothing fails. */
 static void check_blur(setup *s, const char *what, double least_change)
 {
     s->settings.blur_rounds = 0;
@@ -195,7 +194,7 @@ static void check_blur(setup *s, const char *what, double least_change)
     free(blurred);
     free(horizontal);
     assert_int_equal(wrong, 0);
-    assert_true(undecided * 100 < 2 * width * height); /* under 1 % of pixels of both passes */
+    assert_true(undecided * 100 < 2 * width * height); /* less than 1 % of the pixels of both passes */
     assert_true(changed > least_change);
 }
 
@@ -275,7 +274,7 @@ static void estimate_agrees_without_angle_weight(void **state)
     tear_down(&s);
 }
 
-/* The room as distances, in a red map or in the normal map's alpha. Sky is stored as each of what means it. */
+/* The room as distances, in a red map or in the normal map's alpha, with sky stored as each value that means sky. */
 static void store_distances(setup *s, glssao_depth kind)
 {
     static const float skies[] = {INFINITY, NAN, 1e30f, 0.0f};
@@ -356,7 +355,7 @@ static void hemisphere_agrees_at_other_settings(void **state)
     }
 }
 
-/* Steps of depth that are no occluders, though nothing else says so. */
+/* Steps of depth must not occlude, even though no other bias hides them. */
 static void estimates_agree_for_16_bit_depth(void **state)
 {
     for (int hemisphere = 0; hemisphere < 2; ++hemisphere) {
@@ -371,7 +370,7 @@ static void estimates_agree_for_16_bit_depth(void **state)
     }
 }
 
-/* A single sample, at any angle: where it is hidden nothing is left, of which a small power makes much. */
+/* A single sample at any angle: if it is hidden, accessibility is 0, which a small power raises visibly. */
 static void estimates_agree_where_nothing_is_left(void **state)
 {
     for (int hemisphere = 0; hemisphere < 2; ++hemisphere) {
@@ -387,8 +386,8 @@ static void estimates_agree_where_nothing_is_left(void **state)
     }
 }
 
-/* A radius greater than the distance of all that is seen: samples behind the camera must not be mirrored into the
- * picture, nor be counted. */
+/* The radius exceeds the distance of everything visible. Samples behind the camera must be neither mirrored into the
+ * picture nor counted. */
 static void estimates_agree_with_samples_behind_the_camera(void **state)
 {
     for (int hemisphere = 0; hemisphere < 2; ++hemisphere) {
@@ -404,7 +403,7 @@ static void estimates_agree_with_samples_behind_the_camera(void **state)
     }
 }
 
-/* Normals along the tile's own rotation vectors, which then span no plane with them. */
+/* Normals parallel to the tile's own rotation vectors, with which they span no plane. */
 static void hemisphere_agrees_for_normals_along_the_noise(void **state)
 {
     setup s;
@@ -443,7 +442,7 @@ static void octahedral_normals_shade_like_plain_ones(void **state)
         float *encoded = malloc((size_t)count * 2 * sizeof *encoded);
         for (int i = 0; i < count; ++i) {
             flipped += i % 5 == 0;
-            for (int k = 0; k < 3 && i % 5 == 0; ++k) /* some look away, so that the folded half is decoded too */
+            for (int k = 0; k < 3 && i % 5 == 0; ++k) /* some face away, so the folded half is decoded too */
                 s.normals[3 * i + k] = -s.normals[3 * i + k];
             octahedral(s.normals + 3 * i, encoded + 2 * i);
         }

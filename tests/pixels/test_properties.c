@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * What must hold of any picture, without a model: planes and sky are open, numbers are numbers, scale and depth
- * convention do not matter, runs repeat, sizes of any kind work, normals can be drawn or rebuilt.
+ * Properties of any picture, without a model: planes and sky are open, values are finite, scale and depth convention
+ * do not matter, runs repeat, any size works, normals can be drawn or rebuilt.
  */
 #include "analytic.h"
 #include "fixture.h"
@@ -34,7 +34,7 @@ static float least(const picture *p)
 {
     float value = 1.0f;
     for (int i = 0; i < p->width * p->height; ++i) {
-        assert_true(p->values[i] >= 0.0f && p->values[i] <= 1.0f); /* false for nan too */
+        assert_true(p->values[i] >= 0.0f && p->values[i] <= 1.0f); /* false for NaN too */
         value = fminf(value, p->values[i]);
     }
     return value;
@@ -118,8 +118,8 @@ static void sky_alone_is_open(void **state)
     }
 }
 
-/* A power of two is exact in every float, so nothing at all may change; other scales round the constants, which turns
- * the few samples that lie on a threshold of the classic estimate. */
+/* A power of two is exact in every float, so nothing may change. Other scales round the constants, which flips the few
+ * samples on a threshold of the classic estimate. */
 static void scaling_scene_and_radius_together_changes_nothing(void **state)
 {
     picture one = shade_room(*state, PERSPECTIVE, 1.0, true);
@@ -183,7 +183,7 @@ static void runs_are_bit_equal_and_seeds_differ(void **state)
     free(normals);
 }
 
-/* The last sizes follow a resize of one effect, so that stale maps would show. */
+/* The last sizes resize one effect, so stale maps would show. */
 static void resizes_through_odd_sizes_down_to_one_pixel(void **state)
 {
     static const int sizes[][2] = {{66, 46}, {63, 47}, {640, 3}, {3, 640}, {2, 2}, {1, 9}, {9, 1}, {1, 1}, {66, 46}};
@@ -257,7 +257,7 @@ static void rebuilt_normals_are_right_up_to_silhouettes(void **state)
         }
         print_message("projection %d: %.2f %% of normals off by more than 14 degrees\n", projection,
                       100.0 * off / (W * H));
-        assert_true(off * 100 < W * H); /* what is left: slivers of under three pixels, the spheres' very rims */
+        assert_true(off * 100 < W * H); /* slivers of less than three pixels and the very rims of the spheres remain */
         free(rebuilt);
         free(depth);
         free(normals);
@@ -361,8 +361,8 @@ static void plan_says_what_stats_prove(void **state)
     settings[1].blur = GLSSAO_BLUR_NONE;
     settings[2].radius = 0.0f;
     settings[3].fade_start = settings[3].fade_end = 0.0f;
-    /* Normals rebuilt, estimate, two a blur round (planar: one after the first); distance map, and two for upsampling,
-     * where the defaults have them. */
+    /* Rebuilt normals, estimate, two passes a blur round (planar: one after the first); distance map and two passes for
+     * upsampling if the defaults include them. */
     const int extra =
         technique == GLSSAO_HORIZON ? 1 + (settings[0].half_resolution && settings[0].upsample ? 2 : 0) : 0;
     const int rounds = settings[0].blur_rounds;
@@ -404,7 +404,7 @@ static void skipped_frame_is_open(void **state)
     memcpy(frame.projection, view.projection, sizeof frame.projection);
     glssao_settings settings = settings_at_scale(1.0f);
     for (int i = 0; i < 2; ++i) {
-        settings.radius = i == 0 ? 0.5f : 0.0f; /* the second frame must not show the first */
+        settings.radius = i == 0 ? 0.5f : 0.0f; /* the second frame must not show the first one */
         picture p;
         p.values = fixture_compute(effect, &frame, &settings, &p.width, &p.height);
         assert_true(i == 0 ? least(&p) < 0.9f : least(&p) == 1.0f);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * The whole way from nodes to accessibility: instances that are rotated, mirrored and unevenly scaled give the same
- * normal map and the same occlusion as their triangles baked into world space. An inverse where the inverse transpose
- * belongs looks right on unrotated scenes and fails here.
+ * The whole path from nodes to accessibility: rotated, mirrored and unevenly scaled instances give the same normal map
+ * and the same occlusion as their triangles baked into world space. Using the inverse instead of the inverse transpose
+ * looks right on unrotated scenes and fails here.
  */
 #include "camera.h"
 #include "draw.h"
@@ -46,7 +46,7 @@ static shaded shade(fixture *f, const small_scene *s, const scene_view *view, gl
     return result;
 }
 
-/* Spheres flattened, stretched, mirrored, on a turned and stretched floor. */
+/* Flattened, stretched and mirrored spheres on a rotated and stretched floor. */
 static small_scene *make_scene(void)
 {
     static const float places[5][3] = {
@@ -96,7 +96,7 @@ static void transformed_instances_shade_like_baked_triangles(void **state)
         }
         print_message("technique %d: %d normals and %d values differ, mean difference %.1e, %d occluded\n", t,
                       other_normal, other_value, mean, occluded);
-        /* Positions round differently, which moves single pixels of silhouettes from one surface to another. */
+        /* Positions round differently, which moves single silhouette pixels to another surface. */
         assert_true(other_normal <= WIDTH * HEIGHT / 1000);
         assert_true(other_value <= WIDTH * HEIGHT / 200);
         assert_true(mean < 1e-3);

@@ -12,7 +12,7 @@ static int to_go = -1, live_objects, live_blocks;
 static bool is_inside; /* between arming and disarming, so that only the library's allocations count */
 static fault happened;
 
-/* Whether this chance to fail is the one. */
+/* Whether this chance to fail is the chosen one. */
 static bool fails(fault kind)
 {
     if (to_go < 0 || to_go-- > 0)
@@ -88,7 +88,7 @@ void __wrap_free(void *block)
 
 /* ---- OpenGL ---- */
 
-/* The real functions, by the names of the wrappers. */
+/* The real functions, by the wrappers' names. */
 #define GENERATORS(X) X(Textures) X(Framebuffers) X(Buffers) X(Samplers) X(VertexArrays) X(Queries)
 #define DECLARE(kind)                                                                                                  \
     static void(APIENTRY * real_gen_##kind)(GLsizei, GLuint *);                                                        \
@@ -147,7 +147,7 @@ static void APIENTRY delete_sync(GLsync sync)
     real_delete_sync(sync);
 }
 
-/* Without memory the level stays as it was: undefined. */
+/* Without memory the level stays undefined, as it was. */
 static void APIENTRY tex_image(GLenum target, GLint level, GLint internal, GLsizei width, GLsizei height, GLint border,
                                GLenum format, GLenum type, const void *pixels)
 {
@@ -180,7 +180,7 @@ void *faulty_load(const char *name, void *user)
     const struct {
         const char *name;
         void *to_real,
-            *wrapper; /* the first may be NULL; ISO C has no casts between functions and objects, so memcpy */
+            *wrapper; /* the first may be NULL; ISO C has no casts between functions and objects, hence memcpy */
     } kept[] = {
 #define KEEP_GEN(kind) {"glGen" #kind, &real_gen_##kind, &(void(APIENTRY *[1])(GLsizei, GLuint *)){gen_##kind}},
 #define KEEP_DELETE(kind)                                                                                              \

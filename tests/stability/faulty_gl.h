@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * An OpenGL that fails when told to, and counts what is alive: a loader for glssao_config that wraps each function
- * which may fail, and the C allocator's functions, which the linker wraps (--wrap=malloc and so on).
+ * An OpenGL that fails on demand and counts living objects: a loader for glssao_config that wraps every function that
+ * may fail, and the C allocator, which the linker wraps (--wrap=malloc and so on).
  */
 #ifndef GLSSAO_TESTS_FAULTY_GL_H
 #define GLSSAO_TESTS_FAULTY_GL_H
@@ -18,16 +18,16 @@ typedef enum fault {
     FAULT_MEMORY
 } fault;
 
-/* As fixture_load, whose context it takes. */
+/* Like fixture_load, whose context it takes. */
 void *faulty_load(const char *name, void *user);
 
-/* The `number`-th (0: the first) chance to fail from now on is taken; negative: none. */
+/* The `number`-th chance to fail from now on is taken (0: the first); negative: none. */
 void faulty_arm(int number);
 
-/* What was made to fail since; and disarms. */
+/* Returns what has failed since, and disarms. */
 fault faulty_disarm(void);
 
-/* Objects of OpenGL and blocks of memory that the effect has not given back. */
+/* OpenGL objects and memory blocks that the effect has not freed. */
 int faulty_live_objects(void);
 int faulty_live_blocks(void);
 

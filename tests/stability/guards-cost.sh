@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# guards-cost.sh [ROUNDS]: what the shaders' guards cost. Builds glssao-render from two copies of the repository, in one of
-# which every line of guards.tsv that names a file of glsl/ has taken its guard away, and runs both by turns. Prints for
-# each technique the least median of the frame's occlusion passes (ms, software rasteriser) with and without, and the ratio.
+# guards-cost.sh [ROUNDS]: the cost of the shaders' guards. Builds glssao-render from two copies of the repository, one of
+# them without the guards of guards.tsv that are in glsl/, and runs both in turn. Prints for each technique the least
+# median of the frame's occlusion passes (ms, software rasteriser) with and without guards, and the ratio.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)

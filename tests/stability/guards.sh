@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# guards.sh: whether each guard of guards.tsv is still in its file, once or more; mutate.sh takes minutes to tell.
+# guards.sh: fails if the text of a guard in guards.tsv is no longer in its file. mutate.sh, which takes minutes, tests more.
 set -uo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 missing=0 count=0

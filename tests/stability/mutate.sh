@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# mutate.sh [WORD]: takes each guard of guards.tsv (whose line holds WORD) away, one at a time, in a copy of the repository,
-# and says whether the test that it names then fails. Prints a line a guard; fails where one is not held by its test.
+# mutate.sh [WORD]: removes each guard of guards.tsv (whose line contains WORD), one at a time, in a copy of the repository,
+# and runs the test that the line names. Prints a line per guard; fails if a test passes without its guard.
 set -uo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)

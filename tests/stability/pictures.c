@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * stability_pictures NAME FOLDER: accessibility of some hard cases as FOLDER/CASE-NAME.png, three pixels a pixel, for
- * docs/make-stability-pictures.sh, which runs it with and without a guard.
+ * stability_pictures NAME FOLDER: writes the accessibility of some hard cases to FOLDER/CASE-NAME.png, enlarged three
+ * times. docs/make-stability-pictures.sh runs it with and without a guard.
  */
 #include "picture.h"
 #include "techniques.h"
@@ -46,7 +46,7 @@ static void shade(fixture *f, const char *what, const subject *s, depth_store de
 static void draw(void **state)
 {
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    /* Far away in 16 bits: steps of depth up to half the radius. */
+    /* Far away with 16 bits: steps of depth up to half the radius. */
     analytic_room(room, 12.0);
     analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.05, 1000.0, 1.0);
     subject far = subject_of(&view, room, ANALYTIC_ROOM_SHAPES, W, H);
@@ -57,7 +57,7 @@ static void draw(void **state)
     view.projection[5] = -view.projection[5];
     subject mirrored = subject_of(&view, room, ANALYTIC_ROOM_SHAPES, W, H);
     shade(*state, "mirrored", &mirrored, DEPTH_24, NORMAL_NONE, GLSSAO_HORIZON, 0.5f);
-    /* Distances whose sky is 0. */
+    /* Distances with sky stored as 0. */
     view.projection[5] = -view.projection[5];
     subject seen = subject_of(&view, room + 2, ANALYTIC_ROOM_SHAPES - 2, W, H);
     for (int i = 0; i < W * H; ++i)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * What the stability tests hand over: a picture of shapes, stored in any way that a host may store it, and the
- * accessibility that comes back.
+ * Input of the stability tests: a picture of shapes, stored in any way that a host may store it, and the accessibility
+ * that comes back.
  */
 #ifndef GLSSAO_TESTS_SUBJECT_H
 #define GLSSAO_TESTS_SUBJECT_H
@@ -24,7 +24,7 @@ typedef enum depth_store {
     DEPTH_STORES
 } depth_store;
 
-/* How normals are stored; depth in alpha has float normals, whatever is asked for. */
+/* How normals are stored. Depth in alpha implies float normals. */
 typedef enum normal_store {
     NORMAL_NONE, /* rebuilt from depth */
     NORMAL_32F,
@@ -35,7 +35,7 @@ typedef enum normal_store {
     NORMAL_STORES
 } normal_store;
 
-/* The maps in memory, rows bottom to top: what a case may spoil before it is handed over. */
+/* The maps in memory, rows bottom to top, for a case to spoil before they become textures. */
 typedef struct subject {
     int width, height;
     analytic_view view;
@@ -56,8 +56,8 @@ void subject_free(subject *s);
 glssao_frame subject_frame(const subject *s, depth_store depth, normal_store normal);
 void subject_frame_free(glssao_frame *frame);
 
-/* What glssao_compute makes of the frame, with the fixture's effect; fails the test on any but GLSSAO_OK. The caller
- * frees the values. */
+/* Runs glssao_compute on the frame with the fixture's effect; any result but GLSSAO_OK fails the test. The caller frees
+ * the values. */
 picture subject_shade(fixture *f, int width, int height, const glssao_frame *frame, const glssao_settings *settings);
 
 /* Names for messages. */

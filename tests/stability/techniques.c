@@ -40,7 +40,7 @@ glssao_settings settings_scaled(const glssao_settings *settings, double scale)
 bool picture_is_sound(const picture *p)
 {
     for (int i = 0; i < p->width * p->height; ++i)
-        if (!(p->values[i] >= 0.0f && p->values[i] <= 1.0f)) { /* also true for nan */
+        if (!(p->values[i] >= 0.0f && p->values[i] <= 1.0f)) { /* also true for NaN */
             print_error("pixel %d, %d is %g\n", i % p->width, i / p->width, (double)p->values[i]);
             return false;
         }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Every technique at every quality, at half and at full size: what each case of the stability tests runs over.
+ * Every technique at every quality, at half and full size: the configurations that each stability test runs.
  */
 #ifndef GLSSAO_TESTS_TECHNIQUES_H
 #define GLSSAO_TESTS_TECHNIQUES_H
@@ -15,13 +15,13 @@ typedef struct configuration {
 } configuration;
 
 configuration configuration_of(int number);
-/* Of the numbers: a test's first argument, 1 without. Odd ones reach half and full size alike. */
+/* The stride through the configurations: a test's first argument, 1 without. Odd ones reach both half and full size. */
 int configuration_stride(int argc, char **argv);
 
 /* The settings with all lengths multiplied. */
 glssao_settings settings_scaled(const glssao_settings *settings, double scale);
 
-/* Whether every value is a number of 0..1; prints the first that is not. */
+/* Whether every value is finite and within 0..1; prints the first that is not. */
 bool picture_is_sound(const picture *p);
 double picture_least(const picture *p);
 double picture_mean(const picture *p);

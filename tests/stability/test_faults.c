@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Each allocation, compile, link and framebuffer check of each call made to fail in turn: the result code says what
- * failed, the last result stays, the call works afterwards, and nothing is left when the effect is gone.
+ * Makes each allocation, compile, link and framebuffer check of each call fail in turn. The result code says what
+ * failed, the last result stays, the call works afterwards, and nothing remains when the effect is destroyed.
  */
 #include "faulty_gl.h"
 #include "techniques.h"
@@ -14,13 +14,13 @@ enum { W = 32, H = 24 };
 
 static int stride = 1;
 static glssao_path path;                  /* of effects that are created */
-static glssao_frame plain, bare, cropped; /* with normals, without, and within larger textures */
+static glssao_frame plain, bare, cropped; /* with normals, without, and inside larger textures */
 static GLuint color, framebuffer;
 
 typedef struct act {
     const char *name;
     glssao_result (*run)(glssao_effect **effect, fixture *f);
-    glssao_result (*before)(glssao_effect **effect, fixture *f); /* leaves the last result; NULL: at full size */
+    glssao_result (*before)(glssao_effect **effect, fixture *f); /* computes the last result; NULL: full size */
     bool dispatches;
 } act;
 
@@ -54,7 +54,7 @@ static glssao_result compute_at_half_size(glssao_effect **effect, fixture *f)
     return glssao_compute(*effect, &bare, &s);
 }
 
-/* From half size: another result map, and other ambient maps after it. */
+/* From half size: first another result map, then other ambient maps. */
 static glssao_result compute_with_a_margin(glssao_effect **effect, fixture *f)
 {
     (void)f;
@@ -114,7 +114,7 @@ static glssao_result expected(fault kind)
     case FAULT_MEMORY:
         return GLSSAO_OUT_OF_MEMORY;
     case FAULT_NONE:
-    case FAULT_FENCE: /* the error of the mean is then not known */
+    case FAULT_FENCE: /* the error of the mean is unknown then */
         break;
     }
     return GLSSAO_OK;
@@ -135,7 +135,7 @@ static void assert_same(const picture *a, const picture *b, const char *what, in
         fail_msg("%s, fault %d: another picture", what, number);
 }
 
-/* One fault in one call; false where there were fewer chances to fail. */
+/* One fault in one call; false if there were fewer chances to fail. */
 static bool fail_once(fixture *f, const act *a, int number)
 {
     glssao_effect *effect = NULL;
@@ -157,7 +157,7 @@ static bool fail_once(fixture *f, const act *a, int number)
     if (got != GLSSAO_OK) {
         assert_true(strlen(f->log) > 0);
         assert_true(creates == (effect == NULL));
-        if (!creates && a->run != accumulate) { /* which may have added one estimate before */
+        if (!creates && a->run != accumulate) { /* which may have added one estimate before failing */
             picture after = result_of(effect);
             assert_same(&before, &after, a->name, number);
             free(after.values);
@@ -191,7 +191,7 @@ static void each_call_survives_each_fault(void **state)
         {"resize", resize, NULL, false},
         {"begin normals", begin_normals, NULL, false},
     };
-    static const int least[] = {12, 20, 19, 6, 6, 15, 15, 15, 1, 6, 1}; /* what applies is compiled with the effect */
+    static const int least[] = {12, 20, 19, 6, 6, 15, 15, 15, 1, 6, 1}; /* apply's program compiles with the effect */
     for (size_t i = 0; i < sizeof acts / sizeof *acts; ++i) {
         int faults = 0;
         if (acts[i].dispatches && fixture_hides_newer()) {

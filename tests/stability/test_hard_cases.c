@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * The table of hard cases (design.md, section 10): whatever camera and depth buffer a host hands over, the picture is
- * made of numbers between 0 and 1, and open where nothing occludes. docs/stability.md says what each breaks elsewhere.
- * test_hard_cases [STRIDE [CASE]]: one configuration in STRIDE; the case of that name alone.
+ * The hard cases of docs/stability.md: whatever camera and depth buffer a host hands over, the result is finite,
+ * within 0..1, and open where nothing occludes. test_hard_cases [STRIDE [CASE]]: one configuration in STRIDE; only the
+ * case of that name.
  */
 #include "hard_case.h"
 
@@ -12,9 +12,9 @@
 #include <string.h>
 
 static int stride = 1, pictures;
-static const char *only; /* the one case's name; NULL: all */
+static const char *only; /* the name of the only case; NULL: all */
 
-/* ---- what is done to maps and settings ---- */
+/* ---- faults put into maps and settings ---- */
 
 static size_t count_of(const subject *s)
 {
@@ -27,7 +27,7 @@ static void depth_at_near_plane(subject *s)
         s->depth[i] = 1.0f - s->view.sky_depth;
 }
 
-/* Every fifth texel, in turn: no number, infinite, behind the camera, too large to square, too small to divide by. */
+/* Every fifth texel, in turn: NaN, infinite, behind the camera, too large to square, too small to divide by. */
 static void distances_that_are_none(subject *s)
 {
     static const float bad[] = {NAN, INFINITY, -INFINITY, -3.0f, 3e38f, 1e-40f, 0.0f};
@@ -35,7 +35,7 @@ static void distances_that_are_none(subject *s)
         s->distance[i] = bad[i / 5 % 7];
 }
 
-/* Here and there, what means that nothing was drawn. */
+/* Some texels become a value that means that nothing was drawn. */
 static void holes(subject *s)
 {
     static const float none[] = {NAN, INFINITY, -INFINITY, 0.0f};
@@ -50,7 +50,7 @@ static void normals_that_are_none(subject *s)
         s->normals[i] = bad[i / 2 % 6];
 }
 
-/* Not a normal at all; in the map of the result, which holds no such number, black would come of it. */
+/* Not a normal; stored in the map of the result, which has no such number, it would become black. */
 static void no_normal_here_and_there(subject *s)
 {
     static const float bad[] = {0.0f, NAN, INFINITY, -INFINITY, 1e30f, 1e-30f};
@@ -71,7 +71,7 @@ static void normals_away_from_the_eye(subject *s)
         s->normals[i] = -s->normals[i];
 }
 
-/* Past what half floats hold. */
+/* Above the largest half float. */
 static void distance_1e6(subject *s)
 {
     for (size_t i = 0; i < count_of(s); ++i)
@@ -210,7 +210,7 @@ static const hard_case cases[] = {
     {"a plane and lengths beyond it", SEE_PLANE, 60.0, .change = most_lengths, .depth = DEPTH_32F, .normal = NORMAL_32F,
      .least = OPEN},
     {"thresholds that no tap meets", SEE_ROOM, .change = many_rounds, .depth = DEPTH_24, .normal = NORMAL_32F},
-    /* sizes; a map one pixel wide tells nothing of its slope that way, and hemisphere samples there */
+    /* sizes; a map one pixel wide has no slope that way, and hemisphere samples across it */
     {"one pixel", SEE_PLANE, 60.0, .turn = 3, .width = 1, .height = 1, .depth = DEPTH_24, .normal = NORMAL_32F,
      .least = {0.9, 0.85, 0.97}},
     {"one column", SEE_PLANE, 60.0, .turn = 4, .width = 1, .height = 97, .depth = DEPTH_24, .normal = NORMAL_32F,
@@ -235,7 +235,7 @@ static void hard_cases(void **state)
         run(*state, &cases[i]);
 }
 
-/* A plane in every projection, both ways up. */
+/* A plane in every projection, upright and mirrored. */
 static void projections(void **state)
 {
     for (int projection = 0; projection < PROJECTION_COUNT; ++projection)
@@ -254,7 +254,7 @@ static void projections(void **state)
         }
 }
 
-/* A plane in every way to store depth and normals, near and far. Normals of 8 bits lean by half a degree. */
+/* A plane with every way to store depth and normals, near and far. Normals of 8 bits are off by half a degree. */
 static void stores(void **state)
 {
     for (int depth = 0; depth < DEPTH_STORES; ++depth)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * Textures that are copied first give the picture that plain ones give: one sample of several, a viewport in larger
- * textures, logarithmic depth. What can't be read is refused and named; a texture that stays attached elsewhere is none
- * of that.
+ * Textures that are copied first give the same picture as plain ones: one sample of several, a viewport in larger
+ * textures, logarithmic depth. Unreadable input is refused and named; a texture that stays attached to another
+ * framebuffer is fine.
  */
 #include "techniques.h"
 
@@ -22,7 +22,7 @@ static subject room(void)
     return subject_of(&view, shapes, ANALYTIC_ROOM_SHAPES, W, H);
 }
 
-/* ---- textures that are drawn, since multisample ones take no data ---- */
+/* ---- textures that are drawn into, since multisample textures cannot be filled otherwise ---- */
 
 static GLuint compile_copier(void)
 {
@@ -49,8 +49,8 @@ static GLuint compile_copier(void)
     return program;
 }
 
-/* A multisample texture whose first sample holds `plain`'s texels and whose others hold what would spoil the picture.
- */
+/* A multisample texture whose first sample holds `plain`'s texels; its other samples hold values that would spoil the
+ * picture. */
 static GLuint multisampled(GLuint plain, GLenum internal, bool is_depth)
 {
     GLuint texture, framebuffer, vertex_array, program = compile_copier();
@@ -89,7 +89,7 @@ static GLuint multisampled(GLuint plain, GLenum internal, bool is_depth)
     return texture;
 }
 
-/* The same map within a larger one that is otherwise full of what would spoil the picture. */
+/* The same map inside a larger one; the rest of that holds values that would spoil the picture. */
 static float *enlarged(const float *values, int channels)
 {
     float *large = malloc((size_t)LARGE_W * LARGE_H * (size_t)channels * sizeof *large);
@@ -127,7 +127,7 @@ static void first_samples_are_taken(void **state)
         other.depth_texture = multisampled(plain.depth_texture, GL_DEPTH_COMPONENT32F, true);
         if (normals)
             other.normal_texture = multisampled(plain.normal_texture, GL_RGBA16F, false);
-        /* What the host has bound comes back. */
+        /* The host's bindings come back. */
         GLint bound = 0;
         for (int unit = 0; unit < 8; ++unit) {
             gl.ActiveTexture(GL_TEXTURE0 + (GLenum)unit);
@@ -172,7 +172,7 @@ static void viewports_are_crops(void **state)
     subject_free(&large);
 }
 
-/* Its own rounding differs from window depth's. */
+/* It rounds differently from window depth. */
 static void logarithms_are_undone(void **state)
 {
     static const double constants[] = {0.0, 1.0, 0.01, 100.0};
@@ -198,7 +198,7 @@ static void logarithms_are_undone(void **state)
     subject_free(&s);
 }
 
-/* ---- refused and named, or rightly not ---- */
+/* ---- refused and named, or accepted ---- */
 
 static void assert_refused(fixture *f, const glssao_frame *frame, const char *named)
 {
@@ -220,7 +220,7 @@ static void unreadable_inputs_are_named(void **state)
     bad.field = value;                                                                                                 \
     assert_refused(*state, &bad, named)
     REFUSED(multisample, true, "frame.depth_texture");
-    (void)fixture_no_gl_error(state); /* a texture of another target does not bind, and OpenGL says so */
+    (void)fixture_no_gl_error(state); /* a texture of another target cannot be bound, and OpenGL reports an error */
     REFUSED(viewport[0], -1, "frame.viewport[0]");
     REFUSED(viewport[1], -1, "frame.viewport[1]");
     REFUSED(viewport[2], W, "frame.viewport");
@@ -261,7 +261,7 @@ static void a_map_that_a_pass_draws_into_is_refused(void **state)
     subject_free(&s);
 }
 
-/* Drawn into, or attached beside what is drawn into, or with nothing drawn into at all: feedback each time. */
+/* Drawn into, attached beside the drawn texture, or attached with no draw buffer: each is feedback. */
 static void applying_into_what_is_read_is_refused(void **state)
 {
     fixture *f = *state;

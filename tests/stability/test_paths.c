@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Compute and fragment shaders make the same picture, within a step of R16; which way a frame goes, and that a loader
- * which knows OpenGL 3.3 alone gets the fragment shaders' bits.
+ * Compute and fragment shaders make the same picture, within a step of R16. Also: which of the two a frame takes, and
+ * that a loader that knows OpenGL 3.3 alone gives the fragment shaders' bits.
  */
 #include "techniques.h"
 
@@ -15,7 +15,7 @@
 typedef struct host {
     fixture *f;
     bool knows_3_3_alone; /* finds no newer function */
-    bool claims_3_3;      /* and the context says that it is no newer; its extensions stay */
+    bool claims_3_3;      /* the context also reports 3.3; its extensions stay */
     bool claims_gpu;
     bool refuses_compute; /* no compute shader compiles */
 } host;
@@ -100,7 +100,7 @@ static picture shade(fixture *f, glssao_effect *effect, const glssao_frame *fram
     return p;
 }
 
-/* Fails where the two are more than a step of R16 apart anywhere. */
+/* Fails if the two differ by more than a step of R16 anywhere. */
 static void assert_within_a_step(const picture *a, const picture *b, const char *what)
 {
     double worst = 0.0;
@@ -128,8 +128,8 @@ static glssao_frame room_frame(analytic_projection kind, int width, int height, 
     return frame;
 }
 
-/* The ways of one fixture: fragment shaders as a software rasteriser gets them and as a GPU does, and compute shaders.
- * Sizes change by glssao_resize, so that each program is compiled once. */
+/* The variants of one fixture: fragment shaders as for a software rasteriser and as for a GPU, and compute shaders.
+ * Sizes change by glssao_resize, so that each program compiles once. */
 enum { WAYS = 3 };
 static glssao_effect *ways[WAYS];
 
@@ -139,7 +139,7 @@ static void assert_alike(fixture *f, const char *what, int width, int height, co
     picture pictures[WAYS] = {{0}};
     for (int i = 0; i < WAYS; ++i) {
         if (i == 1 && settings->technique != GLSSAO_HORIZON)
-            continue; /* a GPU's fragment shaders are the same there */
+            continue; /* on a GPU its fragment shaders are the same */
         host *const h = &(host){.f = f, .claims_gpu = i == 1};
         const glssao_path path = i == 2 ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT;
         if (!ways[i])
@@ -154,7 +154,7 @@ static void assert_alike(fixture *f, const char *what, int width, int height, co
         assert_true((dispatching > 0) == (i == 2));
         pictures[i] = shade(f, ways[i], frame, settings);
     }
-    assert_true(picture_least(&pictures[0]) < 0.99 || width * height < 100); /* there is something to be alike in */
+    assert_true(picture_least(&pictures[0]) < 0.99 || width * height < 100); /* some pixel is occluded */
     for (int i = 1; i < WAYS; ++i)
         if (pictures[i].values)
             assert_within_a_step(&pictures[0], &pictures[i], what);
@@ -196,7 +196,7 @@ static void blurs_and_sizes_of_the_result_agree(void **state)
 {
     glssao_frame frame = room_frame(ORTHOGRAPHIC_REVERSED, 66, 51, DEPTH_32F, NORMAL_16F);
     for (int blur = GLSSAO_BLUR_NONE; blur <= GLSSAO_BLUR_PLANAR; ++blur)
-        for (int size = 0; size < 3; ++size) { /* full, half, brought to full */
+        for (int size = 0; size < 3; ++size) { /* full, half, upsampled */
             glssao_settings s = wide_horizon(GLSSAO_LOW);
             s.blur = (glssao_blur)blur;
             s.blur_rounds = blur == GLSSAO_BLUR_PLANAR ? 5 - size : 1 + blur % 2; /* a dispatch runs up to two */
@@ -250,7 +250,7 @@ static void margins_layers_and_viewports_agree(void **state)
         glssao_frame changed = frame;
         changed.margin = i & 2 ? 10 : 0;
         changed.back_texture = changed.second_texture = i & 4 ? second.depth_texture : 0;
-        /* Each kind of pass comes to be the one that cuts the margin off. */
+        /* In turn, each kind of pass is the last, which cuts off the margin. */
         if (i == 7)
             s.blur_rounds = 0;
         if (i == 2 || i == 3)
@@ -268,7 +268,7 @@ static void margins_layers_and_viewports_agree(void **state)
     subject_free(&behind);
 }
 
-/* Estimates are added by drawing; what comes before and after them may be dispatched. */
+/* Estimates are added by drawing; the passes before and after may be dispatched. */
 static void accumulated_estimates_agree(void **state)
 {
     picture pictures[2];
@@ -290,7 +290,7 @@ static void accumulated_estimates_agree(void **state)
     subject_frame_free(&frame);
 }
 
-/* Which way a host's frames go, and the bits of the picture where they go as fragments. */
+/* Which way a host's frames take, and the bits of the picture where they are drawn. */
 static void the_context_and_the_config_decide(void **state)
 {
     static const struct {
@@ -315,7 +315,7 @@ static void the_context_and_the_config_decide(void **state)
         host h = {f, cases[i].knows_3_3_alone, cases[i].claims_3_3, cases[i].claims_gpu, false};
         glssao_effect *effect;
         const glssao_result made = make(&h, cases[i].path, 64, 48, &effect);
-        /* Of cases that leave it to the library, a GPU of the machine's own is like one that is claimed. */
+        /* Where the library decides, a real GPU counts like a claimed one. */
         const bool is_gpu = !context_is_software(f->context) && !cases[i].knows_3_3_alone;
         const glssao_path wanted_path =
             is_gpu && cases[i].path == GLSSAO_PATH_AUTO ? GLSSAO_PATH_COMPUTE : cases[i].got;
@@ -351,7 +351,7 @@ static void an_unknown_path_is_refused(void **state)
     assert_non_null(strstr(f->log, "config.path = 3"));
 }
 
-/* Where compute shaders are the library's own choice, a driver that refuses them costs the host nothing. */
+/* If the library chose compute shaders and the driver refuses them, the host notices nothing. */
 static void refused_compute_shaders_are_done_without(void **state)
 {
     fixture *f = *state;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * test_random [--cases N] [--seed S]: random cameras, depth formats, sizes, radii, normals, settings and noise in the
- * maps. A case prints its seed where it fails; --cases 1 --seed S then makes it alone.
+ * maps. A failing case prints its seed; --cases 1 --seed S repeats that case alone.
  */
 #include "techniques.h"
 
@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Cases whose shaders are the same, since compiling them is most of the work: technique, quality and formats follow
- * from the seed over this. */
+/* Consecutive cases with the same shaders, since compiling them is most of the work. Technique, quality and formats
+ * follow from the seed divided by this. */
 enum { ALIKE = 100 };
 
 static uint64_t first_seed = 1;
@@ -36,7 +36,7 @@ static double between(uint64_t *s, double low, double high)
     return low + (high - low) * (double)(next(s) >> 11) / 9007199254740992.0;
 }
 
-/* Alike in all magnitudes. */
+/* Uniform over all magnitudes. */
 static double magnitude(uint64_t *s, double low, double high)
 {
     return exp(between(s, log(low), log(high)));
@@ -53,7 +53,7 @@ static analytic_view random_view(uint64_t *s, int width, int height, double scal
         if (below(s, 4) == 0 && view.projection[11] != 0.0f)
             view.projection[8 + axis] = (float)between(s, -1.5, 1.5);
     }
-    /* Only ratios count in clip space. */
+    /* In clip space only ratios matter. */
     const float any = below(s, 3) ? 1.0f : (float)magnitude(s, 0.01, 100.0);
     for (int i = 0; i < 16; ++i)
         view.projection[i] *= any;
@@ -90,7 +90,7 @@ static glssao_settings random_settings(uint64_t *alike, uint64_t *s, double scal
     return settings;
 }
 
-/* Some texels become any bits at all. */
+/* Some texels get random bits. */
 static void spoil(uint64_t *s, float *values, size_t count, bool to_one)
 {
     for (size_t i = (size_t)below(s, 9); i < count; i += (size_t)(1 + below(s, 31))) {
@@ -150,7 +150,7 @@ int main(int argc, char **argv)
         else if (!strcmp(argv[i], "--seed"))
             first_seed = strtoull(argv[i + 1], NULL, 10);
     }
-    /* Each of the suite's two runs its own cases. */
+    /* The two contexts run different cases. */
     if (argc < 2 || (argc == 3 && !strcmp(argv[1], "--cases")))
         first_seed += fixture_hides_newer() ? 100000 : 0;
     const struct CMUnitTest tests[] = {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * What must hold between two pictures, whatever is right for either: scale, depth's direction, tiles, quarter turns,
- * radius, power and repetition.
+ * Relations between two pictures that hold without knowing the right one: scale, direction of depth, tiles, quarter
+ * turns, radius, power and repetition.
  */
 #include "techniques.h"
 
@@ -29,7 +29,7 @@ static bool same_bits(const picture *a, const picture *b)
            memcmp(a->values, b->values, (size_t)a->width * (size_t)a->height * sizeof *a->values) == 0;
 }
 
-/* The room, seen by a view; a quarter turn about the view axis first, where wanted. */
+/* The room seen by a view, after a quarter turn about the view axis if wanted. */
 static picture shade_room(fixture *f, const analytic_view *view, int width, int height, double scale, bool turned,
                           const glssao_settings *settings)
 {
@@ -68,7 +68,7 @@ static void for_each_configuration(void **state, relation check)
     for (int i = 0; i < CONFIGURATIONS; i += stride) {
         const configuration c = configuration_of(i);
         picture first = plain(*state, &c.settings);
-        assert_true(picture_mean(&first) < 0.995); /* there is something to see */
+        assert_true(picture_mean(&first) < 0.995); /* some pixel is occluded */
         check(*state, &c, &first);
         free(first.values);
     }
@@ -94,7 +94,7 @@ static void check_scale(fixture *f, const configuration *c, const picture *first
         const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, scales[i]);
         picture scaled = shade_room(f, &view, W, H, scales[i], false, &c->settings);
         const double apart = mean_apart(first, &scaled);
-        /* Powers of two are exact; others turn samples that lie on a threshold. */
+        /* Powers of two are exact; other scales flip samples on a threshold. */
         if (i < 2 ? apart > 0.0 : apart > 1e-3)
             fail_msg("%s: scale %g: %g apart", c->name, scales[i], apart);
         free(scaled.values);
@@ -125,8 +125,8 @@ static void depth_directions_agree(void **state)
     for_each_configuration(state, check_directions);
 }
 
-/* The left lower part of the picture, by an off-centre projection: it must equal the crop, but for a margin where the
- * picture goes on, on its right and above. The classic technique's random vectors are stretched over the target, so
+/* The lower left part of the picture, by an off-centre projection. It must equal the crop, except for a margin on its
+ * right and above, where the picture continues. The classic technique's random vectors stretch over the target, so its
  * noise differs. */
 static void check_tile(fixture *f, const configuration *c, const picture *first)
 {
@@ -157,7 +157,7 @@ static void tiles_are_crops(void **state)
     for_each_configuration(state, check_tile);
 }
 
-/* Noise, samples' places and which texel stands for four at half size don't turn along. */
+/* Noise, sample positions and the texel that stands for four at half size do not turn along. */
 static void check_turn(fixture *f, const configuration *c, const picture *first)
 {
     const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);

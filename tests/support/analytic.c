@@ -105,7 +105,7 @@ static double hit(const analytic_shape *s, const double o[3], const double d[3],
     return enter <= leave ? enter : HUGE_VAL;
 }
 
-/* View distance of what is seen through a pixel, HUGE_VAL where nothing is, and the normal there. */
+/* View distance and normal of the surface seen through a pixel; HUGE_VAL if there is none. */
 static double see(const analytic_view *view, const analytic_shape *shapes, int shape_count, double ndc_x, double ndc_y,
                   double out_normal[3])
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Depth and normal maps computed, not drawn: spheres, boxes and planes hit by the ray of each pixel, in double
- * precision, for any supported projection. So tests know every input exactly and need no renderer.
+ * Depth and normal maps that are computed instead of drawn: the ray of each pixel hits spheres, boxes and planes, in
+ * double precision, for any supported projection. Tests know every input exactly and need no renderer.
  */
 #ifndef GLSSAO_TESTS_ANALYTIC_H
 #define GLSSAO_TESTS_ANALYTIC_H
@@ -40,7 +40,7 @@ analytic_view analytic_make_view(analytic_projection kind, double aspect, double
 /* Window depth (sky where nothing is hit) and normals (xyz; 0, 0, 1 on sky); the caller frees both. */
 void analytic_render(const analytic_view *view, const analytic_shape *shapes, int shape_count, int width, int height,
                      float **out_depth, float **out_normals);
-/* View distance as well (scene units; infinite on sky). */
+/* The same with view distance (scene units; infinite on sky). */
 void analytic_render_distance(const analytic_view *view, const analytic_shape *shapes, int shape_count, int width,
                               int height, float **out_depth, float **out_normals, float **out_distance);
 
@@ -49,7 +49,7 @@ void analytic_render_distance(const analytic_view *view, const analytic_shape *s
 double analytic_accessibility(const analytic_shape *shapes, int shape_count, const double point[3],
                               const double normal[3], double radius, int rays);
 
-/* A floor, a wall, two spheres and two boxes some 3 to 9 units away, all lengths times `scale`. */
+/* A floor, a wall, two spheres and two boxes, 3 to 9 units away. `scale` multiplies all lengths. */
 enum { ANALYTIC_ROOM_SHAPES = 6 };
 void analytic_room(analytic_shape shapes[ANALYTIC_ROOM_SHAPES], double scale);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "fixture.h"
 
-#include "functions_of_3_3.h" /* made of GL/glcorearb.h */
+#include "functions_of_3_3.h" /* generated from GL/glcorearb.h */
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -34,7 +34,7 @@ int fixture_teardown(void **state)
     return 0;
 }
 
-/* With GLSSAO_CHECK_GL the library asks for errors itself, and puts them into the log. */
+/* With GLSSAO_CHECK_GL the library queries errors itself and logs them. */
 static bool library_saw_gl_error;
 
 int fixture_no_gl_error(void **state)

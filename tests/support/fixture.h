@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * What the GL tests share: a context of the kind that GLSSAO_TEST_CONTEXT names, a loader that knows what
- * GLSSAO_TEST_LOADER says, effects whose log is kept, textures from arrays and arrays from textures. Arrays hold rows
- * bottom to top.
+ * Shared by the GL tests: a context as GLSSAO_TEST_CONTEXT names it, a loader limited by GLSSAO_TEST_LOADER, effects
+ * whose log is kept, and transfers between arrays and textures. Arrays hold rows bottom to top.
  */
 #ifndef GLSSAO_TESTS_FIXTURE_H
 #define GLSSAO_TESTS_FIXTURE_H
@@ -20,41 +19,41 @@
 #include <cmocka.h>
 
 typedef struct fixture {
-    struct context *context; /* the tag, so that C++ compilers take it too */
+    struct context *context; /* the tag lets C++ compilers take it too */
     char log[4096];          /* lines since fixture_clear_log */
     glssao_effect *effect;   /* fixture_shared_effect's */
 } fixture;
 
-/* cmocka group functions: no context is a failure, not a skip. The fixture is the test's *state. */
+/* cmocka group functions. A missing context is a failure, not a skip. The fixture is the test's *state. */
 int fixture_setup(void **state);
 int fixture_teardown(void **state);
-/* cmocka test teardown: fails where GL holds an error, or the library logged one. */
+/* cmocka test teardown. Fails if GL has an error or the library logged one. */
 int fixture_no_gl_error(void **state);
 
 void fixture_clear_log(fixture *f);
 void fixture_log(glssao_log_level level, const char *message, void *user);
 
-/* Whether OpenGL 3.3 has a function of that name. */
+/* Whether OpenGL 3.3 has a function of this name. */
 bool fixture_is_of_3_3(const char *name);
 /* GLSSAO_TEST_LOADER=3.3: fixture_load finds no newer function, so no effect dispatches. */
 bool fixture_hides_newer(void);
-/* What code under test loads through; `user` is the context. */
+/* The loader for code under test; `user` is the context. */
 void *fixture_load(const char *name, void *user);
 
-/* A config for the fixture's context, log kept. */
+/* A config for the fixture's context that keeps the log. */
 glssao_config fixture_config(fixture *f, int width, int height);
 glssao_effect *fixture_effect(fixture *f, int width, int height);
-/* The group's own effect at this size, whose shaders are compiled once; the teardown destroys it. */
+/* The group's own effect, resized to this size. Its shaders compile once; the teardown destroys it. */
 glssao_effect *fixture_shared_effect(fixture *f, int width, int height);
 
 GLuint fixture_depth_texture(GLenum internal_format, int width, int height, const float *depth);
-/* xyz a pixel; RGBA32F, so that the model is fed the same numbers. */
+/* xyz per pixel; RGBA32F, so that the model reads the same numbers. */
 GLuint fixture_normal_texture(int width, int height, const float *normals);
 /* `channels` floats a texel: 1 red, 3 rgb, 4 rgba. The caller frees. */
 float *fixture_read_texture(GLuint texture, int width, int height, int channels);
 float *fixture_read_depth(GLuint texture, int width, int height);
 
-/* A frame that shows the shapes: 32-bit depth and normals. fixture_delete_frame deletes its textures. */
+/* A frame that shows the shapes: 32-bit depth, and normals. fixture_delete_frame deletes its textures. */
 glssao_frame fixture_frame(const analytic_view *view, const analytic_shape *shapes, int shape_count, int width,
                            int height);
 void fixture_delete_frame(const glssao_frame *frame);

@@ -21,8 +21,8 @@ static struct {
     void(APIENTRY *clear_buffer)(GLenum, GLint, const GLfloat *);
 } counter;
 
-/* What must have passed before textures that compute shaders wrote are read by shaders or written once more; and, at
- * the end of a frame, before the host does with them what it likes. */
+/* The barrier bits that must be issued before shaders read or overwrite textures that compute shaders wrote, and, at
+ * the end of a frame, before the host uses them. */
 enum {
     TO_READ = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT,
     TO_END = TO_READ | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT
@@ -113,7 +113,7 @@ void gl_counter_start(glssao_load_fn load, void *load_user)
     counter.user = load_user;
 }
 
-/* ISO C has no cast between object and function pointers; every platform with OpenGL keeps them alike. */
+/* ISO C has no cast between object and function pointers; every platform with OpenGL gives them the same size. */
 #define COUNTED(name, member, function)                                                                                \
     if (strcmp(wanted, name) == 0 && address) {                                                                        \
         memcpy(&counter.member, &address, sizeof address);                                                             \

@@ -2,70 +2,79 @@
 #include "horizon_internals.h"
 
 #include "effect.h"
-#include "shader_constants.h"
+#include "tuned.glsl"
+
+static const glssao__target *map_of(const glssao_effect *effect, enum glssao__map map)
+{
+    return &effect->resources.targets[map];
+}
 
 uint32_t horizon_distance_map(const glssao_effect *effect, int *out_width, int *out_height)
 {
-    *out_width = effect->distance_map.width;
-    *out_height = effect->distance_map.height;
-    return effect->distance_map.texture;
+    *out_width = map_of(effect, MAP_DISTANCE)->width;
+    *out_height = map_of(effect, MAP_DISTANCE)->height;
+    return map_of(effect, MAP_DISTANCE)->texture;
 }
 
 uint32_t horizon_paired_map(const glssao_effect *effect, int number)
 {
-    return effect->paired.texture[number];
+    return map_of(effect, number == 0 ? MAP_PAIRED_0 : MAP_PAIRED_1)->texture;
 }
 
-static bool read_pass_constants(enum glssao__shader shader, const char *tolerance, const char *near,
-                                pass_constants *out)
+uint32_t horizon_sum_map(const glssao_effect *effect)
 {
-    const char *pieces[GLSSAO__PROGRAM_MAX_SOURCES];
-    const int count = glssao__program_sources(NULL, shader, 0, GL_FRAGMENT_SHADER, pieces);
-    return shader_constant(pieces, count, tolerance, &out->tolerance) &&
-           shader_constant(pieces, count, near, &out->near) && shader_constant(pieces, count, "CHORD", &out->chord) &&
-           shader_constant(pieces, count, "NORMAL_STEP", &out->normal_step);
+    return map_of(effect, MAP_SUM)->texture;
 }
 
-bool horizon_read_pass_constants(pass_constants *out_blur, pass_constants *out_upsample)
+void horizon_read_pass_constants(pass_constants *out_blur, pass_constants *out_upsample)
 {
-    const char *pieces[GLSSAO__PROGRAM_MAX_SOURCES];
-    const int count = glssao__program_sources(NULL, SHADER_PLANAR_BLUR, 0, GL_FRAGMENT_SHADER, pieces);
-    return read_pass_constants(SHADER_PLANAR_BLUR, "BLUR_TOLERANCE", "BLUR_NEAR", out_blur) &&
-           shader_constant(pieces, count, "BLUR_HOLLOW", &out_blur->hollow) &&
-           read_pass_constants(SHADER_UPSAMPLE, "UPSAMPLE_TOLERANCE", "UPSAMPLE_NEAR", out_upsample);
+    *out_blur = (pass_constants){.tolerance = BLUR_TOLERANCE,
+                                 .near = BLUR_NEAR,
+                                 .hollow = BLUR_HOLLOW,
+                                 .chord = CHORD,
+                                 .normal_step = NORMAL_STEP};
+    *out_upsample = (pass_constants){
+        .tolerance = UPSAMPLE_TOLERANCE, .near = UPSAMPLE_NEAR, .chord = CHORD, .normal_step = NORMAL_STEP};
 }
 
 void horizon_depth_step(const glssao_effect *effect, double out_step[3])
 {
     for (int i = 0; i < 3; ++i)
-        out_step[i] = (double)effect->frame_constants.gDepthStep[i];
+        out_step[i] = (double)effect->uniforms.frame.gDepthStep[i];
 }
 
 bool horizon_variant(const glssao_effect *effect, horizon_input *out)
 {
+    const glssao__programs *programs = &effect->resources.programs;
+    glssao__variant variant = {{0}};
     int found = 0;
-    unsigned variant = 0;
-    for (int i = 0; i < effect->program_count; ++i)
-        if (effect->programs[i].shader == SHADER_HORIZON) {
-            variant = effect->programs[i].variant;
+    for (int i = 0; i < programs->count; ++i)
+        if (programs->compiled[i].key.bytes[0] == SHADER_HORIZON) {
+            for (int k = 0; k < MACRO_COUNT; ++k)
+                variant.values[k] = programs->compiled[i].key.bytes[k + 1];
             ++found;
         }
-    out->steps = variant & VARIANT_STEPS_16 ? 16 : variant & VARIANT_STEPS_12 ? 12 : variant & VARIANT_STEPS_8 ? 8 : 6;
-    out->slices = variant & VARIANT_SLICES_2 ? 2 : 1;
+    out->steps = variant.values[MACRO_STEPS];
+    out->slices = variant.values[MACRO_SLICES];
+    out->constants = (horizon_constants){
+        .jump = JUMP,
+        .alike = ALIKE,
+        .open_end = OPEN_END,
+        .width = RUN_WIDTH,
+        .veil = variant.values[MACRO_LAYERS] ? VEIL_TWO_LAYERS : VEIL_ONE_LAYER,
+        .veil_width = VEIL_WIDTH,
+        .second = SECOND_WIDTH,
+        .calibration = out->steps >= 12  ? CALIBRATION_12
+                       : out->steps == 8 ? CALIBRATION_8
+                                         : CALIBRATION_6,
+    };
     horizon_depth_step(effect, out->depth_step);
-    const char *pieces[GLSSAO__PROGRAM_MAX_SOURCES];
-    const int count = glssao__program_sources(NULL, SHADER_HORIZON, variant, GL_FRAGMENT_SHADER, pieces);
-    return found == 1 && horizon_read_constants(pieces, count, variant & VARIANT_LAYERS, &out->constants);
-}
-
-uint32_t horizon_sum_map(const glssao_effect *effect)
-{
-    return effect->accumulation.sum.texture;
+    return found == 1;
 }
 
 void horizon_read_noise(const glssao_effect *effect, horizon_input *out)
 {
     for (int i = 0; i < 2; ++i)
-        out->noise_offset[i] = (double)effect->frame_constants.gNoise[i];
-    out->turned_over = effect->frame_constants.gAccumulation[0] == 0.0f;
+        out->noise_offset[i] = (double)effect->uniforms.frame.gNoise[i];
+    out->turned_over = effect->uniforms.frame.gAccumulation[0] == 0.0f;
 }

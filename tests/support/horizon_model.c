@@ -1,30 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "horizon_slice.h"
-#include "shader_constants.h"
 
 #include <stddef.h>
 
-static const double SKY = (double)1e15f; /* view distance that stands for none */
-static const double TRIGONOMETRY = 4e-7; /* error of a driver's sine and cosine: GLSL leaves it open */
-
-bool horizon_read_constants(const char *const *pieces, int count, bool layers, horizon_constants *out)
-{
-    const struct {
-        const char *name;
-        double *out;
-    } wanted[] = {{"JUMP", &out->jump},
-                  {"ALIKE", &out->alike},
-                  {"OPEN_END", &out->open_end},
-                  {"WIDTH", &out->width},
-                  {"VEIL", &out->veil},
-                  {"VEIL_WIDTH", &out->veil_width},
-                  {"CALIBRATION", &out->calibration},
-                  {"SECOND", &out->second}};
-    for (size_t i = 0; i < sizeof wanted / sizeof *wanted - !layers; ++i)
-        if (!shader_constant(pieces, count, wanted[i].name, wanted[i].out))
-            return false;
-    return true;
-}
+static const double SKY = (double)1e15f; /* the view distance that stands for sky */
+static const double TRIGONOMETRY = 4e-7; /* error of a driver's sine and cosine, which GLSL leaves open */
 
 static rounded dot(vector a, vector b)
 {
@@ -57,7 +37,7 @@ static double bound(double value, double least, double most)
     return fmin(fmax(value, least), most);
 }
 
-/* The texels that a sample `along` the slice (in radii) may be snapped to; beyond the border, the border's. */
+/* The texels that a sample `along` the slice (in radii) may snap to; past the border, the border's texels. */
 static void take_sample(const point *p, const slice *s, double along, candidate out[MAX_CANDIDATES], int *out_count)
 {
     const horizon_input *in = p->in;
@@ -144,7 +124,7 @@ static int count_sectors(uint32_t mask)
 static interval slice_occlusion(const point *p, double angle, double jitter)
 {
     const slice s = make_slice(p, angle, jitter);
-    /* A normal straight across the slice: which way it leans is rounding, but it weighs next to nothing. */
+    /* A normal straight across the slice: rounding decides which way it leans, but its weight is nearly 0. */
     if (s.projected.v < 10.0 * s.projected.e)
         return (interval){0.0, 1.6 * (s.projected.v + s.projected.e)};
     const int steps = p->in->steps;
@@ -169,7 +149,7 @@ static interval slice_occlusion(const point *p, double angle, double jitter)
                       projected.high * ((1.0 - share) * covered.high + share * veiled.high) + 4.0 * ROUNDING};
 }
 
-/* Bayer's matrix as ranks, row by row from the bottom; each next size is made of four times the one before. */
+/* Bayer's matrix as ranks, row by row from the bottom. Each larger size consists of four copies of the smaller one. */
 static const int bayer[2][2] = {{0, 2}, {3, 1}};
 
 static void tile_noise(const horizon_input *in, int x, int y, double out[2])
@@ -201,7 +181,7 @@ static bool make_point(const horizon_input *in, int x, int y, point *out)
     out->normal = unit((vector){exactly((double)n[0]), exactly((double)n[1]), exactly((double)n[2])});
     rounded ray[2];
     for (int axis = 0; axis < 2; ++axis) {
-        /* clip = P view: with w = P15 - P11 t at view distance t, ndc w = P0 x - P8 t + P12, alike in y. */
+        /* clip = P view. With w = P15 - P11 t at view distance t: ndc w = P0 x - P8 t + P12, and the same in y. */
         const double scale = (double)m[5 * axis], w = out->orthographic ? (double)m[15] : -(double)m[11];
         const double ndc = 2.0 * (full[axis] + 0.5) / size[axis] - 1.0;
         const double towards = out->orthographic ? (double)m[8 + axis] : ndc * w + (double)m[8 + axis];

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * The horizon estimate in double precision, written from its formulas and not from the shader, to compare with pixel by
- * pixel. Its tuned constants are the shader's own (see shader_constants.h).
+ * The horizon estimate in double precision, written from its formulas and not from the shader, to compare pixel by
+ * pixel. Its tuned constants are the shader's own (glsl/shared/tuned.glsl).
  *
- * The estimate is made of steps: a sample is snapped to a texel, a change of height is a jump or is none, a horizon is
- * rounded to one of 31 sectors. Each is decided here with a bound on the float program's rounding (rounded.h); where
- * that leaves it open, both ways are taken, and the result is an interval: sectors that are surely hidden, and sectors
- * that may be.
+ * The estimate makes discrete decisions: a sample snaps to a texel, a change of height is a jump or not, a horizon
+ * rounds to one of 31 sectors. The model makes each with a bound on the float program's rounding (rounded.h). Where
+ * that bound leaves a decision open, the model takes both ways, and the result is an interval: the sectors that are
+ * certainly hidden, and those that may be.
  */
 #ifndef GLSSAO_TESTS_HORIZON_MODEL_H
 #define GLSSAO_TESTS_HORIZON_MODEL_H
@@ -15,25 +15,22 @@
 
 typedef struct horizon_constants {
     double jump, alike, open_end, width, veil, veil_width, calibration;
-    double second; /* with layers alone */
+    double second; /* used with a second layer only */
 } horizon_constants;
-
-/* False where a constant is not found in the pieces of the fragment shader's source. */
-bool horizon_read_constants(const char *const *pieces, int count, bool layers, horizon_constants *out);
 
 typedef struct horizon_input {
     int full_width, full_height, factor; /* factor: full-size texels per texel of the estimate */
     int width, height;                   /* of the estimate */
     const float *distance;               /* view distance at the estimate's size; 1e15 on sky */
-    const float *layers;  /* two a pixel: thickness, negative where it is not known, and how far behind the next front
-                             face lies; NULL: none known */
+    const float *layers; /* two floats per pixel: thickness (negative: unknown), and the distance to the next front face
+                            behind; NULL: none known */
     const float *normals; /* xyz a pixel, view space, full size */
     float projection[16];
     double radius, power;
-    double depth_step[3]; /* coefficients of 1, t, t^2 in what a step of the depth format comes to at distance t */
+    double depth_step[3]; /* step of the depth format at distance t: coefficients of 1, t, t^2 */
     int slices, steps;
-    double noise_offset[2]; /* added to the tile's angle and jitter, which wrap at 1 */
-    bool turned_over;       /* the tile's angle and jitter change places */
+    double noise_offset[2]; /* added to the tile's angle and jitter; both wrap at 1 */
+    bool turned_over;       /* swap the tile's angle and jitter */
     horizon_constants constants;
 } horizon_input;
 
@@ -41,7 +38,7 @@ typedef struct horizon_input {
 void horizon_model(const horizon_input *in, int x, int y, double *out_low, double *out_high);
 
 /* The measure of the angles from 0 to acos(c) on one side of a slice, for a normal that leans to that side by an angle
- * of the given cosine and sine: the polynomial that stands for the integral of cos(t - g) sin(t). */
+ * of the given cosine and sine. A polynomial approximates the integral of cos(t - g) sin(t). */
 double horizon_measure(double cos_g, double sin_g, double c);
 
 #endif

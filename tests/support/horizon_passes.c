@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* What a texel's red is made of. */
+/* The parts of a texel's red channel. */
 enum { NORMAL_BITS = 10, AXIS_BITS = 5 };
 
 typedef struct texel {
@@ -38,7 +38,7 @@ static texel texel_at(const paired_map *map, int x, int y)
     return (texel){paired_accessibility(t[0]), (double)t[1], {code >> AXIS_BITS, code % (1 << AXIS_BITS)}};
 }
 
-/* Lambert's projection of a unit normal, whose radius is 2 sin(angle / 2), in steps as a texel's. */
+/* Lambert's projection of a unit normal (radius 2 sin(angle / 2)), in the steps that a texel stores. */
 static void project(const double normal[3], double step, double out[2])
 {
     const double angle = acos(fmax(fmin(normal[2], 1.0), -1.0)), across = hypot(normal[0], normal[1]);
@@ -46,13 +46,13 @@ static void project(const double normal[3], double step, double out[2])
         out[i] = (across > 0.0 ? 2.0 * sin(0.5 * angle) * normal[i] / across : 0.0) / step + 15.0;
 }
 
-/* What a length about a surface comes to in the linear quantity: d(1 / t) = dt / t^2. */
+/* A length near a surface, converted to the linear quantity: d(1 / t) = dt / t^2. */
 static double in_linear(double length, double linear, bool orthographic)
 {
     return orthographic ? length : length * linear * linear;
 }
 
-/* What `steps` steps of the depth format come to in it. */
+/* `steps` steps of the depth format, converted to the linear quantity. */
 static double step_in_linear(double steps, double linear, bool orthographic, const pass_constants *c)
 {
     const double t = orthographic ? linear : 1.0 / linear;
@@ -66,7 +66,7 @@ static truth is_below(double value, double error, double limit)
     return value + error < limit * (1.0 - 1e-6) ? YES : value - error >= limit * (1.0 + 1e-6) ? NO : MAYBE;
 }
 
-/* Whether b lies on the line through a and c. Differences of equal floats are exact, sky's among them. */
+/* Whether b lies on the line through a and c. Differences of equal floats are exact, and so are sky's. */
 static truth on_line(double a, double b, double c, double tolerance)
 {
     const double bend = fabs(a - 2.0 * b + c);
@@ -79,19 +79,19 @@ static truth is_near(double a, double b, double limit)
     return is_below(fabs(a - b), 4.0 * 0x1p-24 * (fabs(a) + fabs(b)), limit);
 }
 
-/* Whether the surface does not turn away from the eye on the way (-1, 0 or 1 in x and y) to a tap; `error`: how far off
- * the steps of `from` may be. */
+/* Whether the surface does not turn away from the eye on the way (-1, 0 or 1 in x and y) to a tap. `error` bounds the
+ * error of the steps of `from`. */
 static truth joins(const double from[2], const int tap[2], int way_x, int way_y, double error,
                    const pass_constants *constants)
 {
     const double x = tap[0] - from[0], y = tap[1] - from[1], along = x * way_x + y * way_y;
     if (along <= -2.0 * error || (error == 0.0 && along == 0.0))
-        return YES; /* alike, or a hollow */
+        return YES; /* similar normals, or a hollow */
     const truth close = is_below(hypot(x, y), error + 1e-6, constants->chord / constants->normal_step);
     return along < 2.0 * error && close == NO ? MAYBE : close;
 }
 
-/* Calls `result` for each way in which the tests that may come out both ways can. */
+/* Calls `result` once for each outcome of the tests that float arithmetic leaves open. */
 static void each_outcome(truth *tests, int count, double (*result)(const truth *tests, const void *user),
                          const void *user, double *low, double *high)
 {
@@ -126,7 +126,7 @@ static double blurred(const truth *t, const void *user)
 {
     const texel *taps = user;
     double weights[5] = {0.0, 0.0, 1.0, 0.0, 0.0};
-    weights[0] = t[LINE_BEFORE] && t[JOINS_BEFORE_2] ? 0.5 : 0.0; /* half of it lies beyond the tile */
+    weights[0] = t[LINE_BEFORE] && t[JOINS_BEFORE_2] ? 0.5 : 0.0; /* half of it lies outside the tile */
     weights[1] = t[JOINS_BEFORE] && (t[LINE_BEFORE] || t[LINE]) ? 1.0 : 0.0;
     weights[3] = t[JOINS_AFTER] && (t[LINE_AFTER] || t[LINE]) ? 1.0 : 0.0;
     weights[4] = t[LINE_AFTER] && t[JOINS_AFTER_2] ? 0.5 : 0.0;
@@ -169,7 +169,7 @@ void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic
 
 enum { ON_ROW, ON_COLUMN, JOINS_AROUND, WIDE_TESTS = JOINS_AROUND + 4 };
 
-/* The pixel's own is the fifth; opposite ones are 0 and 1, 2 and 3. */
+/* The fifth is the pixel's own; opposite pairs are 0 and 1, 2 and 3. */
 static double blurred_wide(const truth *t, const void *user)
 {
     const texel *taps = user;
@@ -207,13 +207,13 @@ void wide_blur_model(const paired_map *map, bool orthographic, const pass_consta
     each_outcome(tests, WIDE_TESTS, blurred_wide, taps, out_low, out_high);
 }
 
-/* Joins 0 to 3, near 4 to 7, on the plane of all four 8; then whether each may be the nearest. */
+/* Joins 0 to 3, near 4 to 7, on the plane of all four 8; the rest: whether each may be the nearest. */
 enum { JOINS_0, NEAR_0 = 4, ON_PLANE = 8, UPSAMPLE_TESTS };
 
 typedef struct four {
     texel at[4];
     double apart[4], error;
-    bool is_low; /* which end of the interval is wanted where several may be the nearest */
+    bool is_low; /* the end of the interval that is wanted if several may be the nearest */
 } four;
 
 static double nearest(const truth *t, const four *f)
@@ -246,7 +246,7 @@ static double upsampled(const truth *t, const void *user)
 void upsample_model(const paired_map *half, bool orthographic, const pass_constants *constants, const full_pixel *own,
                     int x, int y, double *out_low, double *out_high)
 {
-    /* A half-size texel stands for the full-size one of twice its index. */
+    /* A half-size texel stands for the full-size texel of twice its index. */
     four f = {.error = 8.0 * 0x1p-24 * fabs(own->linear)};
     truth tests[UPSAMPLE_TESTS];
     double mean = 0.0, normal[2];
@@ -259,7 +259,7 @@ void upsample_model(const paired_map *half, bool orthographic, const pass_consta
         tests[NEAR_0 + i] = is_below(f.apart[i], f.error, in_linear(constants->near, own->linear, orthographic));
         mean += 0.25 * (f.at[i].linear - own->linear);
     }
-    /* Where all four face one way, the pixel is taken to face it too. */
+    /* If all four face one way, the pixel is taken to face the same way. */
     const int *first = f.at[0].normal;
     bool all_alike = true;
     for (int i = 1; i < 4; ++i)

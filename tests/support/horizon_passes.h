@@ -8,27 +8,27 @@
 
 #include <stdbool.h>
 
-/* Two floats a texel, as the passes hand them on: accessibility, whose ten lowest bits hold the normal's equal-area
- * projection, and the linear quantity of distance (1 / distance in perspective, distance in orthographic views). */
+/* Two floats per texel, as the passes hand them on: accessibility, whose ten lowest bits hold the normal's equal-area
+ * projection; and the linear quantity of distance (1 / distance in perspective, distance in orthographic views). */
 typedef struct paired_map {
     float *texels; /* three a texel, the third unused */
     int width, height;
 } paired_map;
 
 typedef struct pass_constants {
-    double tolerance, near, hollow; /* scene units; the last of later rounds of the blur alone */
-    double chord;                   /* of two unit normals that belong to different sides of a crease */
+    double tolerance, near, hollow; /* scene units; used by the last of the later blur rounds only */
+    double chord;                   /* between two unit normals on different sides of a crease */
     double normal_step;
-    double depth_step[3]; /* what a step of the depth format comes to in view distance t: of 1, t and t^2 */
+    double depth_step[3]; /* step of the depth format at view distance t: coefficients of 1, t and t^2 */
 } pass_constants;
 
-/* One direction of the first round; a later round. */
+/* One direction of the first round; one later round. */
 void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic, const pass_constants *constants,
                        int x, int y, double *out_low, double *out_high);
 void wide_blur_model(const paired_map *map, bool orthographic, const pass_constants *constants, int x, int y,
                      double *out_low, double *out_high);
 
-/* The full-size pixel's own linear quantity and unit normal. */
+/* Linear quantity and unit normal of the full-size pixel. */
 typedef struct full_pixel {
     double linear, normal[3];
 } full_pixel;

@@ -8,7 +8,7 @@ enum { MAX_UNDECIDED = 5, MAX_COMBINATIONS = 32 };
 
 double horizon_measure(double cos_g, double sin_g, double c)
 {
-    /* h(c) = acos(c) - c sqrt(1 - c^2), nearly. */
+    /* h(c) = acos(c) - c sqrt(1 - c^2), approximately. */
     const double h = 0.5 * PI - c * (1.98868 - 0.25869 * c * c - 0.15521 * c * c * c * c);
     return 0.5 * (cos_g * (1.0 - c * c) + sin_g * h);
 }
@@ -21,7 +21,7 @@ interval horizon_slice_measure(const slice *s, double sign, interval c)
     return (interval){fmin(a, b) - error, fmax(a, b) + error};
 }
 
-/* Sectors are numbered from the far end of the minus side, and rounded to. */
+/* Sectors are numbered from the far end of the minus side; angles round to the nearest. */
 static void sector(const slice *s, const side *d, interval cosine, int *out_least, int *out_most)
 {
     const rounded m = middle(horizon_slice_measure(s, d->minus ? -1.0 : 1.0, cosine));
@@ -36,7 +36,7 @@ static uint32_t sectors_between(int from, int to)
     return from < to ? (UINT32_C(1) << to) - (UINT32_C(1) << from) : 0;
 }
 
-/* y / sqrt(x^2 + y^2), over all that x and y may be. */
+/* y / sqrt(x^2 + y^2), over all possible x and y. */
 static interval cosine_of(interval x, interval y)
 {
     interval c = {HUGE_VAL, -HUGE_VAL};
@@ -49,14 +49,14 @@ static interval cosine_of(interval x, interval y)
     return (interval){c.low - error, c.high + error};
 }
 
-/* Where a sample lies: outwards, half the chord of the sphere there, and whether it may count for nothing. */
+/* Position of a sample along the slice, half the chord of the sphere there, and whether the sample may count for
+ * nothing. */
 typedef struct place {
     interval outward, chord;
     bool maybe_outside;
 } place;
 
-/* Adds what lies hidden between two heights; returns the cosine of the upper one's horizon, `lowest` where nothing is.
- */
+/* Adds the sectors between two heights. Returns the cosine of the upper one's horizon, or `lowest` if there is none. */
 static interval hide_between(const slice *s, const side *d, const place *at, interval y_top, interval y_bottom,
                              hidden *h)
 {
@@ -84,7 +84,7 @@ static interval hide_between(const slice *s, const side *d, const place *at, int
     return t;
 }
 
-/* Adds what one sample hides, whose run is `width` steps wide. */
+/* Adds what one sample hides whose run is `width` steps wide. */
 static void add_sample(const point *p, const slice *s, const side *d, const candidate *at, rounded width, hidden *h)
 {
     const horizon_constants *c = &p->in->constants;
@@ -95,12 +95,12 @@ static void add_sample(const point *p, const slice *s, const side *d, const cand
     rounded least = multiply(fifth, square_root(add(squares[0], squares[1])));
     least.e += 4.0 * ROUNDING * least.v;
     const interval beyond = bounds(subtract(at->x, least));
-    /* The tangent plane, and a step of the depth format above it. */
+    /* The tangent plane, raised by a step of the depth format. */
     rounded tangent = divide(s->sin_g, at_least(s->cos_g, 1e-3));
     tangent.v *= d->minus ? 1.0 : -1.0;
     const interval above = bounds(subtract(at->y, add(multiply(tangent, at->x), p->y_step)));
     if (beyond.high <= 0.0 || above.high <= 0.0 || x.low >= 1.0 + 4.0 * ROUNDING)
-        return; /* on the point, across the slice or on the other side of it; too low; beyond the sphere */
+        return; /* on the point, across the slice or on its other side; too low; outside the sphere */
     const double square_error = 4.0 * ROUNDING;
     place here = {.outward = {fmax(x.low, 0.0), x.high},
                   .maybe_outside = beyond.low <= 0.0 || above.low <= 0.0 || x.high >= 1.0 - 4.0 * ROUNDING};
@@ -123,7 +123,7 @@ static void add_sample(const point *p, const slice *s, const side *d, const cand
         h->highest.low = fmax(h->highest.low, t.low);
 }
 
-/* Both ways of what could not be decided. */
+/* Both outcomes of each undecided test. */
 static void merge(hidden *all, const hidden *one)
 {
     if (!all->started) {
@@ -143,7 +143,7 @@ static void add_runs(const point *p, const slice *s, const side *d, const candid
     const int steps = p->in->steps;
     hidden h = {.highest = bounds(d->lowest)};
     for (int i = 0; i < steps; ++i) {
-        /* A run goes from the last jump up to here to the next; the point's own is thicker than any sphere. */
+        /* A run reaches from the last jump to the next. The point's own run is thicker than any sphere. */
         int first = i, next = i + 1;
         while (first >= 0 && !(jumps >> first & 1u))
             --first;
@@ -166,7 +166,7 @@ static truth exceeds(rounded a, double bound)
     return size - a.e > bound ? YES : size + a.e < bound ? NO : MAYBE;
 }
 
-/* Whether a change of height is large, and goes on neither before nor after. */
+/* Whether a change of height is large and continues neither before nor after. */
 static truth is_jump(const horizon_constants *c, rounded before, rounded change, rounded after)
 {
     const truth parts[] = {exceeds(change, c->jump), exceeds(subtract(change, before), c->alike),
@@ -177,7 +177,7 @@ static truth is_jump(const horizon_constants *c, rounded before, rounded change,
     return all;
 }
 
-/* False where too much is open. */
+/* False if too many decisions are open. */
 static bool add_jumps(const point *p, const slice *s, const side *d, const candidate *const samples[MAX_STEPS],
                       hidden *all)
 {
@@ -190,7 +190,7 @@ static bool add_jumps(const point *p, const slice *s, const side *d, const candi
     int open[MAX_STEPS], open_count = 0;
     for (int i = 0; i < steps; ++i) {
         const truth jump = is_jump(&p->in->constants, i > 0 ? change[i - 1] : exactly(1e3), change[i], change[i + 1]);
-        /* From sky to sky a jump changes nothing: runs about it end at the sky, and sky hides nothing. */
+        /* Between two sky samples a jump changes nothing: the runs beside it end at the sky, and sky hides nothing. */
         const bool deep =
             i > 0 && samples[i]->sky && samples[i - 1]->sky && samples[i]->y.v < -1e6 && samples[i - 1]->y.v < -1e6;
         if (jump == YES)
@@ -209,7 +209,7 @@ static bool add_jumps(const point *p, const slice *s, const side *d, const candi
     return true;
 }
 
-/* Every choice of texels. */
+/* Every combination of texels. */
 hidden horizon_slice_hidden(const point *p, const slice *s, const side *d)
 {
     const hidden anything = {.surely = 0, .possibly = UINT32_MAX >> 1, .highest = {bounds(d->lowest).low, 1.0}};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * What the two halves of the horizon model share: the slice that one makes, and what the other finds hidden in it.
+ * Shared by the two halves of the horizon model: horizon_model.c makes the slice, horizon_slice.c finds what is hidden
+ * in it.
  */
 #ifndef GLSSAO_TESTS_HORIZON_SLICE_H
 #define GLSSAO_TESTS_HORIZON_SLICE_H
@@ -25,7 +26,7 @@ typedef struct point {
     double distance;
     rounded y_step; /* of the depth format, in radii */
     vector up, normal;
-    rounded px[2]; /* view xy that a pixel gains; in perspective per unit of distance */
+    rounded px[2]; /* change of view xy per pixel; in perspective per unit of distance */
     rounded ray_length;
 } point;
 
@@ -33,15 +34,15 @@ typedef struct slice {
     rounded step_px[2]; /* the radius along the slice, in pixels */
     rounded x_per_px[2], y_per_px[2];
     rounded cos_g, sin_g, projected;
-    rounded total, total_minus; /* measure of the whole slice and of its minus side */
+    rounded total, total_minus; /* measure of the whole slice, and of its minus side */
     double jitter;
 } slice;
 
-/* A texel that a sample may be snapped to, in units of the radius: distance along the slice outwards, height, and the
- * width of a step there. */
+/* A texel that a sample may snap to, in units of the radius: outward distance along the slice, height, and the width of
+ * a step there. */
 typedef struct candidate {
     rounded x, y, step;
-    rounded thickness, behind; /* of the layers, where there are any; thickness is negative where it is not known */
+    rounded thickness, behind; /* of the layers, if any; thickness is negative if unknown */
     bool sky;
 } candidate;
 
@@ -54,14 +55,14 @@ typedef struct side {
 
 typedef struct hidden {
     uint32_t surely, possibly; /* sectors */
-    interval highest;          /* cosine of the horizon over what veils */
+    interval highest;          /* cosine of the horizon above the occluders that cast a veil */
     bool started;
 } hidden;
 
-/* Bounds of the measure for a cosine between two; `sign` -1 for the side that the normal leans away from. */
+/* Bounds of the measure for a cosine between two. `sign` is -1 for the side that the normal leans away from. */
 interval horizon_slice_measure(const slice *s, double sign, interval cosine);
 
-/* What one side's samples hide, over everything that rounding leaves open. */
+/* What the samples of one side hide, over everything that rounding leaves open. */
 hidden horizon_slice_hidden(const point *p, const slice *s, const side *d);
 
 #endif

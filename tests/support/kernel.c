@@ -7,14 +7,14 @@
 
 const float *depth_step_of(const glssao_effect *effect)
 {
-    return effect->frame_constants.gDepthStep;
+    return effect->uniforms.frame.gDepthStep;
 }
 
 void kernel_of_seed(uint32_t seed, int sample_count, float out_kernel[64][4], float out_rotations[16][4])
 {
-    glssao__hemisphere_constants c;
-    glssao__constants_init_hemisphere(&c, seed);
-    glssao__constants_fill_kernel(&c, seed, sample_count);
-    memcpy(out_kernel, c.gKernel, sizeof c.gKernel);
-    memcpy(out_rotations, c.gRotations, sizeof c.gRotations);
+    glssao__uniforms u;
+    glssao__uniforms_init(&u, seed);
+    glssao__uniforms_kernel(&u.hemisphere, seed, sample_count);
+    memcpy(out_kernel, u.hemisphere.gKernel, sizeof u.hemisphere.gKernel);
+    memcpy(out_rotations, u.hemisphere.gRotations, sizeof u.hemisphere.gRotations);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Inputs of the models, asked of the library's own code: the hemisphere technique's random ones, and what a step of the
- * depth format came to in the last frame.
+ * Inputs of the models that come from the library's own code: the random inputs of the hemisphere technique, and the
+ * step of the depth format in the last frame.
  */
 #ifndef GLSSAO_TESTS_KERNEL_H
 #define GLSSAO_TESTS_KERNEL_H

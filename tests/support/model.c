@@ -68,7 +68,7 @@ static bool is_sky(const model_input *in, double depth)
     return depth == 0.0 || !(fabs(depth) < 1e15);
 }
 
-/* Linear filter, border: sky. */
+/* Linear filter; the border is sky. */
 static double depth_at(const model_input *in, double u, double v)
 {
     double border = sky_depth(in);
@@ -76,7 +76,7 @@ static double depth_at(const model_input *in, double u, double v)
     double fx = x - floor(x), fy = y - floor(y);
     int ix = (int)floor(x), iy = (int)floor(y);
     if (in->frame->depth_kind != GLSSAO_DEPTH_WINDOW && u >= 0.0 && v >= 0.0 && u <= 1.0 && v <= 1.0) {
-        bool beside_sky = false; /* distances that mean sky are not mixed with others */
+        bool beside_sky = false; /* distances that mean sky are not filtered with others */
         for (int i = 0; i < 4; ++i) {
             const int tx = (int)fmin(fmax(ix + i % 2, 0.0), in->width - 1.0);
             const int ty = (int)fmin(fmax(iy + i / 2, 0.0), in->height - 1.0);
@@ -92,14 +92,14 @@ static double depth_at(const model_input *in, double u, double v)
     return (1.0 - fy) * low + fy * high;
 }
 
-/* The full-size texel that stands for an ambient pixel: the lower left one where four meet. */
+/* The full-size texel that stands for an ambient pixel: the lower left one of four. */
 static int texel_of(int pixel, int ambient_size, int full_size)
 {
     return (int)floor((pixel + 0.5) / ambient_size * full_size - 0.25);
 }
 
-/* How much nearer and how much farther a distance read at uv may come out in float arithmetic, where uv is off by 2^-22
- * of the map, depth by 3 steps of 2^-24, and distance by 4. */
+/* How much nearer and farther a distance read at uv may come out in float arithmetic, if uv is off by 2^-22 of the map,
+ * depth by 3 steps of 2^-24, and distance by 4. */
 static void distance_errors(const model_input *in, double u, double v, double *out_nearer, double *out_farther)
 {
     double distance = distance_from_depth(in, depth_at(in, u, v)), low = distance, high = distance;
@@ -131,8 +131,8 @@ static vec3 normal_texel(const model_input *in, int x, int y)
     return (vec3){normal.x / length, normal.y / length, normal.z / length};
 }
 
-/* How much nearer a surface must seem to be one: the setting, a step of the depth format at `at`, and what a filter
- * that weighs in steps of 1/256 may make of the surface at a texel, whose distance per texel follows from n . p being
+/* How much nearer a surface must be to occlude: the setting, plus a step of the depth format at `at`, plus the error of
+ * a filter that weighs in steps of 1/256 on the surface at a texel. Its distance per texel follows from n . p being
  * constant. */
 static double least_nearer(const model_input *in, int x, int y, double t, vec3 n, double at)
 {
@@ -144,7 +144,7 @@ static double least_nearer(const model_input *in, int x, int y, double t, vec3 n
            at * at * (double)in->depth_step[2] + slope / fmax(256.0 * fabs(facing), 1e-3);
 }
 
-/* The radius over the smaller side of an ambient pixel at distance t; 1 at most. */
+/* The radius over the smaller side of an ambient pixel at distance t; at most 1. */
 static double radius_fade(const model_input *in, double t)
 {
     const vec3 p = position_view(in, 0.5, 0.5, t);
@@ -207,7 +207,7 @@ void model_classic(const model_input *in, int x, int y, double *out_low, double 
         double at_epsilon = least * (1.0 + 1e-12);
         double c = distance_weight(s, least, fmin(fmax(at_epsilon, to.z - farther), to.z + nearer));
         double weight_low = fmin(a, b), weight_high = fmax(fmax(a, b), c);
-        if (fabs(side) < 1e-6) { /* flipped or not: another sample altogether */
+        if (fabs(side) < 1e-6) { /* flipped or not: two different samples */
             weight_low = 0.0;
             weight_high = 1.0;
             facing_error = 1.0;
@@ -259,7 +259,7 @@ void model_hemisphere(const model_input *in, int x, int y, double *out_low, doub
         double u = 0.5 + 0.5 * (entry(in, 0) * q.x + entry(in, 8) * q.z + entry(in, 12)) / w;
         double v = 0.5 + 0.5 * (entry(in, 5) * q.y + entry(in, 9) * q.z + entry(in, 13)) / w;
         double inside = fmin(fmin(u, v), fmin(1.0 - u, 1.0 - v));
-        if (fabs(inside) < 1e-6) { /* on the screen's very edge: counted, or not */
+        if (fabs(inside) < 1e-6) { /* on the very edge of the screen: counted, or not */
             perhaps_counted += 1.0;
             continue;
         }

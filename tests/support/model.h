@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * The classic and hemisphere estimates and the blur in plain double precision, written from design formulas and not
- * from the shaders, to compare with pixel by pixel.
+ * The classic and hemisphere estimates and the blur in plain double precision, written from the design's formulas and
+ * not from the shaders, to compare pixel by pixel.
  *
- * The formulas have thresholds, where a float and a double may fall on different sides and no tolerance on the result
- * would be tight and true. So the model gives an interval: at each threshold that the inputs' float precision can't
- * decide, both sides are taken. Elsewhere the interval has no width.
+ * At a threshold a float and a double may fall on different sides, and no tolerance on the result would be both tight
+ * and true. So the model returns an interval: at each threshold that the float precision of the inputs cannot decide,
+ * it takes both sides. Elsewhere the interval has no width.
  */
 #ifndef GLSSAO_TESTS_MODEL_H
 #define GLSSAO_TESTS_MODEL_H
@@ -17,12 +17,12 @@ typedef struct model_input {
     int ambient_width, ambient_height;
     const float *depth;          /* as the texture holds it, of frame->depth_kind */
     const float *normals;        /* xyz a pixel */
-    const float *random_vectors; /* rgb a pixel of the ambient map, 0..1, as the sampler delivers them */
+    const float *random_vectors; /* rgb per pixel of the ambient map, 0..1, as the sampler returns them */
     const glssao_frame *frame;
     const glssao_settings *settings;
     const glssao_constants *constants;
-    const float *depth_step;  /* coefficients of 1, t, t^2 in what a step of the depth format comes to at distance t */
-    const float (*kernel)[4]; /* hemisphere: sample positions about +z */
+    const float *depth_step;     /* step of the depth format at distance t: coefficients of 1, t, t^2 */
+    const float (*kernel)[4];    /* hemisphere: sample positions about +z */
     const float (*rotations)[4]; /* hemisphere: the 4x4 tile, row by row from the bottom */
 } model_input;
 
@@ -31,8 +31,8 @@ void model_classic(const model_input *in, int x, int y, double *out_low, double 
 
 void model_hemisphere(const model_input *in, int x, int y, double *out_low, double *out_high);
 
-/* One direction of the blur of `ambient` (an ambient map's texels). Returns false where a tap's threshold can't be
- * decided in float. */
+/* One direction of the blur of `ambient` (an ambient map's texels). Returns false if float precision cannot decide a
+ * tap's threshold. */
 bool model_blur(const model_input *in, const float *ambient, bool horizontal, int x, int y, double *out_value);
 
 #endif

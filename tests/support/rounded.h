@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * A number that a float program computes: its exact value and a bound on what rounding can have done to it, carried
- * from operation to operation (running error analysis, N. Higham, "Accuracy and Stability of Numerical Algorithms",
- * 2nd ed., section 3.3). Each operation is as exact as GLSL asks for from 4.10 on: half a unit in the last place,
- * division and square roots two and a half.
+ * A number that a float program computes: its exact value, and a bound on its rounding error that is carried from
+ * operation to operation (running error analysis, N. Higham, "Accuracy and Stability of Numerical Algorithms", 2nd
+ * ed., section 3.3). Each operation is as exact as GLSL requires from 4.10 on: half a unit in the last place; division
+ * and square roots two and a half.
  */
 #ifndef GLSSAO_TESTS_ROUNDED_H
 #define GLSSAO_TESTS_ROUNDED_H
@@ -21,7 +21,7 @@ static inline rounded exactly(double v)
     return (rounded){v, 0.0};
 }
 
-/* A constant or an input that was rounded to float once. */
+/* A constant or an input, rounded to float once. */
 static inline rounded once_rounded(double v)
 {
     return (rounded){v, ROUNDING * fabs(v)};
@@ -44,7 +44,7 @@ static inline rounded multiply(rounded a, rounded b)
     return (rounded){v, fabs(a.v) * b.e + fabs(b.v) * a.e + a.e * b.e + ROUNDING * fabs(v)};
 }
 
-/* b must be surely other than 0; else the error is infinite. */
+/* b must certainly differ from 0; otherwise the error is infinite. */
 static inline rounded divide(rounded a, rounded b)
 {
     const double v = a.v / b.v, least = fabs(b.v) - b.e;
@@ -57,7 +57,7 @@ static inline rounded square_root(rounded a)
     return (rounded){v, fmax(v - low, high - v) + 5.0 * ROUNDING * high};
 }
 
-/* max(a, least) with an exact bound. */
+/* max(a, least), if `least` is exact. */
 static inline rounded at_least(rounded a, double least)
 {
     return a.v + a.e < least ? exactly(least) : (rounded){fmax(a.v, least), a.e};

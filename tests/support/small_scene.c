@@ -199,7 +199,7 @@ static void bake_instance(small_scene *b, const small_scene *s, const scene_prim
             normal[r] = (float)(direction[r] / sqrt(length));
         add_vertex(b, position, normal, 0, 0);
     }
-    for (uint32_t i = first; i < b->scene.vertex_count; i += 3) /* a mirror turns the winding round */
+    for (uint32_t i = first; i < b->scene.vertex_count; i += 3) /* a mirror reverses the winding */
         add_triangle(b, mirrored ? i + 1 : i, mirrored ? i : i + 1, i + 2);
     small_scene_add_instance(b, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Small traced pictures and single points, for the tests of the ray tracer. Failures of the tracer fail the test.
+ * Small traced pictures and single points for the tests of the ray tracer. A failure of the tracer fails the test.
  */
 #ifndef GLSSAO_TESTS_TRACE_SHOT_H
 #define GLSSAO_TESTS_TRACE_SHOT_H
@@ -19,10 +19,10 @@ trace_scene *trace_shot_open(const scene *s);
 /* Accessibility of one point whose normal is +y. */
 double trace_shot_point(const trace_scene *t, float x, float y, float z, float radius, int samples);
 
-/* A view of the small picture's size; lengths times `scale`. */
+/* A view of the small picture's size; `scale` multiplies lengths. */
 scene_view trace_shot_view(const float eye[3], const float target[3], float scale);
 trace_shot trace_shot_take(const scene *s, const scene_view *view, trace_options options);
-int trace_shot_foreground(const trace_shot *p);                         /* pixels that see something */
+int trace_shot_foreground(const trace_shot *p);                         /* pixels that see a surface */
 double trace_shot_difference(const trace_shot *a, const trace_shot *b); /* mean, absolute */
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Small glTF files.
+ * Writes small glTF files.
  */
 #define _XOPEN_SOURCE 700 /* mkdtemp, nftw */
 #include "gltf_writer.h"
@@ -113,7 +113,7 @@ static void append_base64(char *text, size_t room, const uint8_t *data, size_t s
     }
 }
 
-/* The whole JSON, in memory of this function's own. */
+/* The whole JSON; the function keeps the memory. */
 static char *compose(const gltf_writer *w, int embedded, const char *rest)
 {
     static char text[65536];

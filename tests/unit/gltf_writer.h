@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Writes small glTF files for tests, into a temporary folder that is removed at the end.
+ * Writes small glTF files for tests into a temporary folder, which is removed at the end.
  */
 #ifndef GLSSAO_TESTS_GLTF_WRITER_H
 #define GLSSAO_TESTS_GLTF_WRITER_H
@@ -9,9 +9,9 @@
 #include <stdint.h>
 
 typedef struct gltf_writer {
-    uint8_t bin[8192]; /* one buffer holds everything */
+    uint8_t bin[8192]; /* one buffer for everything */
     size_t size;
-    char views[4096], accessors[8192]; /* JSON, comma after each */
+    char views[4096], accessors[8192]; /* JSON, with a comma after each element */
     int view_count, accessor_count;
 } gltf_writer;
 
@@ -19,23 +19,24 @@ typedef struct gltf_writer {
 int gltf_writer_setup(void **state);
 int gltf_writer_teardown(void **state);
 
-/* The temporary folder's path with this name appended; lives until the second next call. */
+/* The path of this name in the temporary folder; valid until the second next call. */
 const char *gltf_writer_path(const char *name);
 
-/* A new buffer view that holds these bytes, 4-byte aligned; its index. Stride 0: none. */
+/* Adds a buffer view with these bytes, 4-byte aligned, and returns its index. Stride 0: none. */
 int gltf_put_view(gltf_writer *w, const void *data, size_t bytes, int stride);
 
-/* A new accessor of that view (-1: none); `more` is further JSON that begins with a comma, or "". Its index. */
+/* Adds an accessor of that view (-1: none) and returns its index. `more` is further JSON that begins with a comma, or
+ * "". */
 int gltf_put_accessor(gltf_writer *w, int view, int component_type, const char *type, size_t count, const char *more);
 
 /* View and accessor in one, of float vectors: "VEC3" and so on. */
 int gltf_put_floats(gltf_writer *w, const char *type, size_t count, const float *values);
 
-/* Writes the file with what was put and the rest of its JSON; the path. With `rest` of a whole file, NULL for `w`. */
+/* Writes the collected parts and the rest of the JSON, and returns the path. If `rest` is a whole file, `w` is NULL. */
 const char *gltf_write(const gltf_writer *w, const char *name, const char *rest);
 const char *gltf_write_glb(const gltf_writer *w, const char *name, const char *rest);
 
-/* Writes any bytes; the path. */
+/* Writes any bytes and returns the path. */
 const char *gltf_write_bytes(const char *name, const void *data, size_t size);
 
 #endif

@@ -112,7 +112,7 @@ static const char *find_material_flaw(const scene *s)
     return NULL;
 }
 
-/* The corners of a primitive's box, in the world, within the scene's bounds (give and take rounding)? */
+/* Do the corners of a primitive's box lie within the scene's bounds, except for rounding? */
 static bool holds(const scene *s, const scene_primitive *p, const float *m)
 {
     for (uint32_t i = p->first_index; i < p->first_index + p->index_count; ++i) {
@@ -144,7 +144,7 @@ static const char *find_instance_flaw(const scene *s)
                 return "a matrix is not finite";
             if (matrix[3] != 0 || matrix[7] != 0 || matrix[11] != 0 || matrix[15] != 1)
                 return "a matrix is not affine";
-            /* Many instances: their corners were tried often enough. */
+            /* Many instances: enough of their corners have been checked. */
             for (uint32_t p = 0; p < mesh->primitive_count && i < next - mesh->instance_count + 50; ++p)
                 if (!holds(s, &s->primitives[mesh->first_primitive + p], matrix))
                     return "the scene's bounds do not hold an instance";

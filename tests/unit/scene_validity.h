@@ -7,11 +7,11 @@
 
 #include "scene.h"
 
-/* NULL where all of it holds, else what does not: indices within the vertices, references within their arrays, finite
- * numbers, unit normals, instances sorted by mesh, bounds that hold what is drawn. */
+/* NULL if all invariants hold, otherwise the one that fails: indices within the vertices, references within their
+ * arrays, finite numbers, unit normals, instances sorted by mesh, bounds that contain everything drawn. */
 const char *scene_find_flaw(const scene *s);
 
-/* Triangles drawn: of each mesh, times its instances. */
+/* The number of triangles drawn: those of each mesh times its instances. */
 uint64_t scene_count_triangles(const scene *s);
 
 #endif

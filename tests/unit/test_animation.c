@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * A file's first animation at a time: where nodes, morphs and skins are then, by numbers worked out by hand, and files
- * whose animation is wrong.
+ * A file's first animation at a time: nodes, morphs and skins by numbers worked out by hand, and files with a faulty
+ * animation.
  */
 #include "fixture.h"
 #include "gltf_writer.h"
@@ -46,7 +46,7 @@ static scene *load_at(const gltf_writer *w, const char *rest, double time_s)
     return s;
 }
 
-/* Where the file's only node takes the mesh's point at that time. */
+/* The position of the mesh's point at that time, moved by the file's only node. */
 static void assert_goes_to(const gltf_writer *w, const char *rest, double time_s, const float point[3], float x,
                            float y, float z)
 {
@@ -86,8 +86,8 @@ static void steps_and_lines_go_from_key_to_key(void **state)
     assert_goes_to(&grown, scales, 1.5, along_x, 2, 0, 0);
 }
 
-/* From 1 to 5 in the two seconds from key 2 to key 4, leaving at 3 and arriving at -1 a second: half way
- * 1/2 + 5/2 + 2 (1/8 3 - 1/8 -1) = 4. */
+/* From 1 to 5 in the two seconds from key 2 to key 4, with slopes 3 and -1 a second. Half way: 1/2 + 5/2 + 2 (1/8 3 -
+ * 1/8 -1) = 4. */
 static void splines_follow_their_tangents(void **state)
 {
     (void)state;
@@ -102,7 +102,7 @@ static void splines_follow_their_tangents(void **state)
     assert_goes_to(&w, spline, 9, origin, 5, 0, 0);
 }
 
-/* A quarter turn about z in a second: equal angles in equal times, by the shorter way whichever sign is written. */
+/* A quarter turn about z in a second: equal angles in equal times, the shorter way, whichever sign is written. */
 static void rotations_turn_evenly_by_the_shorter_way(void **state)
 {
     (void)state;
@@ -161,14 +161,14 @@ static void skins_follow_their_joints(void **state)
         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"JOINTS_0\":3,\"WEIGHTS_0\":4}}]}],"
         "\"skins\":[{\"joints\":[1,0],\"inverseBindMatrices\":5}],"
         "\"nodes\":[{},{},{\"mesh\":0,\"skin\":0}]," ANIMATION("translation", "LINEAR");
-    scene *s = load_at(&w, json, 1.5); /* the second joint, which only the second vertex hangs on, has moved by 3 */
+    scene *s = load_at(&w, json, 1.5); /* the second joint, which moves only the second vertex, has moved by 3 */
     assert_float_equal(s->vertices[0].position[2], 0, 0);
     assert_float_equal(s->vertices[1].position[2], 3, 1e-6f);
     assert_float_equal(s->vertices[2].position[2], 0, 0);
     scene_destroy(s);
 }
 
-/* Each is fine as long as nobody asks for a time. */
+/* Each file loads as long as no time is asked for. */
 static void wrong_animations_are_named(void **state)
 {
     (void)state;
@@ -216,7 +216,7 @@ static void wrong_animations_are_named(void **state)
     }
 }
 
-/* Of the animations only the first; a channel without a node is an extension's. */
+/* Only the first animation counts; a channel without a node belongs to an extension. */
 static void other_animations_and_extensions_are_left_out(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Arguments and contexts that cannot work give the right code, name the fault in the log, and change nothing.
+ * Invalid arguments and unusable contexts give the right code, name the fault in the log, and change nothing.
  */
 #include "fixture.h"
 
@@ -18,7 +18,7 @@ typedef struct liar {
     fixture *f;
     const char *missing; /* a function that is not found */
     const char *version; /* NULL: the real one */
-    bool wrong_offsets;  /* the driver lays uniform blocks out otherwise than std140 */
+    bool wrong_offsets;  /* the driver does not lay uniform blocks out as std140 */
 } liar;
 
 static PFNGLGETINTEGERVPROC real_get_integerv;
@@ -92,7 +92,7 @@ static void driver_with_other_block_offsets_is_refused(void **state)
 {
     fixture *f = *state;
     assert_int_equal(create_with(f, &(liar){.f = f, .wrong_offsets = true}), GLSSAO_SHADER_ERROR);
-    assert_non_null(strstr(f->log, "block cbSsao: gBlurWeights lies at 420 in the driver, at 416 in C"));
+    assert_non_null(strstr(f->log, "block cbSsao: gBlurWeights has offset 420 in the driver and 416 in C"));
 }
 
 static void each_missing_function_is_named(void **state)
@@ -190,7 +190,7 @@ static void free_inputs(scene_inputs *in)
     glssao_destroy(in->effect);
 }
 
-/* The call is refused, the log names the field, and neither picture, constants nor stats have moved. */
+/* The call is refused, the log names the field, and picture, constants and stats stay as they were. */
 static void check_refused(fixture *f, const scene_inputs *in, const glssao_frame *frame,
                           const glssao_settings *settings, const char *field)
 {
@@ -328,7 +328,7 @@ static void calls_out_of_order_are_refused(void **state)
     assert_int_equal(glssao_end_normals(in.effect), GLSSAO_OK);
     assert_int_equal(glssao_compute(in.effect, &in.frame, &in.settings), GLSSAO_OK);
     assert_int_equal(glssao_begin_normals(in.effect, in.frame.depth_texture), GLSSAO_OK);
-    free_inputs(&in); /* destroyed in between: the host's framebuffer must be bound again */
+    free_inputs(&in); /* destroyed before end: the host's framebuffer must be bound again */
     GLint bound = -1;
     gl.GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
     assert_int_equal(bound, 0);

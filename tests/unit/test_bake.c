@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_bake GLSSAO_BAKE: what the program leaves in the file, and what it leaves alone.
+ * test_bake GLSSAO_BAKE: what the program writes into the file, and what it leaves unchanged.
  */
 #define _XOPEN_SOURCE 700 /* WEXITSTATUS */
 #include "gltf_writer.h"
@@ -24,7 +24,7 @@ enum { RAYS = 4096, COLUMNS = 4 };
 static const char *bake;
 static const float floor_x[COLUMNS] = {0.2f, 0.6f, 1.1f, 5};
 
-/* The exit code; what it wrote to stderr is in the file "err". */
+/* Returns the exit code; the file "err" has what the program wrote to stderr. */
 static int run(const char *arguments, const char *input, const char *output)
 {
     char command[4096], log[512];
@@ -36,7 +36,7 @@ static int run(const char *arguments, const char *input, const char *output)
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-/* A file's bytes with a 0 behind them. */
+/* The bytes of a file, followed by a 0. */
 static char *read_file(const char *path, size_t *out_size)
 {
     FILE *f = fopen(path, "rb");
@@ -68,8 +68,9 @@ static void assert_says(const char *words)
     free(text);
 }
 
-/* A wall at x = 0, and a floor of strips along it, shown twice: beside the wall, and far away from everything. The
- * floor's vertices are (0.5, 1, 0.25, 0.75). With a texture, an animation, extras and an extension nobody knows. */
+/* A wall at x = 0 and a floor of strips along it, shown twice: beside the wall, and far away from everything. The
+ * floor's vertices are (0.5, 1, 0.25, 0.75). The file also has a texture, an animation, extras and an unknown
+ * extension. */
 static const char *write_room(const char *name, const float *x, bool coloured)
 {
     gltf_writer w = {0};
@@ -126,7 +127,7 @@ static scene *load(const char *path)
     return s;
 }
 
-/* Red of the floor's vertices at x, averaged over both: of the floor beside the wall, or of the one far away. */
+/* Red of the floor's vertices at x, averaged over both, of the floor beside the wall or of the one far away. */
 static double red_at(const scene *s, float x, bool away)
 {
     double sum = 0;
@@ -147,7 +148,7 @@ static double red_at(const scene *s, float x, bool away)
     return sum / count;
 }
 
-/* What a wall at distance c radii leaves of a cosine-weighted hemisphere: see test_trace_truth. */
+/* The part of a cosine-weighted hemisphere that a wall at distance c radii leaves open; see test_trace_truth. */
 static double beside_wall(double c)
 {
     return c >= 1 ? 1 : 1 - (acos(c) - c * sqrt(1 - c * c)) / 3.14159265358979;
@@ -167,7 +168,7 @@ static void vertices_get_their_accessibility(void **state)
     assert_int_equal(run("--vertices --cosine --distance 1 --rays 4096", write_room("in.gltf", floor_x, false), out),
                      0);
     scene *s = load(out);
-    assert_int_equal(s->mesh_count, 3); /* the floor's became two */
+    assert_int_equal(s->mesh_count, 3); /* the floor's mesh became two */
     for (int i = 0; i < COLUMNS; i++) {
         const double truth = beside_wall((double)floor_x[i]), seen = red_at(s, floor_x[i], false);
         assert_true(fabs(seen - truth) <= 3 * sqrt(truth * (1 - truth) / RAYS) + 1e-4);
@@ -203,7 +204,7 @@ static void triangles_give_their_mean(void **state)
     const char *out = output_path("out.glb");
     assert_int_equal(run("--rays 65536 --distance 500", write_room("in.gltf", floor_x, false), out), 0);
     scene *s = load(out);
-    /* The wall takes half of the hemisphere of each strip: all directions to its side, but for its finite ends. */
+    /* The wall takes half of each strip's hemisphere: all directions to its side, except past its finite ends. */
     for (int i = 0; i < COLUMNS; i++) {
         assert_true(fabs(red_at(s, floor_x[i], false) - 0.5) < 0.02);
         assert_true(red_at(s, floor_x[i], true) == 1);
@@ -211,7 +212,7 @@ static void triangles_give_their_mean(void **state)
     scene_destroy(s);
 }
 
-/* Over the floor, of the value that interpolates between its vertices. */
+/* Over the floor, of the value interpolated between its vertices. */
 static double rms_error(const scene *s, const float *x)
 {
     enum { STEPS = 2000 };

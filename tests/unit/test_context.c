@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * examples/context: every kind gives a current core context of 3.3 or later, several live side by side and on several
- * threads, and a failure says in one line what was tried. Where libOSMesa is not installed (Mesa 25.1 and later lack
- * it) its part is skipped; EGL is always required.
+ * examples/context: every kind gives a current core context of 3.3 or later; several exist at the same time and on
+ * several threads; a failure says in one line what was tried. Where libOSMesa is not installed (Mesa 25.1 and later
+ * lack it) its part is skipped. EGL is always required.
  */
 #define _POSIX_C_SOURCE 200809L
 #include <setjmp.h>
@@ -48,7 +48,7 @@ static void load_functions(context *c)
     }
 }
 
-/* Clears a 1 x 1 picture of the context's own and reads it back. */
+/* Clears a 1 x 1 picture of the context and reads it back. */
 static void assert_clears_to(context *c, uint8_t red)
 {
     assert_true(context_make_current(c));
@@ -189,7 +189,7 @@ static void egl_and_osmesa_live_side_by_side(void **state)
     assert_two_live_side_by_side(CONTEXT_OSMESA, CONTEXT_EGL);
 }
 
-/* The table in gl.h is one for the process, so threads call what context_load finds. */
+/* The table in gl.h is one for the whole process, so threads call what context_load finds. */
 static void *clear_on_thread(void *kind)
 {
     char error[1024] = "";

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Effects beside each other: two in one context, one in each of two contexts on two threads, and contexts that share
- * objects. Whatever runs beside it, an effect gives the bits that it gives alone.
+ * Effects that run at the same time: two in one context, one in each of two contexts on two threads, and contexts that
+ * share objects. Each gives the same bits as when it runs alone.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "analytic.h"
@@ -44,7 +44,7 @@ static void delete_inputs(inputs *in)
     free(in->normals);
 }
 
-/* Alone in the fixture's context; the caller frees. */
+/* Alone in the fixture's context. The caller frees. */
 static float *compute_alone(fixture *f, glssao_technique technique, double scale)
 {
     inputs in = make_inputs(scale);
@@ -105,8 +105,8 @@ static void two_effects_in_one_context_do_not_mix(void **state)
 typedef struct job {
     glssao_technique technique;
     double scale;
-    context *share;     /* NULL: makes inputs of its own */
-    glssao_frame frame; /* with share: the other context's textures */
+    context *share;     /* NULL: creates inputs of its own */
+    glssao_frame frame; /* with `share`: the other context's textures */
     fixture fixture;
     pthread_barrier_t *barrier;
     float *picture;
@@ -114,8 +114,8 @@ typedef struct job {
     const char *failure;
 } job;
 
-/* Waits for the other thread at both ends of the frames, so that they do run side by side. cmocka's assertions belong
- * to the main thread, so failures are told in words. */
+/* Waits for the other thread before and after the frames, so that they run at the same time. cmocka's assertions belong
+ * to the main thread, so failures are returned as text. */
 static void run_frames(job *j)
 {
     inputs in = make_inputs(j->scale);
@@ -172,7 +172,7 @@ static void check_threads(fixture *f, job jobs[2])
     float *alone[2];
     for (int i = 0; i < 2; ++i)
         alone[i] = compute_alone(f, jobs[i].technique, jobs[i].scale);
-    gl.Finish(); /* before others look at this context's textures */
+    gl.Finish(); /* before another context reads this one's textures */
     for (int i = 0; i < 2; ++i) {
         jobs[i].barrier = &barrier;
         assert_int_equal(pthread_create(&threads[i], NULL, run_thread, &jobs[i]), 0);
@@ -191,7 +191,7 @@ static void check_threads(fixture *f, job jobs[2])
 
 static void contexts_on_two_threads_do_not_mix(void **state)
 {
-    /* Different techniques, so that the same object names don't mean the same in both. */
+    /* Different techniques, so that the same object names mean different things in the two contexts. */
     job jobs[2] = {{.technique = GLSSAO_HORIZON, .scale = 1.0}, {.technique = GLSSAO_CLASSIC, .scale = 0.7}};
     check_threads(*state, jobs);
 }
@@ -207,12 +207,12 @@ static void contexts_that_share_objects_take_each_other_s_textures(void **state)
         jobs[i].frame = in[i].frame;
     }
     check_threads(f, jobs);
-    assert_true(gl.IsTexture(in[0].frame.depth_texture)); /* the effects deleted nothing of the host's */
+    assert_true(gl.IsTexture(in[0].frame.depth_texture)); /* the effects deleted none of the host's objects */
     for (int i = 0; i < 2; ++i)
         delete_inputs(&in[i]);
 }
 
-/* The result made in one context is read in another that shares with it. */
+/* The result of one context is read in another that shares objects with it. */
 static void a_map_is_read_in_a_sharing_context(void **state)
 {
     fixture *f = *state;

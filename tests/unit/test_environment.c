@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Environments: what a picture gives surfaces is what the integrals over it say, and no file does harm.
+ * Environments: light from a picture equals the integrals over it, and no file does harm.
  */
 #include "environment.h"
 #include "picture.h"
@@ -21,7 +21,7 @@ enum { W = 128, H = W / 2, MOST_BYTES = 40 + 8 * W * H };
 static const char path[] = "test_environment.hdr", png_path[] = "test_environment.png";
 static const double pi = 3.14159265358979;
 static char error[512];
-/* Unit, in no plane of the axes. */
+/* A unit vector in no plane of the axes. */
 static const double axis[3] = {0.48, 0.64, -0.6};
 
 typedef double (*radiance_fn)(const double direction[3], int channel);
@@ -44,7 +44,7 @@ static void to_rgbe(const double rgb[3], uint8_t out[4])
     out[3] = (uint8_t)(most > 0 ? exponent + 128 : 0);
 }
 
-/* Rows in runs where they can be, or flat. */
+/* Rows as runs where possible, or flat. */
 static size_t make_radiance(radiance_fn f, bool runs, uint8_t *out)
 {
     size_t size = (size_t)sprintf((char *)out, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n", H, W);
@@ -114,13 +114,13 @@ static double quadratic(const double d[3])
            0.1 * (d[0] * d[0] - d[1] * d[1]);
 }
 
-/* A constant, a gradient along the axis, and the second order, a channel each. */
+/* A constant, a gradient along the axis, and the second order, one per channel. */
 static double orders(const double direction[3], int channel)
 {
     return 0.5 + (channel == 0 ? 0 : channel == 1 ? 0.3 * dot(axis, direction) : quadratic(direction));
 }
 
-/* A cosine lobe leaves all of a constant, 2/3 of a gradient, 1/4 of the second order. */
+/* A cosine lobe keeps all of a constant, 2/3 of a gradient and 1/4 of the second order. */
 static void irradiance_is_what_its_integral_says(const environment *e, const double direction[3])
 {
     const float normal[3] = {(float)direction[0], (float)direction[1], (float)direction[2]};
@@ -131,8 +131,8 @@ static void irradiance_is_what_its_integral_says(const environment *e, const dou
     assert_near((double)got[2], 0.5 + quadratic(direction) / 4, 2e-3, "irradiance of the second order");
 }
 
-/* The mean cosine of the lobe that a mirror shows head-on, by its density times cosine; of an order's terms, what the
- * Legendre polynomial of that order has as its mean is left. */
+/* The mean cosine of the lobe that a mirror shows head-on, by its density times cosine. Of the terms of an order, the
+ * mean of the Legendre polynomial of that order remains. */
 static void mirror_is_what_its_integral_says(const environment *e, int level, const double direction[3])
 {
     enum { STEPS = 4000 };
@@ -148,7 +148,7 @@ static void mirror_is_what_its_integral_says(const environment *e, int level, co
     }
     environment_mirrored(e, level, along, got);
     assert_near((double)got[0], 0.5, 1e-5, "mirror of a constant");
-    /* What texels and samples make coarse takes up to 4 % of the gradient. */
+    /* Coarse texels and samples take up to 4 % of the gradient. */
     assert_near((double)got[1], 0.5 + 0.3 * dot(axis, direction) * first / weights, 0.012, "mirror of a gradient");
     assert_near((double)got[2], 0.5 + quadratic(direction) * second / weights, 0.02, "mirror of the second order");
 }
@@ -173,7 +173,7 @@ static double lamp(const double direction[3], int channel)
     return direction[0] > 0.9 ? 300 : 0.125;
 }
 
-/* As a whole, so that the axis that gets most gets 1; the same from runs and from flat rows. */
+/* One factor dims all light, so that the axis with the most light gets 1; runs and flat rows give the same. */
 static void strong_light_is_dimmed(void **state)
 {
     (void)state;
@@ -206,7 +206,7 @@ static void bytes_are_srgb(void **state)
     environment_destroy(e);
 }
 
-/* Larger than is kept: its mean. */
+/* A larger picture than is kept is averaged. */
 static void large_pictures_are_halved(void **state)
 {
     (void)state;
@@ -215,7 +215,7 @@ static void large_pictures_are_halved(void **state)
     assert_non_null(bytes);
     size_t size =
         (size_t)sprintf((char *)bytes, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n", LARGE / 2, LARGE);
-    for (int y = 0; y < LARGE / 2; y++) { /* rows of 1 and of 0 by turns */
+    for (int y = 0; y < LARGE / 2; y++) { /* rows of 1 and 0 in turn */
         memcpy(bytes + size, (uint8_t[4]){2, 2, LARGE >> 8, LARGE & 255}, 4);
         size += 4;
         for (int i = 0; i < 4 * LARGE / RUN; i++) {
@@ -264,7 +264,7 @@ static void broken_files_are_refused_in_one_line(void **state)
         write_file(path, bytes, sizeof bytes);
         assert_refused(path, i ? "neither a sound" : "10 x 10 pixels; an environment is twice as wide");
     }
-    /* A run that goes on past the row; one of no length, before a row that is sound. */
+    /* A run past the end of the row, and a run of no length before a valid row. */
     static uint8_t spoiled[MOST_BYTES + 1];
     const size_t size = make_radiance(orders, true, bytes);
     const char *end_of_head = strstr((const char *)bytes, "+X ");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Every glTF file of the shared test scenes, in this process: each loads into a valid scene or is refused with one line
- * that names it. The folder comes from GLSSAO_SHARED_SCENES; without one the tests are skipped.
+ * Every glTF file of the shared test scenes, in this process: each loads into a valid scene or is refused with one
+ * line that names it. GLSSAO_SHARED_SCENES names the folder; without it the tests are skipped.
  */
 #define _XOPEN_SOURCE 700 /* nftw */
 #include "scene_validity.h"
@@ -20,7 +20,7 @@
 
 static char folder[2048];
 
-/* What went wrong over a walk of many files; each is printed as it is found. */
+/* Failures while walking over many files; each is printed when found. */
 static struct {
     int files, loaded, refused, flaws;
 } seen;
@@ -31,7 +31,7 @@ static bool is_gltf(const char *path)
     return dot && (!strcmp(dot, ".gltf") || !strcmp(dot, ".glb"));
 }
 
-/* The path of a scene below the folder, in memory of this function's own. */
+/* The path of a scene below the folder; the function keeps the memory. */
 static const char *in_folder(const char *file)
 {
     static char path[4096];
@@ -218,8 +218,8 @@ static void invalid_files_load_validly_or_are_refused_in_one_line(void **state)
     assert_int_equal(seen.files, 397);
 }
 
-/* The validator's codes for faults that would make a wrong picture or a wrong read. Other codes are about what is not
- * drawn, or does no harm. */
+/* The validator's codes for faults that would give a wrong picture or a wrong read. Other codes concern things that are
+ * not drawn or do no harm. */
 static bool must_be_refused(const char *codes)
 {
     static const char *const harmful[] = {"ACCESSOR_SMALL_BYTESTRIDE",

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * A real renderer of somebody else's: Dear ImGui's OpenGL 3 back end, as Debian builds it, draws the same pixels
- * before and after every call that draws, and the effect the same map before and after it.
+ * Another project's renderer: Dear ImGui's OpenGL 3 back end, as Debian builds it, draws the same pixels before and
+ * after every call that draws, and the effect gives the same map before and after it.
  */
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
@@ -23,8 +23,8 @@ namespace
 constexpr int W = 256, H = 192;
 using picture = std::vector<float>;
 
-/* The demo window into the bound framebuffer, whose texture is `color`: the same frame each time. Binds nothing and
- * sets nothing, so what the library left behind shows. */
+/* Draws the demo window into the bound framebuffer, whose texture is `color`: the same frame each time. It binds and
+ * sets nothing, so any state that the library left behind shows. */
 picture draw_imgui(GLuint color)
 {
     const float clear[4] = {0.2f, 0.3f, 0.4f, 1.0f};
@@ -68,7 +68,7 @@ void imgui_draws_the_same_before_and_after(void **state)
     ImGui::GetIO().IniFilename = nullptr;
     ImGui::GetIO().DisplaySize = ImVec2(W, H);
     assert_true(ImGui_ImplOpenGL3_Init("#version 330"));
-    for (int i = 0; i < 3; ++i) { /* windows settle within frames */
+    for (int i = 0; i < 3; ++i) { /* windows settle within a few frames */
         ImGui_ImplOpenGL3_NewFrame();
         ImGui::NewFrame();
         ImGui::SetNextWindowPos(ImVec2(8, 8));
@@ -77,7 +77,7 @@ void imgui_draws_the_same_before_and_after(void **state)
         ImGui::Render();
     }
     const picture before = draw_imgui(color);
-    assert_true(std::set<float>(before.begin(), before.end()).size() > 20); /* text and widgets, no blank window */
+    assert_true(std::set<float>(before.begin(), before.end()).size() > 20); /* text and widgets, not a blank window */
 
     glssao_effect *effect = fixture_effect(f, W, H);
     assert_true(draw_imgui(color) == before);

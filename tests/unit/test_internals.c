@@ -2,7 +2,9 @@
  *
  * The library's own arithmetic, without a context: projections, constants, random inputs, default settings.
  */
-#include "effect.h"
+#include "frame/uniforms.h"
+#include "input/check.h"
+#include "random.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -13,7 +15,7 @@
 
 #include <cmocka.h>
 
-static const glssao__log_sink silent;
+static const glssao__log silent;
 
 #define assert_near(a, b, tolerance) assert_true(fabs((double)(a) - (double)(b)) <= (tolerance))
 
@@ -38,23 +40,23 @@ static void block_has_the_offsets_of_the_design(void **state)
 static void offset_vectors_are_corners_then_faces_in_opposite_pairs(void **state)
 {
     (void)state;
-    glssao_constants c;
-    glssao__constants_init(&c, 42);
+    glssao__uniforms u;
+    glssao__uniforms_init(&u, 42);
     for (int i = 0; i < 14; ++i) {
-        const float *o = c.gOffsetVectors[i];
+        const float *o = u.ssao.gOffsetVectors[i];
         float length = sqrtf(o[0] * o[0] + o[1] * o[1] + o[2] * o[2]);
         assert_true(length >= 0.25f && length <= 1.0f);
         assert_true(o[3] == 0.0f);
         int zeros = (o[0] == 0.0f) + (o[1] == 0.0f) + (o[2] == 0.0f);
         assert_int_equal(zeros, i < 8 ? 0 : 2);
         if (i % 2 == 1) {
-            const float *p = c.gOffsetVectors[i - 1];
+            const float *p = u.ssao.gOffsetVectors[i - 1];
             float other = sqrtf(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
             float cosine = (o[0] * p[0] + o[1] * p[1] + o[2] * p[2]) / (length * other);
             assert_near(cosine, -1.0f, 1e-6);
         }
-        for (int k = 0; k < i; ++k) { /* no direction twice */
-            const float *p = c.gOffsetVectors[k];
+        for (int k = 0; k < i; ++k) { /* all directions differ */
+            const float *p = u.ssao.gOffsetVectors[k];
             float other = sqrtf(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
             assert_true((o[0] * p[0] + o[1] * p[1] + o[2] * p[2]) / (length * other) < 0.99f);
         }
@@ -67,7 +69,7 @@ static void gauss_weights_match_the_closed_form(void **state)
     static const float sigmas[] = {0.1f, 0.5f, 1.0f, 1.7f, 2.5f};
     for (int s = 0; s < 5; ++s) {
         float w[3][4];
-        glssao__constants_gauss_weights(sigmas[s], w);
+        glssao__uniforms_gauss_weights(sigmas[s], w);
         double sum = 0.0;
         int radius = (int)ceil(2.0 * (double)sigmas[s]);
         for (int i = 0; i < 12; ++i) {
@@ -175,7 +177,7 @@ static void depth_ends_are_the_planes(void **state)
     assert_true(p.sky_depth == 0.0f);
 }
 
-/* Near : far of 1 : 10^7. The float matrix can't tell the far plane, but every depth in between must be right. */
+/* Near : far of 1 : 10^7. The float matrix cannot resolve the far plane, but every depth in between must be right. */
 static void distance_survives_a_range_of_ten_million(void **state)
 {
     (void)state;
@@ -249,7 +251,7 @@ static void default_settings_pass_the_checks(void **state)
     for (int quality = -1; quality < 6; ++quality) {
         for (int technique = 0; technique < 3; ++technique) {
             glssao_settings s = glssao_default_settings((glssao_technique)technique, (glssao_quality)quality);
-            assert_true(glssao__settings_check(&s, &silent));
+            assert_true(glssao__check_settings(&s, &silent));
             assert_int_equal(s.technique, technique);
         }
     }
@@ -264,7 +266,7 @@ static double distance_of(const float p[16], bool zero_to_one, double depth)
     return ((double)p[14] - ndc * (double)p[15]) / ((double)p[10] - ndc * (double)p[11]);
 }
 
-/* The step that the coefficients give at a view distance is how far a stored value's neighbour lies. */
+/* The depth step at a view distance must equal the distance between neighbouring stored values. */
 static void depth_steps_are_differences(void **state)
 {
     (void)state;
@@ -294,7 +296,7 @@ static void depth_steps_are_differences(void **state)
             glssao__projection_depth_step(&frame, &projection, &formats[k], c);
             for (double depth = 0.05; depth < 1.0; depth += 0.09) {
                 const double t = distance_of(frame.projection, frame.clip_zero_to_one, depth);
-                /* Floats near a sky of 1 are 2^-24 apart; else a step is relative. */
+                /* Floats near a sky of 1 are 2^-24 apart; otherwise a step is relative. */
                 const double step = !formats[k].relative           ? formats[k].step
                                     : projection.sky_depth == 1.0f ? 0x1p-24
                                                                    : formats[k].step * depth;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Pictures: what is written reads back the same, and neither a bad path nor a hostile file does harm.
+ * Pictures: a written file reads back the same, and neither a bad path nor a hostile file does harm.
  */
 #define _XOPEN_SOURCE 700 /* setrlimit, glob */
 #include "picture.h"
@@ -151,7 +151,7 @@ static void arguments_out_of_range_write_nothing(void **state)
     assert_false(file_exists(path));
 }
 
-/* Linux's device that is always full: the disk runs out, and the device is not taken for a broken picture. */
+/* Linux's device that is always full: the write fails, and the device is not removed like a broken picture. */
 static void full_disk_is_reported(void **state)
 {
     (void)state;
@@ -174,7 +174,7 @@ static void write_bytes(const char *bytes, size_t size)
     fclose(file);
 }
 
-/* `path`, and what else starts as it does. */
+/* `path`, and every file whose name begins with it. */
 static size_t count_files(void)
 {
     glob_t found;
@@ -184,7 +184,7 @@ static size_t count_files(void)
     return count;
 }
 
-/* Of both kinds; true where one was written all the same. */
+/* Of both kinds; true if one was written nevertheless. */
 static bool write_beyond_the_limit(void)
 {
     static uint8_t pixels[64 * 64 * 3];
@@ -225,7 +225,7 @@ static void failed_write_leaves_the_old_file(void **state)
     assert_int_equal(count_files(), 1);
 }
 
-/* A new file takes the old one's place: through a link, and with the same permissions. */
+/* A new file replaces the old one, through a link and with the same permissions. */
 static void old_file_is_replaced_where_it_is(void **state)
 {
     (void)state;
@@ -273,7 +273,7 @@ static void hostile_pfm_is_refused(void **state)
         FILE_OF("Pf\n 1 1\n-1.0\nabcd"),
         FILE_OF("Pf\n1 1 \n-1.0\nabcd"),
         FILE_OF("Pf\n0x1 1\n-1.0\nabcd"),
-        FILE_OF("Pf\n65536 65536\n-1.0\nabcd"),  /* 16 GiB that are not there */
+        FILE_OF("Pf\n65536 65536\n-1.0\nabcd"),  /* 16 GiB that do not exist */
         FILE_OF("Pf\n4294967297 1\n-1.0\nabcd"), /* 1 in 32 bits */
         FILE_OF("Pf\n99999999999999999999999999999 1\n-1.0\nabcd"),
         FILE_OF("Pf\n1 1\r\n-1.0\nabcd"),
@@ -301,7 +301,7 @@ static void broken_png_is_refused(void **state)
     FILE *file = fopen(path, "rb");
     const size_t size = fread(bytes, 1, sizeof bytes, file);
     fclose(file);
-    for (size_t cut = 0; cut < size - 12; cut++) { /* without the end marker of 12 bytes it may be taken */
+    for (size_t cut = 0; cut < size - 12; cut++) { /* without the 12 bytes of the end marker the file may be accepted */
         int width, height;
         write_bytes(bytes, cut);
         if (picture_read_png(path, &width, &height, error, sizeof error))

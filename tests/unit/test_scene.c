@@ -38,7 +38,7 @@ static scene *load_valid(const char *path)
     return s;
 }
 
-/* A triangle as mesh 0, with the rest of the JSON and further members of its primitive. */
+/* A triangle as mesh 0, with the rest of the JSON and more members of its primitive. */
 static scene *load_triangle(const char *primitive, const char *rest)
 {
     gltf_writer w = {0};
@@ -319,7 +319,7 @@ static void morph_targets_follow_their_default_weights(void **state)
     scene_destroy(s);
 }
 
-/* Joint 0 moves up by 5, joint 1 mirrors; the transform of the node that draws is not to count. */
+/* Joint 0 moves up by 5, joint 1 mirrors. The transform of the node that draws must not count. */
 static void skins_are_baked_in_world_space(void **state)
 {
     (void)state;
@@ -412,7 +412,7 @@ static void images_of_16_bits_become_8(void **state)
     scene_destroy(s);
 }
 
-/* u' = 0.5 + 2 cos u + 3 sin v, v' = 0.25 - 2 sin u + 3 cos v: counter-clockwise as it is seen with v downwards. */
+/* u' = 0.5 + 2 cos u + 3 sin v, v' = 0.25 - 2 sin u + 3 cos v: counter-clockwise when v points down. */
 static void texture_transforms_scale_turn_and_move(void **state)
 {
     (void)state;

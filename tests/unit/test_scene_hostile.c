@@ -222,7 +222,7 @@ static void external_buffers_come_from_the_file_s_own_folder(void **state)
 static void images_that_cannot_be_had_are_left_out_with_a_warning(void **state)
 {
     (void)state;
-    /* A PNG that says 20000 x 1. */
+    /* A PNG that claims a size of 20000 x 1. */
     static const char wide[] =
         "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAATiAAAAABCAIAAAC01gnZAAAADElEQVR42mNgYGAAAAA"
         "EAAHI6uv5AAAAAElFTkSuQmCC";
@@ -319,7 +319,7 @@ static uint8_t *read_back(const char *path, size_t *out_size)
     return data;
 }
 
-/* A GLB with much in it: normals, indices, colours, a skin, a material, a camera. */
+/* A GLB with many parts: normals, indices, colours, a skin, a material, a camera. */
 static uint8_t *make_glb(size_t *out_size)
 {
     gltf_writer w = {0};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * What glTF says of surfaces and lights beside the base colour: reflection, normal maps with their tangents, emission,
- * KHR_lights_punctual; and files that say it wrongly.
+ * glTF surfaces and lights beyond the base colour: reflection, normal maps with their tangents, emission,
+ * KHR_lights_punctual; and files with faults in them.
  */
 #include "fixture.h"
 #include "gltf_writer.h"
@@ -17,10 +17,10 @@
     "PX2MSQAAAABJRU5ErkJggg=="
 
 static const float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, normals[9] = {0, 0, 1, 0, 0, 1, 0, 0, 1};
-/* u grows along +y, v along -x: the bitangent, against v, is +x, and the tangent +y: mirrored. */
+/* u grows along +y, v along -x. The bitangent is opposite to v, so +x; the tangent is +y: mirrored. */
 static const float uvs[6] = {0, 0, 0, -1, 1, 0};
 
-/* A triangle of positions, normals and uvs, and `attributes` more, with that material. */
+/* A triangle with positions, normals, uvs and the further `attributes`, and that material. */
 static scene *load(gltf_writer *w, const char *attributes, const char *material, const char *rest)
 {
     char json[4096], error[1024] = "";
@@ -74,7 +74,7 @@ static void factors_have_gltfs_defaults_and_are_kept(void **state)
     assert_true(m->emissive_map.used && m->emissive_map.uv == m->occlusion_map.uv);
     assert_float_equal(m->occlusion_strength, 0.75f, 0);
     assert_float_equal(m->emissive[2], 3, 1e-6f);
-    assert_int_equal(s->image_count, 1); /* one image, however many maps */
+    assert_int_equal(s->image_count, 1); /* one image for any number of maps */
     assert_null(s->tangents);
     scene_destroy(s);
     /* The map has no effect on an unlit material, or with a factor of 0. */
@@ -110,7 +110,7 @@ static void normal_maps_bring_tangents(void **state)
     static const float given[12] = {3, 0, 0, 1, 3, 0, 0, 1, 3, 0, 0, 1};
     gltf_put_floats(&w, "VEC4", 3, given);
     s = load(&w, ",\"TANGENT\":3", NORMAL_MAPPED, ONE_NODE);
-    assert_tangents(s, 1, 0, 0, 1); /* the file's, made unit */
+    assert_tangents(s, 1, 0, 0, 1); /* the file's own, normalised */
     scene_destroy(s);
     s = load(&w, ",\"TANGENT\":3", "", ONE_NODE); /* nothing reads them */
     assert_null(s->tangents);

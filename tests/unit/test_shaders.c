@@ -1,42 +1,73 @@
 /* SPDX-License-Identifier: MIT
  *
- * Every shader variant of the library, all stages, is written to a file and judged by glslangValidator, because
- * drivers that report 4.5 take what 3.3, or 4.3 for compute shaders, does not have. Arguments: the validator, a folder
- * for the files.
+ * Every program that some schedule asks for is written to files and judged by glslangValidator, because drivers that
+ * report 4.5 accept more than 3.3, or 4.3 for compute shaders, has. Arguments: the validator, a folder for the files.
  */
-#include "effect.h"
+#include "frame/shaders.h"
+#include "schedules.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Adds the file to the validator's command. */
-static bool write_stage(const char *folder, enum glssao__shader id, unsigned variant, gl_enum stage, char *command,
-                        size_t size)
+enum { MOST_PROGRAMS = 4096, BATCH = 64, COMMAND_SIZE = 96 * 1024 };
+
+static struct program {
+    enum glssao__shader shader;
+    glssao__variant variant;
+} programs[MOST_PROGRAMS];
+static int program_count;
+
+static void collect(const glssao__request *request, const glssao__schedule *schedule, void *user)
 {
-    const char *sources[GLSSAO__PROGRAM_MAX_SOURCES];
-    int count = glssao__program_sources(NULL, id, variant, stage, sources);
-    const char *const version = stage == GL_COMPUTE_SHADER ? "#version 430\n" : "#version 330\n";
+    (void)request;
+    (void)user;
+    for (int i = 0; i < schedule->count; ++i) {
+        const glssao__step *step = &schedule->steps[i];
+        bool known = step->kind == STEP_CLEAR_TO_ONE || step->kind == STEP_CLEAR_TO_ZERO;
+        for (int k = 0; k < program_count && !known; ++k)
+            known = programs[k].shader == step->shader &&
+                    memcmp(&programs[k].variant, &step->variant, sizeof step->variant) == 0;
+        if (known)
+            continue;
+        if (program_count == MOST_PROGRAMS) {
+            fprintf(stderr, "more than %d programs\n", MOST_PROGRAMS);
+            exit(1);
+        }
+        programs[program_count++] = (struct program){step->shader, step->variant};
+    }
+}
+
+/* Judges the files that were written since the last call. */
+static char command[COMMAND_SIZE];
+static int pending;
+
+static int judge(const char *validator)
+{
+    const int bad = pending > 0 && system(command) != 0;
+    pending = 0;
+    snprintf(command, sizeof command, "\"%s\"", validator);
+    return bad;
+}
+
+static bool write_stage(const char *folder, int number, const char *kind, const char *version, char *source)
+{
     char path[1024];
-    snprintf(path, sizeof path, "%s/%s-%u.%s", folder, glssao__program_shader_name(id), variant,
-             stage == GL_VERTEX_SHADER    ? "vert"
-             : stage == GL_COMPUTE_SHADER ? "comp"
-                                          : "frag");
-    FILE *file = fopen(path, "wb");
-    if (!file) {
-        perror(path);
-        return false;
+    snprintf(path, sizeof path, "%s/program-%d.%s", folder, number, kind);
+    FILE *file = source ? fopen(path, "wb") : NULL;
+    bool ok = file && strncmp(source, version, strlen(version)) == 0;
+    if (file) {
+        fputs(source, file);
+        fclose(file);
     }
-    for (int i = 0; i < count; ++i)
-        fputs(sources[i], file);
-    fclose(file);
-    if (strcmp(sources[0], version) != 0) {
-        fprintf(stderr, "%s does not begin with %s", path, version);
-        return false;
-    }
-    size_t length = strlen(command);
-    int added = snprintf(command + length, size - length, " \"%s\"", path);
-    return added > 0 && (size_t)added < size - length;
+    free(source);
+    const size_t length = strlen(command);
+    const int added = snprintf(command + length, sizeof command - length, " \"%s\"", path);
+    ++pending;
+    ok = ok && added > 0 && (size_t)added < sizeof command - length;
+    if (!ok)
+        fprintf(stderr, "%s: not written, or does not begin with %s", path, version);
+    return ok;
 }
 
 int main(int argc, char **argv)
@@ -45,33 +76,20 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: test_shaders VALIDATOR FOLDER\n");
         return 2;
     }
-    /* One process for a batch: starting it takes longer than judging a shader. It prints names, and errors. */
-    enum { BATCH = 64, COMMAND_SIZE = 96 * 1024 };
-    static char command[COMMAND_SIZE];
-    int bad = 0, programs = 0, pending = 0;
-    for (int id = 0; id < SHADER_COUNT; ++id) {
-        const unsigned flags = glssao__program_flags((enum glssao__shader)id);
-        unsigned variant = flags;
-        do { /* each subset of the flags, the empty one first */
-            variant = (variant - flags) & flags;
-            if (!glssao__program_exists((enum glssao__shader)id, variant))
-                continue;
-            if (pending == 0)
-                snprintf(command, sizeof command, "\"%s\"", argv[1]);
-            ++programs;
-            bad += !write_stage(argv[2], (enum glssao__shader)id, variant,
-                                variant & VARIANT_COMPUTE ? GL_COMPUTE_SHADER : GL_FRAGMENT_SHADER, command,
-                                sizeof command);
-            if (++pending == BATCH) {
-                bad += system(command) != 0;
-                pending = 0;
-            }
-        } while (variant != flags);
+    const int schedules = schedules_visit(collect, NULL);
+    programs[program_count++] = (struct program){.shader = SHADER_APPLY};
+    int bad = judge(argv[1]);
+    for (int i = 0; i < program_count; ++i) {
+        const struct program *p = &programs[i];
+        const bool compute = p->variant.values[MACRO_COMPUTE];
+        char *const source = glssao__shader_source(p->shader, &p->variant, 43);
+        bad +=
+            !write_stage(argv[2], i, compute ? "comp" : "frag", compute ? "#version 430\n" : "#version 330\n", source);
+        if (pending == BATCH)
+            bad += judge(argv[1]);
     }
-    if (pending == 0)
-        snprintf(command, sizeof command, "\"%s\"", argv[1]);
-    bad += !write_stage(argv[2], SHADER_APPLY, 0, GL_VERTEX_SHADER, command, sizeof command); /* shared by all */
-    bad += system(command) != 0;
-    printf("%d programs, %d bad batches\n", programs, bad);
-    return bad ? 1 : 0;
+    bad += !write_stage(argv[2], program_count, "vert", "#version 330\n", glssao__shader_vertex_source());
+    bad += judge(argv[1]);
+    printf("%d schedules, %d programs, %d bad batches\n", schedules, program_count, bad);
+    return bad || program_count < 100;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Every listed piece of the host's GL state is scrambled, each public function is called, and everything must read
- * back as it was, with the picture unharmed by what the host had set. Runs in core and compatibility contexts.
+ * Scrambles every listed piece of the host's GL state, calls each public function, and compares: the state must read
+ * back as it was, and the host's state must not harm the picture. Runs in core and compatibility contexts.
  */
 #include "analytic.h"
 #include "fixture.h"
@@ -12,7 +12,7 @@
 
 enum { W = 64, H = 48, UNITS = 7 };
 
-/* ---- a snapshot: rows of name and values, so that a difference can be named ---- */
+/* ---- a snapshot: rows of name and values, so that a failure can name the difference ---- */
 
 enum { SNAPSHOT_CAPACITY = 160 };
 typedef struct snapshot {
@@ -106,13 +106,13 @@ static bool is_compatibility(void)
     return (mask & GL_CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0;
 }
 
-/* Of later versions than 3.3: all there, or all NULL, and their state is left out. */
+/* From versions later than 3.3: if they are NULL, their state is skipped. */
 static PFNGLCLIPCONTROLPROC clip_control;
 static PFNGLBLENDFUNCIPROC blend_func_i;
 static PFNGLVIEWPORTINDEXEDFPROC viewport_indexed;
 static PFNGLGETFLOATI_VPROC get_float_i;
 static PFNGLBINDIMAGETEXTUREPROC bind_image;
-static PFNGLTEXIMAGE3DPROC tex_image_3d; /* not newer, but no other test has a use for it */
+static PFNGLTEXIMAGE3DPROC tex_image_3d; /* not newer, but only this test uses it */
 
 static void take(snapshot *s)
 {
@@ -189,7 +189,7 @@ typedef struct host {
         buffers[4], images[2];
 } host;
 
-/* Fixed-function state that would stop every fragment, where the context has it; older than core profiles. */
+/* Fixed-function state that would stop every fragment, in contexts older than core profiles. */
 static void(APIENTRY *alpha_func)(GLenum function, GLfloat reference);
 static void(APIENTRY *polygon_stipple)(const GLubyte *mask);
 
@@ -393,7 +393,7 @@ static inputs make_inputs(void)
     return in;
 }
 
-/* Calls that fail leave the state alone as well. */
+/* Failed calls leave the state alone too. */
 static void check_refusals(glssao_effect *effect, const host *h, const inputs *in)
 {
     snapshot before, after;
@@ -414,7 +414,7 @@ static void check_refusals(glssao_effect *effect, const host *h, const inputs *i
     compare(&before, &after, "calls that are refused");
 }
 
-/* One walk through the API; with a host, its state is scrambled before and compared after every call. */
+/* One walk through the API. With a host, scrambles its state before every call and compares it afterwards. */
 static float *walk(fixture *f, const inputs *in, const host *h, glssao_path path, double *out_error)
 {
     snapshot before, after;
@@ -438,7 +438,7 @@ static float *walk(fixture *f, const inputs *in, const host *h, glssao_path path
     rebuilt.normal_texture = 0;
     CALL(glssao_create(&config, &effect));
     CALL(glssao_resize(effect, W, H));
-    settings.half_resolution = false; /* the ambient maps are made anew */
+    settings.half_resolution = false; /* recreates the ambient maps */
     CALL(glssao_compute(effect, &rebuilt, &settings));
     if (h) {
         scramble(h);
@@ -453,12 +453,12 @@ static float *walk(fixture *f, const inputs *in, const host *h, glssao_path path
     const glssao_settings hemisphere = glssao_default_settings(GLSSAO_HEMISPHERE, GLSSAO_LOW);
     CALL(glssao_compute(effect, &rebuilt, &hemisphere));
     const glssao_settings horizon = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW), classic = settings;
-    CALL(glssao_prepare(effect, &in->frame, &horizon)); /* makes maps and programs of its own */
+    CALL(glssao_prepare(effect, &in->frame, &horizon)); /* creates maps and programs of its own */
     CALL(glssao_compute(effect, &in->frame, &horizon));
     glssao_settings tiled = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
-    tiled.tiles = GLSSAO_TILES_ON; /* points of the shader's size, and a texture more */
+    tiled.tiles = GLSSAO_TILES_ON; /* point sizes set by the shader, and one more texture */
     CALL(glssao_compute(effect, &in->frame, &tiled));
-    glssao_frame beyond = in->frame; /* with a scissor, and two textures more */
+    glssao_frame beyond = in->frame; /* with a scissor, and two more textures */
     beyond.margin = 8;
     beyond.back_texture = beyond.second_texture = in->frame.depth_texture;
     CALL(glssao_compute(effect, &beyond, &horizon));
@@ -489,7 +489,7 @@ static float *walk(fixture *f, const inputs *in, const host *h, glssao_path path
         calm();
     }
     float *picture = fixture_read_texture(glssao_map(effect, GLSSAO_MAP_AMBIENT, NULL, NULL), W, H, 1);
-    /* Rebuilt normals and the cleared spare depth must have come out of the scrambled state as well. */
+    /* The scrambled state must not have harmed the rebuilt normals and the cleared spare depth either. */
     float *depth = fixture_read_depth(in->spare_depth, W, H);
     for (int i = 0; i < W * H; ++i)
         assert_true(depth[i] == 1.0f);
@@ -520,7 +520,7 @@ static void delete_host(host *h)
     gl.DeleteTextures(2, h->images);
 }
 
-/* Whatever the host had set, glssao_apply reaches every pixel of framebuffers with depth, stencil and samples. */
+/* Whatever state the host has set, glssao_apply reaches every pixel of framebuffers with depth, stencil and samples. */
 static void check_apply(fixture *f, const inputs *in, const host *h, const float *accessibility)
 {
     glssao_effect *effect = fixture_effect(f, W, H);
@@ -594,7 +594,7 @@ static void host_state_comes_back_in_a_compatibility_context(void **state)
     assert_true(gl_load(fixture_load, f->context, error, sizeof error));
 }
 
-/* Other draw buffers of the host's framebuffer get no undefined colours from glssao_apply. */
+/* glssao_apply writes no undefined colours into other draw buffers of the host's framebuffer. */
 static void apply_writes_the_first_draw_buffer_alone(void **state)
 {
     fixture *f = *state;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Tangents for normal maps: known ones, seams, surfaces whose uvs say nothing, and those that another MikkTSpace left
- * in a file.
+ * Tangents for normal maps: known ones, seams, surfaces whose uvs say nothing, and those that another MikkTSpace wrote
+ * into a file.
  */
 #include "fixture.h"
 #include "small_scene.h"
@@ -28,7 +28,7 @@ static small_scene *quad(void)
     return s;
 }
 
-/* A map's green points where its rows begin, against v: up on this quad. */
+/* Green of a normal map points to where its rows begin, against v: up on this quad. */
 static void quad_has_its_us_direction_and_a_bitangent_against_v(void **state)
 {
     (void)state;
@@ -55,7 +55,7 @@ static void quad_has_its_us_direction_and_a_bitangent_against_v(void **state)
     }
 }
 
-/* Two quads side by side whose uvs mirror each other at the edge they share: each keeps its own side's tangent. */
+/* Two quads whose uvs mirror each other at their common edge: each keeps its own side's tangent. */
 static void mirrored_seam_is_not_averaged(void **state)
 {
     (void)state;
@@ -76,7 +76,7 @@ static void mirrored_seam_is_not_averaged(void **state)
     free(s);
 }
 
-/* Vertices that agree are one, whether an index buffer says so or not. */
+/* Equal vertices count as one, with or without an index buffer. */
 static void split_vertices_give_the_same_as_shared_ones(void **state)
 {
     (void)state;
@@ -106,7 +106,7 @@ static void uvs_without_direction_give_some_tangent(void **state)
     for (int k = 0; k < 3; k++) {
         small_scene *s = quad();
         for (int i = 0; i < 4; i++) {
-            if (k == 0) /* all at one point; on a line; two corners in one place */
+            if (k == 0) /* all at one point; on a line; two corners at one point */
                 memset(s->vertices[i].uv, 0, sizeof s->vertices[i].uv);
             else if (k == 1)
                 s->vertices[i].uv[0][1] = s->vertices[i].uv[0][0];
@@ -124,7 +124,7 @@ static void uvs_without_direction_give_some_tangent(void **state)
     }
 }
 
-/* Flight Helmet's tangents were made by MikkTSpace. */
+/* MikkTSpace made the Flight Helmet's tangents. */
 static void file_made_by_mikktspace_has_the_same(void **state)
 {
     (void)state;

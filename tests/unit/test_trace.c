@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The ray tracer: what must not change its result, and what it sees.
+ * The ray tracer: what must not change its result, and what rays hit.
  */
 #include "small_scene.h"
 #include "trace_shot.h"
@@ -33,7 +33,7 @@ static void multiply_point(const float m[16], const float p[3], float w, float o
     }
 }
 
-/* A hollow of three walls with a sphere in it. Under the transform's inverse, where `inverse` is given. */
+/* A corner of three walls with a sphere in it. Placed under the transform's inverse if `inverse` is given. */
 static void add_hollow(small_scene *s, const float *inverse, const float *inverse_transpose, bool mirrored)
 {
     const uint32_t first = s->scene.vertex_count, first_index = s->scene.index_count;
@@ -58,7 +58,7 @@ static void add_hollow(small_scene *s, const float *inverse, const float *invers
     }
 }
 
-/* Rotation about y, then a scale along each axis; what undoes it, and the transpose of what does it. */
+/* A rotation about y, then a scale along each axis; its inverse, and its transpose. */
 static void make_transform(float angle, const float scale[3], float out[16], float inverse[16], float transpose[16])
 {
     const float c = cosf(angle), s = sinf(angle);
@@ -105,7 +105,8 @@ static void nodes_may_turn_mirror_and_stretch(void **state)
             const trace_shot p = trace_shot_take(&s->scene, &view, options);
             assert_in_range(trace_shot_foreground(&p), trace_shot_foreground(&truth) - 2,
                             trace_shot_foreground(&truth) + 2);
-            /* Each pixel to noise: a normal's last bit may turn the directions. The mean of all much closer. */
+            /* Each pixel agrees to noise, since a normal's last bit may turn the directions. The mean of all agrees
+             * much closer. */
             const double noise = trace_shot_difference(&p, &truth), bias = mean(&p) - mean(&truth);
             if (!(noise < 0.01 && fabs(bias) < 5e-4)) {
                 fail_msg("scale %zu, %d instances: differs by %g, in the mean by %g", i, instances, noise, bias);
@@ -116,7 +117,7 @@ static void nodes_may_turn_mirror_and_stretch(void **state)
     free(plain);
 }
 
-/* The root of the mean squared difference over the picture. */
+/* Root mean square of the difference over the picture. */
 static double rms_difference(const trace_shot *a, const trace_shot *b)
 {
     double sum = 0;
@@ -153,7 +154,7 @@ static void error_falls_with_the_root_of_the_rays(void **state)
     for (int samples = 16; samples <= 1024; samples *= 4) {
         const trace_shot p = trace_shot_take(&s->scene, &view, (trace_options){.radius = 1.5f, .samples = samples});
         const double error = rms_difference(&p, &truth);
-        /* At most what independent samples of the worst variance give, and at least halved each time. */
+        /* At most the error of independent samples of the worst variance, and at least halved each time. */
         assert_true(error <= 0.5 / sqrt(samples));
         if (before > 0 && !(error <= before / 2)) {
             fail_msg("%d rays: error %g after %g", samples, error, before);
@@ -206,7 +207,7 @@ static void scale_does_not_matter(void **state)
     free(s);
 }
 
-/* A quad that faces +z before a camera that looks at it from either side, and one that both sides' rays may hit. */
+/* A quad that faces +z, seen from either side, and one that rays from both sides may hit. */
 static void back_faces_are_unseen_but_block(void **state)
 {
     (void)state;
@@ -264,7 +265,7 @@ static void projections_agree(void **state)
         assert_true(trace_shot_difference(&p, &usual) < 1e-3);
     }
 
-    /* Off-centre: moved by exactly half a picture, the right half shows what the left one did. */
+    /* Off-centre: shifted by exactly half a picture, the right half shows what the left one did. */
     scene_view off_centre = view;
     off_centre.clip_from_view[8] -= 1;
     const trace_shot moved = trace_shot_take(&s->scene, &off_centre, options);
@@ -275,7 +276,8 @@ static void projections_agree(void **state)
         }
     }
 
-    /* Orthographic, forwards and reversed: a quad two pixels of 32 wide, cut by the planes once it leaves them. */
+    /* Orthographic, forwards and reversed: a quad two of 32 pixels wide, cut by the near and far planes when it leaves
+     * them. */
     small_scene *quad = small_scene_create();
     small_scene_begin_mesh(quad, small_scene_add_material(quad, small_scene_material()));
     small_scene_add_quad(quad, (float[3]){0, 0, -50}, (float[3]){0.125f, 0, 0}, (float[3]){0, 0.125f, 0});

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The ray tracer where the answer is known in closed form, or by integration in double precision.
+ * The ray tracer where the answer is known in closed form or by integration in double precision.
  */
 #include "scene_builder.h"
 #include "shapes.h"
@@ -23,14 +23,14 @@ static const double pi = 3.14159265358979323846;
 
 static void assert_near_truth(double measured, double truth, int samples)
 {
-    /* The binomial deviation bounds that of the stratified samples; 1e-4 is for the offset and the tessellation. */
+    /* The binomial deviation bounds that of the stratified samples; 1e-4 covers the offset and the tessellation. */
     const double tolerance = 3 * sqrt(truth * (1 - truth) / samples) + 1e-4;
     if (!(fabs(measured - truth) <= tolerance)) {
         fail_msg("%.6f instead of %.6f, tolerance %.6f", measured, truth, tolerance);
     }
 }
 
-/* Floor y = 0, and walls at x = 0 and z = 0 if wanted, all far larger than the radii here. */
+/* A floor at y = 0, and walls at x = 0 and z = 0 if wanted, all far larger than the radii here. */
 static small_scene *make_room(int walls)
 {
     const float size = 100;
@@ -64,7 +64,7 @@ static void empty_plane_is_fully_accessible(void **state)
     free(s);
 }
 
-/* Cosine-weighted directions are a uniform disk seen from above; a wall at distance d blocks those within the radius R
+/* Cosine-weighted directions are a uniform disk seen from above. A wall at distance d blocks those within the radius R
  * whose x is at least d / R: a segment of the disk. */
 static double segment(double c)
 {
@@ -132,7 +132,7 @@ static scene *make_resting_sphere(void)
     return s;
 }
 
-/* The blocked share of the disk of directions, at distance d from where the sphere touches, within the radius. */
+/* The blocked share of the disk of directions at distance d from the sphere's contact point, within the radius. */
 static double blocked_by_sphere(double d, double radius)
 {
     enum { STEPS = 1500 };
@@ -252,8 +252,7 @@ static void alpha_test_lets_rays_through(void **state)
     m.base_color_uv_from_uv[2] = 0.5f;
     m.base_color_uv_from_uv[0] = 0; /* all of it at u = 0.5 */
     assert_true(under(m, left_clear, 1) < 0.01);
-    m.base_color_uv_from_uv[2] =
-        -0.25f; /* and now at -0.25, which repeats to 0.75; then at -0.75, which does to 0.25 */
+    m.base_color_uv_from_uv[2] = -0.25f; /* at -0.25, which repeats to 0.75; then at -0.75, which repeats to 0.25 */
     assert_true(under(m, left_clear, 1) < 0.01);
     m.base_color_uv_from_uv[2] = -0.75f;
     assert_true(under(m, left_clear, 1) == 1);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * examples/dropin/window_depth: the depth of a framebuffer arrives in the texture, for every depth format, with and
- * without samples, whatever the host has bound; and where there is none the reason is told.
+ * without samples, whatever the host has bound. Without depth, the reason is given.
  */
 #include "fixture.h"
 #include "window_depth.h"
@@ -21,7 +21,7 @@ static const struct format {
     {"32 bits, float", GL_DEPTH_COMPONENT32F, false}, {"32 and 8 bits, float", GL_DEPTH32F_STENCIL8, true},
 };
 
-/* Left of SPLIT at depth 0.25, right of it at 0.75; bound as framebuffer, with *out_renderbuffer in it. */
+/* Depth 0.25 left of SPLIT and 0.75 right of it; bound as framebuffer, with *out_renderbuffer in it. */
 static GLuint make_framebuffer(const struct format *format, int samples, GLuint *out_renderbuffer)
 {
     GLuint framebuffer;
@@ -84,7 +84,7 @@ static GLint get(GLenum name)
     return value;
 }
 
-/* Scissor and unpack buffer would spoil a copy that left them on; all must be as before after it. */
+/* A copy that left scissor test and unpack buffer on would be wrong; both must be as before after it. */
 static void host_state_neither_harms_nor_is_harmed(void **state)
 {
     fixture *f = *state;

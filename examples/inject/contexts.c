@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * One effect for each context of the program: a list that grows, and an end for each with its context.
+ */
+#include "inject.h"
+#include "window_depth.h"
+
+#include <GL/glcorearb.h>
+#include <glssao/glssao.h>
+#include <stdlib.h>
+
+static inject_context *contexts;
+
+static const char *version_text(void)
+{
+    INJECT_REAL(PFNGLGETSTRINGPROC, GetString);
+    const char *const text = GetString ? (const char *)GetString(GL_VERSION) : NULL;
+    return text ? text : "version unknown";
+}
+
+inject_context *inject_context_of(void *context)
+{
+    inject_context *c = contexts;
+    while (c && c->context != context)
+        c = c->next;
+    if (!c && (c = calloc(1, sizeof *c))) {
+        *c = (inject_context){.next = contexts,
+                              .context = context,
+                              .is_embedded = strncmp(version_text(), "OpenGL ES", 9) == 0,
+                              .first = inject_seconds()};
+        contexts = c;
+    }
+    return c;
+}
+
+inject_context *inject_next_context(inject_context *c)
+{
+    return c ? c->next : contexts;
+}
+
+static void log_line(glssao_log_level level, const char *message, void *user)
+{
+    (void)user;
+    if (level == GLSSAO_LOG_ERROR)
+        inject_say_once(message);
+}
+
+static bool make(inject_context *c, int width, int height)
+{
+    const glssao_config config = {
+        .load = inject_real, .log = log_line, .width = width, .height = height, .no_timers = true};
+    const glssao_result result = glssao_create(&config, &c->effect);
+    c->depth = result == GLSSAO_OK ? window_depth_create(inject_real, NULL) : NULL;
+    if (c->depth) {
+        c->width = width;
+        c->height = height;
+        return true;
+    }
+    inject_say("no effect in this context (%s): %s", version_text(), glssao_result_string(result));
+    glssao_destroy(c->effect);
+    c->effect = NULL;
+    c->given_up = true;
+    return false;
+}
+
+bool inject_prepare_context(inject_context *c, int width, int height)
+{
+    if (c->given_up)
+        return false;
+    if (!c->effect)
+        return make(c, width, height);
+    if (c->width == width && c->height == height)
+        return true;
+    if (glssao_resize(c->effect, width, height) != GLSSAO_OK)
+        return false;
+    c->width = width;
+    c->height = height;
+    c->radius = 0.0f; /* of another picture */
+    return true;
+}
+
+/* Without its context, an effect can't be destroyed: GL deletes its objects with the context, or with the last that
+ * shares them, and its memory (some kilobytes) stays. */
+void inject_forget_context(void *context, bool is_current)
+{
+    for (inject_context **at = &contexts; *at; at = &(*at)->next)
+        if ((*at)->context == context) {
+            inject_context *const gone = *at;
+            *at = gone->next;
+            if (is_current) {
+                glssao_destroy(gone->effect);
+                window_depth_destroy(gone->depth);
+            }
+            free(gone);
+            return;
+        }
+}

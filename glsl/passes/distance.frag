@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// The distance map: view distances at the estimate's size, so that later passes need not convert depth.
+// in  u_depth_map  stored depth, point sampled
+// in  u_back_map, u_second_map  LAYERS 1: the nearest back face at or behind the surface, and the nearest front face behind it
+// out result       x: view distance (scene units); FAR_AWAY where nothing was drawn. With LAYERS 1 also
+//                  y: thickness of the surface (scene units); negative: not known
+//                  z: distance from it to the next front face (scene units); FAR_AWAY: none
+
+#if LAYERS
+#define RESULT vec4
+uniform sampler2D u_back_map;
+uniform sampler2D u_second_map;
+
+// In units of the radius, found by experiment: docs/decisions.md, "A second layer".
+const float GAP = 0.15;  // with the next front face less than this behind the back face, both may be one solid
+const float THIN = 0.03; // anything thinner is a sheet or a seam, whose thickness says nothing about what is behind it
+#else
+#define RESULT float
+#endif
+
+float distance_at(sampler2D map, vec2 uv)
+{
+    float depth = textureLod(map, uv, 0.0).r;
+    return is_sky(depth) ? FAR_AWAY : distance_from_depth(depth);
+}
+
+RESULT result()
+{
+    vec2 uv = (floor(target_center()) * float(gFactor) + 0.5) * gFullTexel;
+    float depth = depth_component(textureLod(u_depth_map, uv, 0.0));
+    float distance = is_sky(depth) ? FAR_AWAY : distance_from_depth(depth);
+#if LAYERS
+    float back = distance_at(u_back_map, uv);
+    float second = distance_at(u_second_map, uv);
+    bool known = back < FAR_AWAY && second - back >= GAP * gOcclusionRadius && back - distance >= THIN * gOcclusionRadius;
+    float behind = second < FAR_AWAY ? max(second - distance, 0.0) : FAR_AWAY;
+    return vec4(distance, known ? back - distance : -1.0, behind, 0.0);
+#else
+    return distance;
+#endif
+}

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: MIT
+// The horizon estimate: cosine-weighted visibility, slice by slice (J. Jimenez et al., "Practical Realtime Strategies for
+// Accurate Indirect Occlusion", 2016, section 4), gathered in a mask of sectors (O. Therrien et al., "Screen Space Indirect
+// Lighting with Visibility Bitmask", 2023, section 3). The sectors have equal cosine-weighted measure. An occluder counts as
+// being as thick as it is wide along the slice, and the sphere of the radius cuts each sample, as in the traced truth.
+// in  u_normal_map    view space; point sampled
+// in  u_distance_map  view distance at the estimate's size, with LAYERS 1 thickness and second layer too; point sampled,
+//                     clamped
+// out result          by OUTPUT: accessibility, the paired value, or linear accessibility for the sum of its replicate
+// SLICES slices of STEPS samples on each side. BRANCHES 1: a branch that all pixels of a warp take alike spares work.
+//
+// Coordinates in a slice, in units of the radius: x is the distance from the point along the slice, outwards on either side;
+// y is the height towards the eye. Angles are measured from y. tuned.glsl has the tuned constants.
+
+uniform sampler2D u_distance_map;
+#if OUTPUT == OUTPUT_SUM
+#define RESULT vec2
+#else
+#define RESULT AMBIENT
+#endif
+
+const float PI = 3.14159265;
+const float SECTORS = 31.0; // so that a full mask needs no shift by 32
+const float STEP = 1.0 / float(STEPS);
+
+#if LAYERS
+const float VEIL = VEIL_TWO_LAYERS;
+#else
+const float VEIL = VEIL_ONE_LAYER;
+#endif
+#if STEPS >= 12
+const float CALIBRATION = CALIBRATION_12;
+#elif STEPS == 8
+const float CALIBRATION = CALIBRATION_8;
+#else
+const float CALIBRATION = CALIBRATION_6;
+#endif
+
+// The start of the run that the point itself belongs to: so far before the point that the run is thicker than the sphere.
+const float BEFORE_THE_POINT = -100.0;
+// Straight below the point, where a sample hides nothing.
+const vec2 BELOW_THE_POINT = vec2(0.0, -1e6);
+// Bounds of layers, so that no square overflows, and of steps, so that pixel coordinates stay exact.
+const float MOST_RADII = 1e6;
+const float MOST_PIXELS = 1e5;
+// Seen edge-on, the tangent plane is all slope: the bound keeps the height of a snapped sample of the order of its x.
+const float STEEPEST = 40.0;
+
+int count_bits(uint mask)
+{
+    mask -= (mask >> 1) & 0x55555555u;
+    mask = (mask & 0x33333333u) + ((mask >> 2) & 0x33333333u);
+    return int((((mask + (mask >> 4)) & 0x0F0F0F0Fu) * 0x01010101u) >> 24);
+}
+
+// The cosine-weighted measure of the angles from 0 to acos(c) on one side, as a polynomial in c. For a normal that leans
+// towards that side by g it is the integral of cos(t - g) sin(t) over t (Jimenez 2016, equation 7), which is
+// (cos g (1 - c^2) + sin g h(c)) / 2 with h(c) = acos(c) - c sqrt(1 - c^2). The polynomial for h,
+// pi/2 - c (1.98868 - 0.25869 c^2 - 0.15521 c^4), is off by at most 0.004.
+struct polynomial {
+    vec4 low; // coefficients of 1, c, c^2, c^3
+    float c5;
+};
+
+polynomial measure(float cos_g, float sin_g, float scale)
+{
+    return polynomial(0.5 * scale * vec4(cos_g + 0.5 * PI * sin_g, -1.98868 * sin_g, -cos_g, 0.25869 * sin_g),
+                      0.5 * scale * 0.15521 * sin_g);
+}
+
+float value(polynomial p, float c)
+{
+    float c2 = c * c;
+    return p.low.x + p.low.z * c2 + (p.low.y + (p.low.w + p.c5 * c2) * c2) * c;
+}
+
+// The pixel that is estimated.
+struct point {
+    vec2 uv;              // in the distance map
+    vec2 low, high;       // pixels to the map's first and last texel
+    float distance;       // scene units
+    float scale;          // a pixel's width grows with it: the view distance in perspective, else 1
+    float per_scale;      // STEP / scale: the width of a step
+    float y_per_distance; // radii per scene unit, along the ray
+    float y_step;         // a step of the depth format, in radii
+    vec3 normal_view;
+    vec3 up_view;         // towards the eye, unit length
+    float jitter;         // 0..1, of the samples along a slice
+};
+
+// One side of a slice.
+struct slice_side {
+    vec2 uv_per_px;            // offsets in pixels are positive outwards
+    vec2 reach_px;             // to the map's last texel
+    vec2 first_px, step_px;    // offset of the first sample, and from sample to sample
+    vec2 x_per_px, y_per_px;   // per unit of scale
+    float least_x;             // samples nearer than this lie on the point
+    float tangent;             // height of the tangent plane per x
+    float lowest;              // cosine of the angle at which the hemisphere ends
+    polynomial sectors;        // number of the sector, plus a half, from the far end of the minus side
+};
+
+// x, y and the width of a step (radii) at a sample. The sample is snapped to the centre of a texel, beyond the border to that
+// of the border. Its height is corrected for its distance from the slice as if the surface there were parallel to the point's
+// own. `layers`: thickness of the surface there, negative where unknown, and how far behind it the second layer lies (radii).
+vec3 sample_at(point p, slice_side side, float number, out vec2 layers)
+{
+    // The point is a texel's centre itself, so whole pixels lead to other centres.
+    vec2 offset_px = min(roundEven(side.first_px + number * side.step_px), side.reach_px);
+    vec2 uv = p.uv + offset_px * side.uv_per_px;
+#if LAYERS
+    vec3 texel = textureLod(u_distance_map, uv, 0.0).rgb;
+    float distance = texel.r;
+    layers = min(p.y_per_distance * texel.gb, vec2(MOST_RADII));
+#else
+    float distance = textureLod(u_distance_map, uv, 0.0).r;
+    layers = vec2(0.0);
+#endif
+    float scale = orthographic() ? 1.0 : distance;
+    return vec3(scale * dot(offset_px, side.x_per_px),
+                scale * dot(offset_px, side.y_per_px) + p.y_per_distance * (p.distance - distance), scale * p.per_scale);
+}
+
+// Whether a sample can hide anything: within the sphere, off the point's own texel (where x is 0, or below it where the border
+// holds a sample back), and above the tangent plane by more than the depth format can tell.
+bool occludes(point p, slice_side side, vec3 at)
+{
+    return at.x > side.least_x && at.x < 1.0 && at.y > side.tangent * at.x + p.y_step;
+}
+
+// The sectors from a cosine on. The polynomial leaves 0..31 by an eighth at most, which the rounding takes back; a shift by
+// more than 31 would be undefined.
+uint sectors_from(slice_side side, float c)
+{
+    return ~0u << (uint(int(value(side.sectors, c))) & 31u);
+}
+
+// The sectors that are hidden at x between two heights, as far as these lie in the sphere, whose half chord is given.
+uint hidden_between(slice_side side, float x2, float chord, float top, float bottom, out float cos_top)
+{
+    top = min(top, chord);
+    bottom = max(bottom, -chord);
+    cos_top = max(top * inversesqrt(top * top + x2), side.lowest);
+    float cos_bottom = clamp(bottom * inversesqrt(bottom * bottom + x2), side.lowest, cos_top);
+    return sectors_from(side, cos_top) ^ sectors_from(side, cos_bottom);
+}
+
+// The sectors that one sample hides, whose run is `width` steps wide. Raises `highest` to the sample's top where the sample
+// is thick enough to veil what is behind it.
+uint hidden_by(slice_side side, vec3 at, vec2 layers, float width, inout float highest)
+{
+    float x2 = at.x * at.x + 1e-12;
+    float chord = sqrt(1.0 - x2); // x is below 1
+    float thickness = RUN_WIDTH * width * at.z;
+    float cos_top;
+    uint mask = 0u;
+#if LAYERS
+    float second = min(at.y - layers.y, chord); // its thickness counts from where it is within the sphere
+    mask = hidden_between(side, x2, chord, second, second - SECOND_WIDTH * thickness, cos_top);
+    thickness = layers.x >= 0.0 ? layers.x : thickness;
+#endif
+    mask |= hidden_between(side, x2, chord, at.y, at.y - thickness, cos_top);
+    highest = thickness > VEIL_WIDTH ? max(highest, cos_top) : highest;
+    return mask;
+}
+
+// The sectors that the samples of one side hide. `highest`: cosine of the horizon over occluders that veil what is behind
+// them.
+uint hidden_sectors(point p, slice_side side, out float highest)
+{
+    vec3 samples[STEPS];
+    vec2 layers[STEPS];
+    UNROLL for (int i = 0; i < STEPS; ++i) {
+        samples[i] = sample_at(p, side, float(i), layers[i]);
+    }
+    float rise[STEPS]; // of height, from the sample before; from the point for the first
+    UNROLL for (int i = 0; i < STEPS; ++i) {
+        rise[i] = samples[i].y - (i > 0 ? samples[max(i - 1, 0)].y : 0.0);
+    }
+    bool any_occludes = false;
+    UNROLL for (int i = 0; i < STEPS; ++i) {
+        if (occludes(p, side, samples[i]))
+            any_occludes = true;
+        else
+            samples[i].xy = BELOW_THE_POINT; // no step below asks again
+    }
+    highest = side.lowest;
+#if !UNROLLED
+    if (!any_occludes)
+        return 0u;
+#endif
+    // Where the run of samples ends that each one belongs to, in steps, from the last one back. A rise leads to another surface
+    // where it is large and the rises before and after it are not alike.
+    float end[STEPS];
+    float boundary = OPEN_END * float(STEPS) - 0.5 + p.jitter;
+    bool bends_before = true;
+    UNROLL for (int i = STEPS - 1; i >= 0; --i) {
+        end[i] = boundary;
+        bool bends_after = bends_before;
+        bends_before = i == 0 || abs(rise[i] - rise[max(i - 1, 0)]) > ALIKE;
+        boundary = abs(rise[i]) > JUMP && bends_before && bends_after ? float(i) : boundary;
+    }
+    float start = boundary == 0.0 ? 0.0 : BEFORE_THE_POINT;
+    uint mask = 0u;
+    UNROLL for (int i = 0; i < STEPS; ++i) {
+        start = i > 0 && end[max(i - 1, 0)] == float(i) ? float(i) : start;
+        mask |= hidden_by(side, samples[i], layers[i], end[i] - start, highest);
+    }
+    return mask;
+}
+
+// An ordered tile of noise: Bayer's matrix for the angle, and the same bits reversed for the jitter along the slice. A single
+// slice of few samples takes the 8x8 matrix, any 4x4 of which are spread alike; the few places that the smaller one looks at
+// show as streaks on a wall behind a large occluder.
+vec2 tile_noise()
+{
+    uvec2 p = uvec2(pixel_center());
+    uint x = p.x ^ p.y;
+#if SLICES == 2
+    uint bayer = ((x & 1u) << 3) | ((p.y & 1u) << 2) | (x & 2u) | ((p.y & 2u) >> 1);
+    uint reversed = ((bayer & 1u) << 3) | ((bayer & 2u) << 1) | ((bayer & 4u) >> 1) | (bayer >> 3);
+    vec2 noise = (vec2(bayer, reversed) + 0.5) / 16.0;
+#else
+    uint bayer = ((x & 1u) << 5) | ((p.y & 1u) << 4) | ((x & 2u) << 2) | ((p.y & 2u) << 1) | ((x & 4u) >> 1) |
+                 ((p.y & 4u) >> 2);
+    uint reversed = ((bayer & 1u) << 5) | ((bayer & 2u) << 3) | ((bayer & 4u) << 1) | ((bayer & 8u) >> 1) |
+                    ((bayer & 16u) >> 3) | (bayer >> 5);
+    vec2 noise = (vec2(bayer, reversed) + 0.5) / 64.0;
+#endif
+#if OUTPUT == OUTPUT_SUM
+    // The second replicate has the tile turned over, so that the two differ by another offset in each pixel of the tile.
+    noise = fract((gAccumulation.x > 0.0 ? noise : noise.yx) + gNoise);
+#endif
+    return noise;
+}
+
+// The occlusion that one slice sees; `angle`: of the slice in the picture, in half turns.
+float slice_occlusion(point p, float angle)
+{
+    vec2 direction = vec2(cos(PI * angle), sin(PI * angle));
+    vec2 step_px = STEP * clamp(float(STEPS) * p.per_scale * direction * gPixel.zw, -MOST_PIXELS, MOST_PIXELS);
+    vec2 way = mix(vec2(-1.0), vec2(1.0), greaterThan(step_px, vec2(0.0)));
+    vec3 along = vec3(direction, 0.0);
+    along = normalize(along - p.up_view * dot(along, p.up_view)); // never of length 0: up is a ray that leaves the picture
+    vec3 across = cross(p.up_view, along);
+    // Shading normals may look away from the eye; the hemisphere is then seen from its rim.
+    float normal_up = max(dot(p.normal_view, p.up_view), 0.0);
+    float normal_along = dot(p.normal_view, along);
+    float slope = clamp(dot(p.normal_view, across) / max(normal_up, 1e-3), -STEEPEST, STEEPEST);
+    // The normal projected into the slice leans towards the plus side by g. A normal straight across the slice projects to
+    // nothing.
+    float projected = sqrt(max(normal_along * normal_along + normal_up * normal_up, 1e-12));
+    float cos_g = normal_up / projected;
+    float sin_g = normal_along / projected;
+    // The floor is for a normal straight across the slice, which leaves no measure to share out among sectors.
+    float total_minus = value(measure(cos_g, -sin_g, 1.0), sin_g);
+    float total = max(value(measure(cos_g, sin_g, 1.0), -sin_g) + total_minus, 1e-6);
+    float scale = SECTORS / total;
+
+    slice_side side;
+    side.step_px = abs(step_px);
+    side.first_px = (1.0 - p.jitter) * side.step_px;
+    side.x_per_px = way * gPixel.xy * along.xy;
+    vec2 y_per_px = gPixel.xy * (p.up_view.xy + slope * across.xy);
+    // A fifth of a pixel.
+    vec2 pixel_x = p.scale * side.x_per_px;
+    side.least_x = 0.2 * sqrt(dot(pixel_x, pixel_x));
+
+    uint mask = 0u;
+    float veiled = total;
+    UNROLL for (int i = 0; i < 2; ++i) {
+        float sign = i == 0 ? 1.0 : -1.0; // the plus side, then the minus side
+        side.uv_per_px = sign * way * gInvRenderTargetSize;
+        side.y_per_px = sign * way * y_per_px;
+        side.reach_px = mix(p.low, p.high, greaterThan(sign * way, vec2(0.0)));
+        side.tangent = sign * -sin_g / max(cos_g, 1e-3);
+        side.lowest = -sign * sin_g;
+        side.sectors = measure(sign * cos_g, sin_g, scale);
+        side.sectors.low.x += total_minus * scale + 0.5;
+        float highest;
+        mask |= hidden_sectors(p, side, highest);
+        veiled -= value(measure(cos_g, sign * sin_g, 1.0), highest);
+    }
+    float hidden = total * float(count_bits(mask)) * (1.0 / SECTORS);
+    return projected * mix(hidden, veiled, VEIL);
+}
+
+RESULT result()
+{
+    vec2 map_uv = pixel_uv();
+    float distance = textureLod(u_distance_map, map_uv, 0.0).r;
+    vec2 uv = (floor(pixel_center()) * float(gFactor) + 0.5) * gFullTexel;
+    vec3 normal_view = normal_view_at_uv(uv);
+#if OUTPUT == OUTPUT_SUM
+    RESULT open = gAccumulation.xy;
+#else
+    float linear = linear_from_distance(distance);
+    uint code = normal_code(normal_view);
+    RESULT open = ambient(1.0, linear, code);
+#endif
+    // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
+    if (distance >= FAR_AWAY || normal_view == vec3(0.0))
+        return open;
+    vec3 ray = vec3(uv * gRayDirection.xy + gRayDirection.zw, -1.0);
+    float ray_length = length(ray);
+    vec2 noise = tile_noise();
+    point p;
+    p.uv = map_uv;
+    p.low = pixel_center() - 0.5;
+    p.high = gEstimateSize - 0.5 - pixel_center();
+    p.distance = distance;
+    p.scale = orthographic() ? 1.0 : distance;
+    p.per_scale = STEP / p.scale;
+    p.y_per_distance = ray_length * gPerRadius;
+    p.y_step = p.y_per_distance * depth_step(distance + gOcclusionRadius);
+    p.normal_view = normal_view;
+    p.up_view = -ray / ray_length;
+    p.jitter = noise.y;
+    float occlusion = 0.0;
+    UNROLL for (int i = 0; i < SLICES; ++i) {
+        occlusion += slice_occlusion(p, (noise.x + float(i)) / float(SLICES));
+    }
+    occlusion /= float(SLICES);
+    // pow() is undefined below 0, which rounding can leave (as it can leave more than 1), and at 0 for a power so small that it
+    // is flushed to 0.
+    float share = max(1.0 - occlusion, 1e-6);
+#if OUTPUT == OUTPUT_SUM
+    return gAccumulation.xy * min(pow(share, CALIBRATION), 1.0);
+#else
+    return ambient(clamp(pow(share, CALIBRATION * gPower), 0.0, 1.0), linear, code);
+#endif
+}

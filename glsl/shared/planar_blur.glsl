@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// The planar blur. Its first round is a separable box over one period of a 4x4 tile, 1/2 1 1 1 1/2, along surfaces. A tap
+// counts where it lies on a line with two neighbours in the same direction, or with the two about the pixel, and where the
+// surface does not turn away from the eye in between. A silhouette breaks both lines; a plane seen at any angle breaks
+// neither. A pixel left without a tap takes neighbours that are merely near.
+//
+// After the first round the only noise left is that of twice the tile's period. Later rounds remove it in one pass each: a
+// quarter of the pixel and 3/16 of each of the four at three pixels from it, where they lie on a line or in a hollow. In a
+// hollow both sides darken, and the rest of the noise would show along it.
+// BRANCHES 1: a branch that all pixels of a warp take alike spares work.
+
+float line_tolerance(float linear)
+{
+    return max(linear_error(BLUR_TOLERANCE * gOcclusionRadius, linear), linear_step(linear));
+}
+
+// Accessibility of a pixel from the paired values of itself and of the two on each side along `way`.
+float blurred(vec2 before_2, vec2 before, vec2 center, vec2 after, vec2 after_2, vec2 way)
+{
+#if BRANCHES
+    // Most pixels are surrounded by equal ones, which nothing occludes.
+    if (before_2.x == center.x && before.x == center.x && after.x == center.x && after_2.x == center.x)
+        return accessibility_of(center);
+#endif
+    float tolerance = line_tolerance(center.y);
+    bool on_line = abs(before.y - 2.0 * center.y + after.y) < tolerance;
+    bool on_before = abs(before_2.y - 2.0 * before.y + center.y) < tolerance;
+    bool on_after = abs(after_2.y - 2.0 * after.y + center.y) < tolerance;
+    uint code = normal_code(center);
+    uvec4 codes = uvec4(normal_code(before_2), normal_code(before), normal_code(after), normal_code(after_2));
+    bvec4 joins = bvec4(true);
+    // Most pixels face the same way as their neighbours, which spares a GPU this.
+    if (any(notEqual(codes, uvec4(code)))) {
+        vec2 own = projected_normal(code);
+        joins = not(bvec4(turns_away(projected_normal(codes.x) - own, -way), turns_away(projected_normal(codes.y) - own, -way),
+                          turns_away(projected_normal(codes.z) - own, way), turns_away(projected_normal(codes.w) - own, way)));
+    }
+    vec4 weights = vec4(on_before && joins.x ? 0.5 : 0.0, (on_before || on_line) && joins.y ? 1.0 : 0.0,
+                        (on_after || on_line) && joins.z ? 1.0 : 0.0, on_after && joins.w ? 0.5 : 0.0);
+    if (weights.y + weights.z == 0.0) {
+        float near = linear_error(BLUR_NEAR * gOcclusionRadius, center.y);
+        weights.yz = vec2(joins.y && abs(before.y - center.y) < near ? 1.0 : 0.0,
+                          joins.z && abs(after.y - center.y) < near ? 1.0 : 0.0);
+    }
+    vec4 taps = vec4(accessibility_of(before_2), accessibility_of(before), accessibility_of(after),
+                     accessibility_of(after_2));
+    float sum = accessibility_of(center) + dot(weights, taps);
+    return sum / (1.0 + dot(weights, vec4(1.0)));
+}
+
+// The same for a later round, from itself and the four at three pixels from it.
+float blurred_wide(vec2 left, vec2 below, vec2 center, vec2 above, vec2 right)
+{
+#if BRANCHES
+    if (left.x == center.x && below.x == center.x && above.x == center.x && right.x == center.x)
+        return accessibility_of(center);
+#endif
+    float tolerance = line_tolerance(center.y);
+    float hollow = linear_error(BLUR_HOLLOW * gOcclusionRadius, center.y);
+    vec2 bend = vec2(left.y, below.y) - 2.0 * center.y + vec2(right.y, above.y);
+    bend = orthographic() ? -bend : bend; // above 0 in a hollow
+    bvec2 counts = bvec2(bend.x > -tolerance && bend.x < hollow, bend.y > -tolerance && bend.y < hollow);
+    bvec4 joins = counts.xyyx;
+    uint code = normal_code(center);
+    uvec4 codes = uvec4(normal_code(left), normal_code(below), normal_code(above), normal_code(right));
+    if (any(notEqual(codes, uvec4(code)))) {
+        vec2 own = projected_normal(code);
+        joins.x = joins.x && !turns_away(projected_normal(codes.x) - own, vec2(-1.0, 0.0));
+        joins.y = joins.y && !turns_away(projected_normal(codes.y) - own, vec2(0.0, -1.0));
+        joins.z = joins.z && !turns_away(projected_normal(codes.z) - own, vec2(0.0, 1.0));
+        joins.w = joins.w && !turns_away(projected_normal(codes.w) - own, vec2(1.0, 0.0));
+    }
+    vec4 weights = mix(vec4(0.0), vec4(0.1875), joins);
+    vec4 taps = vec4(accessibility_of(left), accessibility_of(below), accessibility_of(above), accessibility_of(right));
+    float sum = 0.25 * accessibility_of(center) + dot(weights, taps);
+    return sum / (0.25 + dot(weights, vec4(1.0)));
+}

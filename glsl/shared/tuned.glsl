@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Constants of the horizon technique that were found by experiment. The shaders, the C tests and glssao-tune all read this
+// file: one #define a line, a plain number each. Lengths are in units of the radius.
+
+// The estimate (passes/horizon.frag). glssao-tune searches these.
+#define JUMP 0.3              // a step in height of more than this ends a run of samples ...
+#define ALIKE 0.4             // ... unless the step before or after it differs by less than this: a steep surface
+#define OPEN_END 1.25         // where a run ends that is not seen to end
+#define RUN_WIDTH 1.0         // thickness of a run that a jump separates from the point, in units of its width
+#define VEIL_ONE_LAYER 0.15   // share of what lies hidden behind occluders that counts as occluded, however deep
+#define VEIL_TWO_LAYERS 0.03  // the same where a second layer is known
+#define VEIL_WIDTH 0.2        // occluders thinner than this hide nothing behind them
+#define SECOND_WIDTH 0.3      // thickness of the second layer's surfaces, in units of what is guessed for the first's
+#define CALIBRATION_6 1.1     // exponent that makes up for what 6 samples a side miss
+#define CALIBRATION_8 1.05    // the same for 8 samples
+#define CALIBRATION_12 1.0    // the same for 12 and 16 samples
+
+// The planar blur (shared/planar_blur.glsl).
+#define BLUR_TOLERANCE 0.02   // how far off a line may be
+#define BLUR_NEAR 0.1         // how far off a neighbour may be of a pixel that has no other
+#define BLUR_HOLLOW 0.1       // how far a later round's line may bend towards the eye at its ends
+
+// Upsampling (shared/upsample.glsl).
+#define UPSAMPLE_TOLERANCE 0.02 // how far off the plane of its neighbours a pixel may be
+#define UPSAMPLE_NEAR 0.1       // how far off a neighbour on the same surface may be
+
+// Creases (shared/paired.glsl).
+#define NORMAL_STEP 0.1       // step of the two coordinates of a stored normal, which reach from -1.5 to 1.6
+#define CHORD 0.69            // chord of two unit normals on different sides of a crease: 41 degrees

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Values of the variant macros that are neither 0/1 nor a number of something. GLSL and C read this file.
+
+// Farther than any surface: stands for sky and for depths that are not numbers. Its square still fits a float.
+#define FAR_AWAY 1e15
+
+// How the host stores normals.
+#define NORMALS_SIGNED 0
+#define NORMALS_UNSIGNED 1
+#define NORMALS_OCTAHEDRAL 2
+
+// How the host stores depth.
+#define DEPTH_WINDOW 0
+#define DEPTH_DISTANCE 1
+#define DEPTH_ALPHA 2 // view distance in the alpha of the normal map
+
+// What an estimate or a blur writes.
+#define OUTPUT_ACCESSIBILITY 0
+#define OUTPUT_PAIRED 1 // shared/paired.glsl
+#define OUTPUT_SUM 2    // linear accessibility, to be added to the sum of its replicate
+
+// The taps of blur.frag.
+#define FILTER_GAUSSIAN 0
+#define FILTER_BILATERAL 1
+#define FILTER_BOX 2

@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Which blur runs in which direction from which map, by draws or dispatches, and how the result gets to full size.
+ */
+#include "frame/filters.h"
+
+/* The Gaussian, bilateral and box blurs: two directions a round. */
+static void add_separable_blur(glssao__builder *b)
+{
+    static const uint8_t filters[] = {[GLSSAO_BLUR_GAUSSIAN] = FILTER_GAUSSIAN,
+                                      [GLSSAO_BLUR_BILATERAL] = FILTER_BILATERAL,
+                                      [GLSSAO_BLUR_BOX] = FILTER_BOX};
+    const int count = 2 * b->settings->blur_rounds;
+    for (int i = 1; i <= count; ++i) {
+        const bool is_last = i == count, bilateral = b->settings->blur == GLSSAO_BLUR_BILATERAL;
+        glssao__step *step = glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_BLUR, i, is_last && !b->c.upsamples);
+        glssao__build_point(step, UNIT_AMBIENT, glssao__build_turn_map(b, i - 1));
+        if (bilateral)
+            glssao__build_surfaces(b, step);
+        step->is_horizontal = i % 2 == 1;
+        glssao__build_set(step, MACRO_FILTER, filters[b->settings->blur]);
+        glssao__build_finish(b, step);
+        glssao__build_set(step, MACRO_UNROLLED, 1);
+        if (!bilateral) { /* it reads neither normals nor depth */
+            glssao__build_set(step, MACRO_NORMALS, 0);
+            glssao__build_set(step, MACRO_DEPTH, 0);
+        }
+        /* The vertical direction reads a tile farther than it draws. */
+        glssao__build_tiles(b, step, 1, 0, b->c.tile_rings + i % 2);
+    }
+}
+
+/* The planar blur by draws: two directions of the first round, one pass for each later one. */
+static void add_planar_draws(glssao__builder *b)
+{
+    const int count = b->settings->blur_rounds + 1;
+    for (int i = 1; i <= count; ++i) {
+        glssao__step *step =
+            glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_PLANAR_BLUR, i, i == count && !b->c.upsamples);
+        glssao__build_point(step, UNIT_AMBIENT, glssao__build_turn_map(b, i - 1));
+        step->is_horizontal = i % 2 == 1;
+        glssao__build_set(step, MACRO_WIDE, i > 2);
+        glssao__build_finish(b, step);
+        glssao__build_tiles(b, step, 1, 0, b->c.tile_rings + i % 2);
+    }
+}
+
+/* The variant of planar_tile.comp for so many rounds. */
+static void set_tile(const glssao__builder *b, glssao__step *step, int rounds, bool is_first)
+{
+    glssao__build_set(step, MACRO_ROUNDS, rounds);
+    glssao__build_set(step, MACRO_WIDE, rounds > 0 && !is_first);
+    glssao__build_finish(b, step);
+}
+
+/* The planar blur by dispatches of up to two rounds; those that the dispatch of the upsampling runs are left out. */
+static void add_planar_dispatches(glssao__builder *b)
+{
+    const int rounds = b->settings->blur_rounds - b->c.inner_rounds;
+    for (int done = 0, i = 1; done < rounds; ++i) {
+        const int now = rounds - done < ROUNDS_OF_A_DISPATCH ? rounds - done : ROUNDS_OF_A_DISPATCH;
+        glssao__step *step =
+            glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_PLANAR_TILE, i, done + now == rounds && !b->c.upsamples);
+        glssao__build_point(step, UNIT_AMBIENT, glssao__build_turn_map(b, i - 1));
+        set_tile(b, step, now, done == 0);
+        glssao__build_set(step, MACRO_NORMALS, 0); /* only upsampling reads normals and depth */
+        glssao__build_set(step, MACRO_DEPTH, 0);
+        done += now;
+    }
+}
+
+void glssao__add_blur(glssao__builder *b)
+{
+    if (!b->c.is_planar)
+        add_separable_blur(b);
+    else if (b->c.plan.passes[GLSSAO_PASS_BLUR].compute)
+        add_planar_dispatches(b);
+    else
+        add_planar_draws(b);
+}
+
+/* The last map that the passes by turns drew into. */
+static enum glssao__map last_turn(const glssao__builder *b)
+{
+    int turns = 0;
+    for (int i = 0; i < b->s->count; ++i)
+        turns += b->s->steps[i].pass == GLSSAO_PASS_BLUR;
+    return glssao__build_turn_map(b, turns);
+}
+
+void glssao__add_upsample(glssao__builder *b)
+{
+    const enum glssao__map from = last_turn(b);
+    const bool compute = b->c.plan.passes[GLSSAO_PASS_UPSAMPLE].compute;
+    if (!compute)
+        glssao__build_map(b, MAP_BLOCKS, "block", GL_RGBA16, b->c.estimate);
+    glssao__step *step = glssao__build_step(b, GLSSAO_PASS_UPSAMPLE, compute ? SHADER_PLANAR_TILE : SHADER_UPSAMPLE,
+                                            compute ? MAP_RESULT : MAP_BLOCKS);
+    glssao__build_point(step, UNIT_NORMAL, b->c.normals);
+    glssao__build_point(step, UNIT_DEPTH, b->c.depth);
+    glssao__build_point(step, UNIT_AMBIENT, from);
+    glssao__build_set(step, MACRO_UPSAMPLE, 1);
+    set_tile(b, step, b->c.inner_rounds, !b->c.blurs);
+    if (!compute) {
+        step->region = glssao__region_inner(b->c.estimate, b->c.margin / 2);
+        glssao__build_tiles(b, step, 1, 0, b->c.tile_rings);
+        step = glssao__build_step(b, GLSSAO_PASS_UPSAMPLE, SHADER_SPREAD, MAP_RESULT);
+        glssao__build_point(step, UNIT_AMBIENT, MAP_BLOCKS);
+        glssao__build_tiles(b, step, 2, 0, b->c.tile_rings);
+    }
+    step->origin[0] = b->s->delivered.x;
+    step->origin[1] = b->s->delivered.y;
+}

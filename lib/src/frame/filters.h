@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The steps after the estimate: blur and upsampling.
+ */
+#ifndef GLSSAO_FRAME_FILTERS_H
+#define GLSSAO_FRAME_FILTERS_H
+
+#include "frame/build.h"
+
+void glssao__add_blur(glssao__builder *b);
+void glssao__add_upsample(glssao__builder *b);
+
+#endif

@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The shaders, the macros that make variants of them, and the source of each variant. No OpenGL.
+ */
+#ifndef GLSSAO_FRAME_SHADERS_H
+#define GLSSAO_FRAME_SHADERS_H
+
+#include "values.glsl"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum glssao__shader {
+    SHADER_INPUT = 0,
+    SHADER_NORMALS,
+    SHADER_DISTANCE,
+    SHADER_OPEN,
+    SHADER_CLASSIC,
+    SHADER_HEMISPHERE,
+    SHADER_HORIZON,
+    SHADER_RESOLVE,
+    SHADER_PROBE,
+    SHADER_BLUR,
+    SHADER_PLANAR_BLUR,
+    SHADER_PLANAR_TILE, /* rounds of the planar blur and upsampling in one compute shader */
+    SHADER_UPSAMPLE,
+    SHADER_SPREAD,
+    SHADER_APPLY,
+    SHADER_TILE_ROWS,
+    SHADER_TILE_BOUNDS,
+    SHADER_TILE_CLASS,
+    SHADER_TILE_RINGS,
+    SHADER_COUNT
+};
+
+/* X(macro, its largest value). Every macro is defined in every shader, as 0 where the shader does not test it. */
+#define GLSSAO__MACROS(X)                                                                                              \
+    X(COMPUTE, 1)         /* the pass is dispatched, not drawn */                                                      \
+    X(NORMALS, 2)         /* how the host stores normals: signed, unsigned, octahedral */                              \
+    X(DEPTH, 2)           /* how it stores depth: window depth, view distance, view distance in alpha */               \
+    X(PERSPECTIVE, 1)     /* the projection is known not to be orthographic */                                         \
+    X(BRANCHES, 1)        /* branches that spare a GPU work are taken */                                               \
+    X(UNROLLED, 1)        /* loops marked UNROLL are written out when the source is assembled */                       \
+    X(OUTPUT, 2)          /* accessibility, paired value, sum of estimates */                                          \
+    X(SLICES, 2)          /* horizon: slices of a pixel */                                                             \
+    X(STEPS, 16)          /* horizon: samples on each side of a slice */                                               \
+    X(LAYERS, 1)          /* horizon: there is a second layer */                                                       \
+    X(NO_ANGLE_WEIGHT, 1) /* classic */                                                                                \
+    X(FILTER, 2)          /* blur: Gaussian, bilateral, box */                                                         \
+    X(WIDE, 1)            /* planar blur: the first round is not the blur's first */                                   \
+    X(ROUNDS, 2)          /* planar blur: rounds of one dispatch */                                                    \
+    X(UPSAMPLE, 1)        /* planar tile: brings the result to full size */                                            \
+    X(MULTISAMPLE, 1)     /* input: of several samples */                                                              \
+    X(LOGARITHMIC, 1)     /* input: logarithmic depth */                                                               \
+    X(PLANES, 1)          /* tiles: those that lie in a plane are open too */                                          \
+    X(FROM_DEPTH, 1)      /* tiles, open: occluders are looked up in the depth map, not in the distance map */
+
+enum glssao__macro {
+#define GLSSAO__ENUMERATE(name, most) MACRO_##name,
+    GLSSAO__MACROS(GLSSAO__ENUMERATE)
+#undef GLSSAO__ENUMERATE
+        MACRO_COUNT
+};
+
+typedef struct glssao__variant {
+    uint8_t values[MACRO_COUNT];
+} glssao__variant;
+
+/* Sets macros that the shader does not test to 0, so that variants with the same source compare equal. */
+glssao__variant glssao__shader_variant(enum glssao__shader shader, glssao__variant wanted);
+/* Whether the shader tests the macro. */
+bool glssao__shader_tests(enum glssao__shader shader, enum glssao__macro macro);
+
+const char *glssao__shader_name(enum glssao__shader shader);
+/* "horizon STEPS=12 SLICES=2 ...", for messages. */
+void glssao__shader_describe(enum glssao__shader shader, const glssao__variant *variant, char *out, int size);
+
+/* Pixels of the target that a work group makes. */
+void glssao__shader_group(enum glssao__shader shader, const glssao__variant *variant, int out_pixels[2]);
+
+/* The source of a stage: fragment or compute, whichever the variant asks for, or the vertex stage that all draws share.
+ * `gl_version`: 10 major + minor. NULL where there is no memory; the caller frees. */
+char *glssao__shader_source(enum glssao__shader shader, const glssao__variant *variant, int gl_version);
+char *glssao__shader_vertex_source(void);
+
+#endif

@@ -1,0 +1,235 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Looks at the host's textures.
+ */
+#include "input/host_textures.h"
+
+#include <math.h>
+#include <string.h>
+
+void glssao__host_names(const glssao_frame *frame, gl_uint out_names[HOST_TEXTURES])
+{
+    out_names[HOST_DEPTH] = frame->depth_kind != GLSSAO_DEPTH_NORMAL_ALPHA ? frame->depth_texture : 0;
+    out_names[HOST_NORMAL] = frame->normal_texture;
+    out_names[HOST_BACK] = frame->back_texture;
+    out_names[HOST_SECOND] = frame->second_texture;
+}
+
+void glssao__host_copies(const glssao_frame *frame, gl_uint out_names[HOST_TEXTURES])
+{
+    const bool all = frame->multisample || frame->viewport[2] != 0 || frame->viewport[3] != 0;
+    glssao__host_names(frame, out_names);
+    for (int i = 0; i < HOST_TEXTURES; ++i)
+        if (!all && (frame->depth_kind != GLSSAO_DEPTH_LOGARITHMIC || i == HOST_NORMAL))
+            out_names[i] = 0;
+}
+
+/* Parameters that change what a shader reads without a sampler object having a say. */
+static const struct parameter {
+    gl_enum name;
+    int count;
+    gl_int wanted[4];
+    enum { ALWAYS, STENCIL_TEXTURING, COMPATIBILITY } where;
+} parameters[HOST_PARAMETERS] = {
+    {GL_TEXTURE_BASE_LEVEL, 1, {0}, ALWAYS},
+    {GL_TEXTURE_SWIZZLE_RGBA, 4, {GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA}, ALWAYS},
+    {GL_DEPTH_STENCIL_TEXTURE_MODE, 1, {GL_DEPTH_COMPONENT}, STENCIL_TEXTURING},
+    {GL_DEPTH_TEXTURE_MODE, 1, {GL_LUMINANCE}, COMPATIBILITY},
+};
+
+static bool has_parameter(const glssao__gl *gl, const struct parameter *p)
+{
+    return p->where == ALWAYS || (p->where == STENCIL_TEXTURING && gl->stencil_texturing) ||
+           (p->where == COMPATIBILITY && gl->compatibility);
+}
+
+static bool is_wanted(const struct parameter *p, const gl_int value[4])
+{
+    return memcmp(value, p->wanted, (size_t)p->count * sizeof *value) == 0;
+}
+
+static void read_parameters(const glssao__gl *gl, glssao__host_texture *t)
+{
+    for (int i = 0; i < HOST_PARAMETERS; ++i) {
+        memcpy(t->parameters[i], parameters[i].wanted, sizeof t->parameters[i]);
+        if (has_parameter(gl, &parameters[i]))
+            gl->GetTexParameteriv(t->target, parameters[i].name, t->parameters[i]);
+        t->has_changes = t->has_changes || !is_wanted(&parameters[i], t->parameters[i]);
+    }
+}
+
+/* To what the passes want, or back; the texture is bound. */
+static void put_parameters(const glssao__gl *gl, const glssao__host_texture *t, bool back)
+{
+    for (int i = 0; i < HOST_PARAMETERS; ++i)
+        if (!is_wanted(&parameters[i], t->parameters[i]))
+            gl->TexParameteriv(t->target, parameters[i].name, back ? t->parameters[i] : parameters[i].wanted);
+}
+
+static gl_int level_parameter(const glssao__gl *gl, gl_enum target, gl_enum name)
+{
+    gl_int value = 0;
+    gl->GetTexLevelParameteriv(target, 0, name, &value);
+    return value;
+}
+
+/* The distance between two stored values that stand for depth. */
+static glssao__precision precision_of(const glssao__gl *gl, gl_enum target, bool in_alpha)
+{
+    int bits = in_alpha ? 0 : level_parameter(gl, target, GL_TEXTURE_DEPTH_SIZE);
+    gl_int type = level_parameter(gl, target, GL_TEXTURE_DEPTH_TYPE);
+    if (bits == 0) {
+        bits = level_parameter(gl, target, in_alpha ? GL_TEXTURE_ALPHA_SIZE : GL_TEXTURE_RED_SIZE);
+        type = level_parameter(gl, target, in_alpha ? GL_TEXTURE_ALPHA_TYPE : GL_TEXTURE_RED_TYPE);
+    }
+    const bool is_float = type == GL_FLOAT;
+    /* Fractions of half and single precision have 10 and 23 bits; single precision is what the shaders compute in. */
+    const int fraction = !is_float ? bits : bits <= 16 ? 10 : 23;
+    return (glssao__precision){.step = ldexp(1.0, -(fraction < 24 ? fraction : 24)), .relative = is_float};
+}
+
+bool glssao__host_texture_bind(const glssao__gl *gl, gl_enum target, gl_uint texture)
+{
+    gl_int value = 0;
+    if (gl->GetTextureParameteriv) {
+        gl->GetTextureParameteriv(texture, GL_TEXTURE_TARGET, &value);
+        if (value == 0) /* a buffer texture has no parameters */
+            (void)glssao__gl_take_error(gl, GL_INVALID_OPERATION);
+        if ((gl_enum)value == target)
+            gl->BindTexture(target, texture);
+        return (gl_enum)value == target;
+    }
+    gl->BindTexture(target, 0);
+    gl->BindTexture(target, texture);
+    gl->GetIntegerv(target == GL_TEXTURE_2D ? GL_TEXTURE_BINDING_2D : GL_TEXTURE_BINDING_2D_MULTISAMPLE, &value);
+    if ((gl_uint)value == texture)
+        return true;
+    (void)glssao__gl_take_error(gl, GL_INVALID_OPERATION);
+    return false;
+}
+
+static const char *kind_of(gl_enum target)
+{
+    return target == GL_TEXTURE_2D ? "GL_TEXTURE_2D" : "GL_TEXTURE_2D_MULTISAMPLE";
+}
+
+/* Fills what OpenGL knows of the texture; false where it is none of that kind. */
+static bool look_at(const glssao__gl *gl, const glssao__log *log, const char *field, glssao__host_texture *t)
+{
+    if (!gl->IsTexture(t->name)) {
+        glssao__log_write(log, GLSSAO_LOG_ERROR, "%s = %u: no texture of this context", field, t->name);
+        return false;
+    }
+    if (!glssao__host_texture_bind(gl, t->target, t->name)) {
+        glssao__log_write(log, GLSSAO_LOG_ERROR, "%s = %u: not a %s", field, t->name, kind_of(t->target));
+        return false;
+    }
+    read_parameters(gl, t);
+    /* Level 0 is meant, whatever the base level is. */
+    t->width = level_parameter(gl, t->target, GL_TEXTURE_WIDTH);
+    t->height = level_parameter(gl, t->target, GL_TEXTURE_HEIGHT);
+    const gl_int type = level_parameter(gl, t->target, GL_TEXTURE_RED_TYPE);
+    t->is_integer = type == GL_INT || type == GL_UNSIGNED_INT;
+    t->precision = precision_of(gl, t->target, t->reads_alpha);
+    return true;
+}
+
+static bool is_large_enough(const glssao__log *log, const char *field, const glssao_frame *frame, const int size[2],
+                            const glssao__host_texture *t)
+{
+    const char *const kind = kind_of(t->target);
+    const int *v = frame->viewport;
+    if (v[2] != 0 || v[3] != 0) {
+        /* The differences can't overflow: the viewport's size is the effect's. */
+        if (t->width - v[2] >= v[0] && t->height - v[3] >= v[1])
+            return true;
+        glssao__log_write(log, GLSSAO_LOG_ERROR, "%s = %u: a %s of %d x %d does not hold frame.viewport", field,
+                          t->name, kind, t->width, t->height);
+        return false;
+    }
+    if (t->width == size[0] && t->height == size[1])
+        return true;
+    glssao__log_write(log, GLSSAO_LOG_ERROR, "%s = %u: a %s of %d x %d, not of the full size, %d x %d", field, t->name,
+                      kind, t->width, t->height, size[0], size[1]);
+    return false;
+}
+
+static const glssao__host_texture *find_seen(const glssao__host_textures *known, const glssao__host_texture *wanted)
+{
+    for (int i = 0; known && i < HOST_SEEN; ++i) {
+        const glssao__host_texture *t = &known->seen[i];
+        if (t->name == wanted->name && t->target == wanted->target && t->reads_alpha == wanted->reads_alpha)
+            return t;
+    }
+    return NULL;
+}
+
+/* Checks one texture; with `known`, OpenGL is asked only the first time. */
+static bool check_texture(const glssao__gl *gl, const glssao__log *log, const char *field, const glssao_frame *frame,
+                          const int size[2], glssao__host_textures *known, glssao__host_texture *t)
+{
+    const glssao__host_texture *seen = find_seen(known, t);
+    if (seen)
+        *t = *seen;
+    else if (!look_at(gl, log, field, t))
+        return false;
+    if (t->is_integer) {
+        glssao__log_write(log, GLSSAO_LOG_ERROR, "%s = %u: an integer format; want depth, normalized or float", field,
+                          t->name);
+        return false;
+    }
+    if (known && t->has_changes) {
+        glssao__log_write(log, GLSSAO_LOG_ERROR,
+                          "%s = %u: base level, swizzle or stencil texture mode is not the default, which "
+                          "config.host_restores_state asks for",
+                          field, t->name);
+        return false;
+    }
+    if (!is_large_enough(log, field, frame, size, t))
+        return false;
+    if (known && !seen) {
+        known->seen[known->next] = *t;
+        known->next = (known->next + 1) % HOST_SEEN;
+    }
+    return true;
+}
+
+glssao_result glssao__host_textures_check(const glssao__gl *gl, const glssao__log *log, const glssao_frame *frame,
+                                          const int size[2], int unit, glssao__host_textures *known,
+                                          glssao__host_inputs *out)
+{
+    static const char *const fields[HOST_TEXTURES] = {"frame.depth_texture", "frame.normal_texture",
+                                                      "frame.back_texture", "frame.second_texture"};
+    const bool in_alpha = frame->depth_kind == GLSSAO_DEPTH_NORMAL_ALPHA;
+    gl_uint names[HOST_TEXTURES];
+    glssao__host_names(frame, names);
+    memset(out, 0, sizeof *out);
+    gl->ActiveTexture(GL_TEXTURE0 + (gl_enum)unit);
+    for (int i = 0; i < HOST_TEXTURES; ++i) {
+        glssao__host_texture *t = &out->textures[i];
+        if (!names[i])
+            continue;
+        t->name = names[i];
+        t->target = frame->multisample ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
+        t->reads_alpha = in_alpha;
+        if (!check_texture(gl, log, fields[i], frame, size, known, t))
+            return GLSSAO_INVALID_ARGUMENT;
+    }
+    out->precision = out->textures[in_alpha ? HOST_NORMAL : HOST_DEPTH].precision;
+    for (int i = 0; i < HOST_TEXTURES; ++i)
+        if (out->textures[i].has_changes) {
+            gl->BindTexture(out->textures[i].target, out->textures[i].name);
+            put_parameters(gl, &out->textures[i], false);
+        }
+    return GLSSAO_OK;
+}
+
+void glssao__host_textures_restore(const glssao__gl *gl, const glssao__host_inputs *inputs, int unit)
+{
+    for (int i = 0; i < HOST_TEXTURES; ++i)
+        if (inputs->textures[i].has_changes) {
+            gl->ActiveTexture(GL_TEXTURE0 + (gl_enum)unit);
+            gl->BindTexture(inputs->textures[i].target, inputs->textures[i].name);
+            put_parameters(gl, &inputs->textures[i], true);
+        }
+}

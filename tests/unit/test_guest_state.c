@@ -1,0 +1,433 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Host state outside the saved table that could change a result: the effect neutralises it and gives it back, or
+ * refuses the call and names it. Runs in core and compatibility contexts; a case that a context does not have is left
+ * out there.
+ */
+#include "guest.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* Of the compatibility profile, which glcorearb.h leaves out. */
+enum {
+    MAP_COLOR = 0x0D10,
+    RED_SCALE = 0x0D14,
+    RED_BIAS = 0x0D15,
+    PIXEL_MAP_R_TO_R = 0x0C76,
+    RENDER_MODE = 0x0C40,
+    RENDER = 0x1C00,
+    FEEDBACK = 0x1C01,
+    SELECT = 0x1C02,
+    FEEDBACK_2D = 0x0600,
+    CLAMP_FRAGMENT_COLOR = 0x891B,
+    DEPTH_TEXTURE_MODE = 0x884B,
+    ALPHA = 0x1906
+};
+
+static glssao_settings horizon(void)
+{
+    return glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
+}
+
+/* ---- fixed-function state ---- */
+
+static void clamped_fragment_colours_change_nothing(void **state)
+{
+    void(APIENTRY * clamp_color)(GLenum, GLenum);
+    if (!guest_is_compatibility())
+        return; /* the core profile has no such state */
+    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    guest_load(g.f, "glClampColor", &clamp_color);
+    static const glssao_technique techniques[] = {GLSSAO_CLASSIC, GLSSAO_HEMISPHERE, GLSSAO_HORIZON};
+    glssao_frame bare = g.frame; /* rebuilt normals are negative, distances above 1 */
+    bare.normal_texture = 0;
+    for (int i = 0; i < 3; ++i) {
+        glssao_settings settings = glssao_default_settings(techniques[i], GLSSAO_HIGH);
+        settings.half_resolution = techniques[i] == GLSSAO_HORIZON;
+        float *const wanted = guest_picture(&g, &bare, &settings);
+        clamp_color(CLAMP_FRAGMENT_COLOR, GL_TRUE);
+        float *const got = guest_picture(&g, &bare, &settings);
+        GLint now = 0;
+        gl.GetIntegerv(CLAMP_FRAGMENT_COLOR, &now);
+        clamp_color(CLAMP_FRAGMENT_COLOR, GL_FIXED_ONLY);
+        guest_same_picture(got, wanted, "with GL_CLAMP_FRAGMENT_COLOR");
+        assert_int_equal(now, GL_TRUE);
+        free(wanted);
+        free(got);
+    }
+    guest_close(&g);
+}
+
+/* Scale, bias and maps change texels on their way in (the random vectors) and out (the error of accumulation). */
+static double error_of_accumulation(guest *g)
+{
+    const glssao_settings settings = horizon();
+    for (int i = 0; i < 4; ++i)
+        assert_int_equal(glssao_accumulate(g->effect, &g->frame, &settings), GLSSAO_OK);
+    gl.Finish();
+    return glssao_get_stats(g->effect).sampling_error;
+}
+
+static void pixel_transfer_changes_nothing(void **state)
+{
+    void(APIENTRY * pixel_transfer)(GLenum, GLfloat);
+    void(APIENTRY * pixel_map)(GLenum, GLsizei, const GLfloat *);
+    if (!guest_is_compatibility())
+        return;
+    guest calm = guest_open(*state, GLSSAO_PATH_AUTO);
+    guest_load(calm.f, "glPixelTransferf", &pixel_transfer);
+    guest_load(calm.f, "glPixelMapfv", &pixel_map);
+    const double wanted_error = error_of_accumulation(&calm);
+    assert_true(wanted_error > 0.0);
+    int w, h;
+    float *const wanted = fixture_read_texture(glssao_map(calm.effect, GLSSAO_MAP_RANDOM_VECTOR, &w, &h), 256, 256, 4);
+    for (int i = 0; i < 2; ++i) {
+        const char *const what = i ? "a pixel map" : "scale and bias";
+        if (i) {
+            pixel_map(PIXEL_MAP_R_TO_R, 2, (const GLfloat[2]){0.25f, 0.75f});
+            pixel_transfer(MAP_COLOR, 1.0f);
+        } else {
+            pixel_transfer(RED_SCALE, 0.5f);
+            pixel_transfer(RED_BIAS, 0.25f);
+        }
+        guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+        const glssao_frame own = g.frame; /* uploaded by this test, with the transfer on */
+        g.frame = calm.frame;
+        const double error = error_of_accumulation(&g);
+        g.frame = own;
+        GLfloat scale = 0.0f, bias = 0.0f, map = 0.0f;
+        gl.GetFloatv(RED_SCALE, &scale);
+        gl.GetFloatv(RED_BIAS, &bias);
+        gl.GetFloatv(MAP_COLOR, &map);
+        pixel_transfer(MAP_COLOR, 0.0f);
+        pixel_transfer(RED_SCALE, 1.0f);
+        pixel_transfer(RED_BIAS, 0.0f);
+        float *const got = fixture_read_texture(glssao_map(g.effect, GLSSAO_MAP_RANDOM_VECTOR, &w, &h), 256, 256, 4);
+        for (int k = 0; k < 4 * 256 * 256; ++k)
+            if (got[k] != wanted[k])
+                fail_msg("with %s, a random vector holds %g instead of %g", what, (double)got[k], (double)wanted[k]);
+        if (error != wanted_error)
+            fail_msg("with %s, the error of accumulation is %g instead of %g", what, error, wanted_error);
+        assert_true(scale == (i ? 1.0f : 0.5f) && bias == (i ? 0.0f : 0.25f) && map == (float)i);
+        free(got);
+        guest_close(&g);
+    }
+    free(wanted);
+    guest_close(&calm);
+}
+
+/* Without fragments there is no result, and leaving these modes would empty the host's buffer: refused. */
+static void feedback_and_selection_are_refused(void **state)
+{
+    GLint(APIENTRY * render_mode)(GLenum);
+    void(APIENTRY * feedback_buffer)(GLsizei, GLenum, GLfloat *);
+    void(APIENTRY * select_buffer)(GLsizei, GLuint *);
+    if (!guest_is_compatibility())
+        return;
+    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    guest_load(g.f, "glRenderMode", &render_mode);
+    guest_load(g.f, "glFeedbackBuffer", &feedback_buffer);
+    guest_load(g.f, "glSelectBuffer", &select_buffer);
+    const glssao_settings settings = horizon();
+    float *const wanted = guest_picture(&g, &g.frame, &settings);
+    static GLfloat feedback[64];
+    static GLuint selection[64];
+    feedback_buffer(64, FEEDBACK_2D, feedback);
+    select_buffer(64, selection);
+    for (int i = 0; i < 4; ++i) {
+        const char *const what = i < 2 ? "feedback" : "selection";
+        const GLint mode = i < 2 ? FEEDBACK : SELECT;
+        GLint now = 0;
+        render_mode((GLenum)mode);
+        fixture_clear_log(g.f);
+        const glssao_result result =
+            i % 2 ? glssao_accumulate(g.effect, &g.frame, &settings) : glssao_compute(g.effect, &g.frame, &settings);
+        gl.GetIntegerv(RENDER_MODE, &now);
+        render_mode(RENDER);
+        guest_refused(&g, result, "GL_RENDER_MODE", what);
+        assert_int_equal(now, mode);
+        float *const got = guest_picture(&g, &g.frame, &settings);
+        guest_same_picture(got, wanted, what);
+        free(got);
+    }
+    free(wanted);
+    guest_close(&g);
+}
+
+/* ---- conditional rendering and transform feedback ---- */
+
+static GLuint query_without_samples(void)
+{
+    GLuint query;
+    gl.GenQueries(1, &query);
+    gl.BeginQuery(GL_SAMPLES_PASSED, query);
+    gl.EndQuery(GL_SAMPLES_PASSED);
+    return query;
+}
+
+/* Fails where the result has a pixel that is not 1. */
+static void check_all_one(const glssao_effect *effect, const char *what)
+{
+    int w, h;
+    const uint32_t map = glssao_map(effect, GLSSAO_MAP_AMBIENT, &w, &h);
+    float *const pixels = fixture_read_texture(map, w, h, 1);
+    for (int i = 0; i < w * h; ++i)
+        if (pixels[i] != 1.0f)
+            fail_msg("%s: pixel %d, %d is %g instead of 1", what, i % w, i / w, (double)pixels[i]);
+    free(pixels);
+}
+
+/* GL has no query that tells, so the frame may be dropped; later frames must be right. */
+static void a_frame_under_conditional_rendering_harms_no_later_one(void **state)
+{
+    PFNGLBEGINCONDITIONALRENDERPROC begin;
+    PFNGLENDCONDITIONALRENDERPROC end;
+    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    guest_load(g.f, "glBeginConditionalRender", &begin);
+    guest_load(g.f, "glEndConditionalRender", &end);
+    const GLuint query = query_without_samples();
+    const glssao_settings settings = horizon();
+    glssao_frame sky = g.frame;
+    sky.only_sky = true;
+    float *const wanted = guest_picture(&g, &g.frame, &settings);
+    begin(query, GL_QUERY_WAIT);
+    (void)glssao_compute(g.effect, &g.frame, &settings);
+    end();
+    guest_no_error("conditional rendering");
+    float *const got = guest_picture(&g, &g.frame, &settings);
+    guest_same_picture(got, wanted, "after conditional rendering");
+    begin(query, GL_QUERY_WAIT);
+    (void)glssao_compute(g.effect, &sky, &settings);
+    glssao_effect *other = fixture_effect(g.f, GUEST_W, GUEST_H); /* maps that are made are cleared, too */
+    end();
+    guest_no_error("conditional rendering");
+    assert_int_equal(glssao_compute(g.effect, &sky, &settings), GLSSAO_OK);
+    check_all_one(g.effect, "only sky, after conditional rendering");
+    assert_int_equal(glssao_compute(other, &sky, &settings), GLSSAO_OK);
+    check_all_one(other, "an effect made under conditional rendering");
+    free(wanted);
+    free(got);
+    glssao_destroy(other);
+    gl.DeleteQueries(1, &query);
+    guest_close(&g);
+}
+
+/* Another program can't be taken while it is active (OpenGL 3.3, section 2.15). */
+static void active_transform_feedback_is_refused(void **state)
+{
+    PFNGLBEGINTRANSFORMFEEDBACKPROC begin;
+    PFNGLENDTRANSFORMFEEDBACKPROC end;
+    PFNGLTRANSFORMFEEDBACKVARYINGSPROC varyings;
+    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    GLint version[2];
+    gl.GetIntegerv(GL_MAJOR_VERSION, &version[0]);
+    if (version[0] < 4 || fixture_hides_newer()) { /* OpenGL 3.3 can't be asked */
+        guest_close(&g);
+        return;
+    }
+    guest_load(g.f, "glBeginTransformFeedback", &begin);
+    guest_load(g.f, "glEndTransformFeedback", &end);
+    guest_load(g.f, "glTransformFeedbackVaryings", &varyings);
+    const glssao_settings settings = horizon();
+    assert_int_equal(glssao_compute(g.effect, &g.frame, &settings), GLSSAO_OK);
+    static const char *const source = "#version 330\nout vec4 v;\nvoid main() { gl_Position = v = vec4(0.0); }\n";
+    static const char *const names[] = {"v"};
+    GLuint buffer, array;
+    const GLuint program = gl.CreateProgram(), shader = gl.CreateShader(GL_VERTEX_SHADER);
+    gl.ShaderSource(shader, 1, &source, NULL);
+    gl.CompileShader(shader);
+    gl.AttachShader(program, shader);
+    varyings(program, 1, names, GL_INTERLEAVED_ATTRIBS);
+    gl.LinkProgram(program);
+    gl.GenBuffers(1, &buffer);
+    gl.BindBuffer(GL_TRANSFORM_FEEDBACK_BUFFER, buffer);
+    gl.BufferData(GL_TRANSFORM_FEEDBACK_BUFFER, 4096, NULL, GL_STATIC_DRAW);
+    gl.BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, buffer);
+    gl.GenVertexArrays(1, &array);
+    gl.BindVertexArray(array);
+    gl.UseProgram(program);
+    begin(GL_POINTS);
+    guest_no_error("starting transform feedback");
+    fixture_clear_log(g.f);
+    const glssao_result result = glssao_compute(g.effect, &g.frame, &settings);
+    end();
+    guest_refused(&g, result, "transform feedback", "active transform feedback");
+    gl.UseProgram(0);
+    gl.BindVertexArray(0);
+    gl.BindBuffer(GL_TRANSFORM_FEEDBACK_BUFFER, 0);
+    gl.DeleteVertexArrays(1, &array);
+    gl.DeleteBuffers(1, &buffer);
+    gl.DeleteShader(shader);
+    gl.DeleteProgram(program);
+    guest_close(&g);
+}
+
+/* ---- parameters of the host's textures ---- */
+
+typedef struct parameter {
+    const char *name;
+    GLenum value;
+    GLint harmful;
+    enum { DEPTH, NORMAL, STENCIL, COMPATIBILITY } where; /* stencil: a depth-stencil texture, from OpenGL 4.3 */
+} parameter;
+
+static const parameter parameters[] = {
+    {"swizzled depth", GL_TEXTURE_SWIZZLE_R, GL_ZERO, DEPTH},
+    {"swizzled normals", GL_TEXTURE_SWIZZLE_G, GL_RED, NORMAL},
+    {"a base level of 1 of depth", GL_TEXTURE_BASE_LEVEL, 1, DEPTH},
+    {"a base level of 1 of normals", GL_TEXTURE_BASE_LEVEL, 1, NORMAL},
+    {"more levels than there are", GL_TEXTURE_MAX_LEVEL, 5, DEPTH},
+    {"a comparison", GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE, DEPTH},
+    {"stencil texturing", GL_DEPTH_STENCIL_TEXTURE_MODE, GL_STENCIL_INDEX, STENCIL},
+    {"depth in alpha", DEPTH_TEXTURE_MODE, ALPHA, COMPATIBILITY},
+};
+
+/* Gives the texture a second level of zeros. */
+static void add_level(GLuint texture, GLenum internal_format, GLenum format, GLenum type)
+{
+    float *const zeros = calloc(GUEST_W * GUEST_H, sizeof *zeros);
+    gl.BindTexture(GL_TEXTURE_2D, texture);
+    gl.TexImage2D(GL_TEXTURE_2D, 1, (GLint)internal_format, GUEST_W / 2, GUEST_H / 2, 0, format, type, zeros);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 1);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    free(zeros);
+}
+
+/* The guest's frame in textures of their own, for drivers may remember how a texture was read last. */
+static glssao_frame copy_frame(const guest *g, bool stencil)
+{
+    glssao_frame frame = g->frame;
+    float *const depth = fixture_read_depth(frame.depth_texture, GUEST_W, GUEST_H);
+    float *const normals = fixture_read_texture(frame.normal_texture, GUEST_W, GUEST_H, 3);
+    frame.depth_texture =
+        fixture_depth_texture(stencil ? GL_DEPTH24_STENCIL8 : GL_DEPTH_COMPONENT32F, GUEST_W, GUEST_H, depth);
+    frame.normal_texture = fixture_normal_texture(GUEST_W, GUEST_H, normals);
+    if (!stencil)
+        add_level(frame.depth_texture, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT);
+    add_level(frame.normal_texture, GL_RGB32F, GL_RGB, GL_FLOAT);
+    free(depth);
+    free(normals);
+    return frame;
+}
+
+static void check_parameter(guest *g, const parameter *set, glssao_settings settings, bool copied)
+{
+    PFNGLGETTEXPARAMETERIVPROC get;
+    guest_load(g->f, "glGetTexParameteriv", &get);
+    float *pictures[2];
+    GLint now = 0;
+    for (int i = 0; i < 2; ++i) { /* without and with */
+        glssao_frame frame = copy_frame(g, set->where == STENCIL);
+        if (copied) {
+            frame.viewport[2] = GUEST_W;
+            frame.viewport[3] = GUEST_H;
+        }
+        const GLuint texture = set->where == NORMAL ? frame.normal_texture : frame.depth_texture;
+        gl.BindTexture(GL_TEXTURE_2D, texture);
+        if (i)
+            gl.TexParameteri(GL_TEXTURE_2D, set->value, set->harmful);
+        gl.BindTexture(GL_TEXTURE_2D, 0);
+        guest_no_error(set->name);
+        pictures[i] = guest_picture(g, &frame, &settings);
+        gl.BindTexture(GL_TEXTURE_2D, texture);
+        get(GL_TEXTURE_2D, set->value, &now);
+        gl.BindTexture(GL_TEXTURE_2D, 0);
+        guest_no_error(set->name);
+        fixture_delete_frame(&frame);
+    }
+    guest_same_picture(pictures[1], pictures[0], set->name);
+    if (now != set->harmful)
+        fail_msg("%s: the host's texture holds 0x%X afterwards", set->name, (unsigned)now);
+    free(pictures[0]);
+    free(pictures[1]);
+}
+
+static void parameters_of_host_textures_change_nothing(void **state)
+{
+    static const glssao_technique techniques[] = {GLSSAO_CLASSIC, GLSSAO_HEMISPHERE, GLSSAO_HORIZON};
+    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    GLint major = 0, minor = 0;
+    gl.GetIntegerv(GL_MAJOR_VERSION, &major);
+    gl.GetIntegerv(GL_MINOR_VERSION, &minor);
+    for (size_t p = 0; p < sizeof parameters / sizeof *parameters; ++p) {
+        if ((parameters[p].where == STENCIL && 10 * major + minor < 43) ||
+            (parameters[p].where == COMPATIBILITY && !guest_is_compatibility()))
+            continue;
+        for (int t = 0; t < 4; ++t) { /* the last: horizon, with the inputs copied first */
+            glssao_settings settings = glssao_default_settings(techniques[t < 3 ? t : 2], GLSSAO_HIGH);
+            settings.half_resolution = t >= 2;
+            check_parameter(&g, &parameters[p], settings, t == 3);
+        }
+    }
+    guest_close(&g);
+}
+
+/* ---- formats ---- */
+
+static GLuint make_texture(GLenum internal_format, GLenum format, GLenum type)
+{
+    GLuint name;
+    gl.GenTextures(1, &name);
+    gl.BindTexture(GL_TEXTURE_2D, name);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)internal_format, GUEST_W, GUEST_H, 0, format, type, NULL);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    return name;
+}
+
+static void integer_formats_are_refused(void **state)
+{
+    static const struct {
+        const char *name;
+        GLenum internal_format, format, type;
+    } formats[] = {
+        {"R32UI", GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT},
+        {"R16I", GL_R16I, GL_RED_INTEGER, GL_SHORT},
+        {"RGBA8UI", GL_RGBA8UI, GL_RGBA_INTEGER, GL_UNSIGNED_BYTE},
+        {"RGBA32I", GL_RGBA32I, GL_RGBA_INTEGER, GL_INT},
+    };
+    static const char *const fields[] = {"frame.depth_texture", "frame.normal_texture", "frame.back_texture",
+                                         "frame.second_texture", "frame.normal_texture"};
+    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    const glssao_settings settings = horizon();
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; ++i) {
+        GLuint texture = make_texture(formats[i].internal_format, formats[i].format, formats[i].type);
+        guest_no_error(formats[i].name);
+        for (int k = 0; k < 5; ++k) {
+            char what[96];
+            snprintf(what, sizeof what, "%s as %s", formats[i].name, fields[k]);
+            glssao_frame frame = g.frame;
+            uint32_t *const places[] = {&frame.depth_texture, &frame.normal_texture, &frame.back_texture,
+                                        &frame.second_texture, &frame.normal_texture};
+            if (k == 0)
+                frame.depth_kind = GLSSAO_DEPTH_VIEW_DISTANCE;
+            if (k == 4)
+                frame.depth_kind = GLSSAO_DEPTH_NORMAL_ALPHA;
+            if (k == 2 || k == 3)
+                frame.back_texture = frame.second_texture = frame.depth_texture;
+            *places[k] = texture;
+            fixture_clear_log(g.f);
+            const glssao_result result = glssao_compute(g.effect, &frame, &settings);
+            guest_refused(&g, result, fields[k], what);
+        }
+        gl.DeleteTextures(1, &texture);
+    }
+    guest_close(&g);
+}
+
+int main(void)
+{
+#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
+    const struct CMUnitTest tests[] = {
+        GL_TEST(clamped_fragment_colours_change_nothing),
+        GL_TEST(pixel_transfer_changes_nothing),
+        GL_TEST(feedback_and_selection_are_refused),
+        GL_TEST(a_frame_under_conditional_rendering_harms_no_later_one),
+        GL_TEST(active_transform_feedback_is_refused),
+        GL_TEST(parameters_of_host_textures_change_nothing),
+        GL_TEST(integer_formats_are_refused),
+    };
+    const int core = cmocka_run_group_tests_name("core", tests, fixture_setup, fixture_teardown);
+    return core + cmocka_run_group_tests_name("compatibility", tests, guest_setup_compatibility, fixture_teardown);
+}

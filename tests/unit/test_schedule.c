@@ -1,0 +1,265 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Schedules, without OpenGL: which steps each kind of frame has, and rules that hold for all of them.
+ */
+#include "frame/unroll.h"
+#include "schedules.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* "distance estimate! blur": the steps' shaders in order; "!" after a dispatch, "=1" and "=0" for clears. */
+static void spell(const glssao__schedule *s, char *out, size_t size)
+{
+    out[0] = '\0';
+    for (int i = 0; i < s->count; ++i) {
+        const glssao__step *step = &s->steps[i];
+        const size_t length = strlen(out);
+        snprintf(out + length, size - length, "%s%s%s", i ? " " : "",
+                 step->kind == STEP_CLEAR_TO_ONE    ? "=1"
+                 : step->kind == STEP_CLEAR_TO_ZERO ? "=0"
+                                                    : glssao__shader_name(step->shader),
+                 step->kind == STEP_DISPATCH ? "!" : "");
+    }
+}
+
+static void assert_steps(const glssao__request *q, const char *wanted)
+{
+    glssao__schedule s;
+    char steps[1024];
+    glssao__schedule_make(&s, q);
+    spell(&s, steps, sizeof steps);
+    assert_string_equal(steps, wanted);
+}
+
+static void levels_have_their_steps(void **state)
+{
+    (void)state;
+    glssao_frame frame;
+    glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
+    glssao__request q = schedules_request(&frame, &s, 1280, 720);
+    assert_steps(&q, "distance! horizon! planar-tile!");
+    s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
+    assert_steps(&q, "distance! horizon! planar-tile!");
+    s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_ULTRA);
+    assert_steps(&q, "distance! horizon! planar-tile!");
+    q.can.path = GLSSAO_PATH_FRAGMENT;
+    assert_steps(&q, "distance horizon planar-blur planar-blur");
+    s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
+    assert_steps(&q, "distance horizon planar-blur planar-blur upsample spread");
+    frame.normal_texture = 0;
+    assert_steps(&q, "normals distance horizon planar-blur planar-blur upsample spread");
+    s = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_MEDIUM);
+    assert_steps(&q, "normals classic blur blur blur blur");
+    s = glssao_default_settings(GLSSAO_HEMISPHERE, GLSSAO_HIGH);
+    assert_steps(&q, "normals hemisphere blur blur");
+}
+
+static void tiles_add_their_steps(void **state)
+{
+    (void)state;
+    glssao_frame frame;
+    glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
+    glssao__request q = schedules_request(&frame, &s, 1280, 720);
+    q.can.is_software = true;
+    assert_steps(&q,
+                 "distance tile-rows tile-bounds tile-class tile-rings =1 =1 =1 horizon open planar-blur planar-blur "
+                 "upsample spread");
+    s = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_LOW);
+    assert_steps(&q, "tile-rows tile-bounds tile-class tile-rings =1 =1 classic blur blur");
+    q.size[0] = 160; /* too few tiles to pay */
+    q.size[1] = 120;
+    assert_steps(&q, "classic blur blur");
+}
+
+static void inputs_are_copied_first(void **state)
+{
+    (void)state;
+    glssao_frame frame;
+    glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_ULTRA);
+    glssao__request q = schedules_request(&frame, &s, 64, 48);
+    frame.multisample = true;
+    assert_steps(&q, "input input distance! horizon! planar-tile!");
+    frame.multisample = false;
+    frame.depth_kind = GLSSAO_DEPTH_LOGARITHMIC;
+    assert_steps(&q, "input distance! horizon! planar-tile!");
+    frame.depth_kind = GLSSAO_DEPTH_WINDOW;
+    frame.viewport[2] = 64;
+    frame.viewport[3] = 48;
+    frame.back_texture = frame.second_texture = 9;
+    assert_steps(&q, "input input input input distance! horizon! planar-tile!");
+}
+
+static void rounds_share_dispatches_by_two(void **state)
+{
+    (void)state;
+    static const char *const wanted[] = {"distance! horizon! planar-tile!",
+                                         "distance! horizon! planar-tile!",
+                                         "distance! horizon! planar-tile!",
+                                         "distance! horizon! planar-tile! planar-tile!",
+                                         "distance! horizon! planar-tile! planar-tile!",
+                                         "distance! horizon! planar-tile! planar-tile! planar-tile!"};
+    glssao_frame frame;
+    glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
+    const glssao__request q = schedules_request(&frame, &s, 64, 48);
+    for (s.blur_rounds = 0; s.blur_rounds <= 5; ++s.blur_rounds) /* the last two within the upsampling */
+        assert_steps(&q, wanted[s.blur_rounds]);
+}
+
+static void estimates_are_added_and_averaged(void **state)
+{
+    (void)state;
+    glssao_frame frame;
+    const glssao_settings high = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
+    glssao_settings s = glssao__schedule_accumulated(&high);
+    glssao__request q = schedules_request(&frame, &s, 64, 48);
+    q.estimates = 1;
+    assert_steps(&q, "=0 distance! horizon resolve planar-tile!");
+    q.estimates = 2;
+    assert_steps(&q, "distance! horizon probe resolve planar-tile!");
+    q.estimates = 16; /* smooth by themselves */
+    assert_steps(&q, "distance! horizon probe resolve");
+}
+
+static void nothing_is_only_cleared(void **state)
+{
+    (void)state;
+    glssao_frame frame;
+    glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
+    const glssao__request q = schedules_request(&frame, &s, 64, 48);
+    frame.only_sky = true;
+    assert_steps(&q, "=1 =1");
+    frame.margin = 8;
+    assert_steps(&q, "=1 =1 =1");
+    glssao__schedule schedule;
+    glssao__schedule_make(&schedule, &q);
+    assert_int_equal(schedule.result, MAP_RESULT);
+    assert_int_equal(schedule.maps[MAP_RESULT].width, (64 + 1) / 2 - 8); /* half the margin on each side */
+}
+
+/* ---- rules ---- */
+
+static bool is_draw(const glssao__step *step)
+{
+    return step->kind == STEP_DRAW || step->kind == STEP_DISPATCH;
+}
+
+/* What holds for every step of every schedule. */
+static void check_rules(const glssao__request *q, const glssao__schedule *s, void *user)
+{
+    int calls[GLSSAO_PASS_COUNT] = {0};
+    bool is_written[MAP_COUNT] = {false}, waits = false;
+    (void)user;
+    is_written[MAP_SUM] = q->estimates > 1; /* by earlier calls */
+    assert_true(s->count <= SCHEDULE_STEPS);
+    for (int i = 0; i < s->count; ++i) {
+        const glssao__step *step = &s->steps[i];
+        const glssao__target_spec *target = &s->maps[step->target];
+        assert_true(step->target >= MAP_FIRST_TARGET && target->format != 0);
+        assert_true(i == 0 || step->pass >= s->steps[i - 1].pass || s->steps[i - 1].kind == STEP_CLEAR_TO_ZERO);
+        assert_true(step->region.x >= 0 && step->region.y >= 0 && step->region.width > 0 && step->region.height > 0);
+        assert_true(step->region.x + step->region.width <= target->width);
+        assert_true(step->region.y + step->region.height <= target->height);
+        for (int k = 0; k < step->read_count; ++k) {
+            const enum glssao__map map = step->reads[k].map;
+            assert_true(map != MAP_NONE && map != step->target);        /* no feedback loop */
+            assert_true(map < MAP_FIRST_TARGET || s->maps[map].format); /* it exists */
+            assert_true(map < MAP_FIRST_TARGET || is_written[map]);     /* by this frame */
+            for (int j = 0; j < k; ++j)
+                assert_true(step->reads[j].unit != step->reads[k].unit || step->reads[j].map == map);
+        }
+        /* Dispatched texels are waited for before anything else touches them. */
+        assert_true(!waits || step->barrier != BARRIER_NONE);
+        assert_true(step->kind == STEP_DISPATCH || step->barrier != BARRIER_DISPATCH);
+        waits = step->kind == STEP_DISPATCH;
+        is_written[step->target] = true;
+        if (is_draw(step)) {
+            calls[step->pass] += 1;
+            assert_true(s->plan.passes[step->pass].run);
+            assert_int_equal(step->kind == STEP_DISPATCH, step->variant.values[MACRO_COMPUTE]);
+            assert_true(step->kind != STEP_DISPATCH || s->plan.path == GLSSAO_PATH_COMPUTE);
+        }
+        for (int m = 0; m < MACRO_COUNT; ++m)
+            assert_true(!is_draw(step) || step->variant.values[m] == 0 ||
+                        glssao__shader_tests(step->shader, (enum glssao__macro)m));
+    }
+    assert_int_equal(s->last_barrier == BARRIER_ALL, waits);
+    assert_true(is_written[s->result]);
+    for (int pass = 0; pass < GLSSAO_PASS_COUNT; ++pass) {
+        assert_int_equal(s->plan.passes[pass].draw_calls, calls[pass]);
+        assert_true(s->plan.passes[pass].run == (calls[pass] > 0));
+        assert_true(strlen(s->plan.passes[pass].reason) > 0);
+    }
+}
+
+static void all_schedules_keep_the_rules(void **state)
+{
+    (void)state;
+    const int count = schedules_visit(check_rules, NULL);
+    print_message("%d schedules\n", count);
+    assert_true(count > 10000);
+}
+
+static void default_frames_have_at_most_twenty_steps(void **state)
+{
+    (void)state;
+    for (int technique = 0; technique <= GLSSAO_HORIZON; ++technique)
+        for (int quality = 0; quality <= GLSSAO_ULTRA; ++quality) {
+            glssao_frame frame;
+            glssao_settings s = glssao_default_settings((glssao_technique)technique, (glssao_quality)quality);
+            glssao__request q = schedules_request(&frame, &s, 1280, 720);
+            q.can.is_software = true;
+            frame.normal_texture = 0;
+            glssao__schedule schedule;
+            glssao__schedule_make(&schedule, &q);
+            assert_true(schedule.count <= 20);
+        }
+}
+
+/* ---- unrolling ---- */
+
+static void loops_are_written_out(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *source, *wanted;
+    } cases[] = {
+        {"a\nb", "a\nb"},
+        {"for (int i = 0; i < 2; ++i) { x; }", "for (int i = 0; i < 2; ++i) { x; }"},
+        {"UNROLL for (int i = 0; i < 2; ++i) { x[i]; }",
+         "{ const int i = 0; { x[i]; } }\n{ const int i = 1; { x[i]; } }\n"},
+        {"#define N 3\nUNROLL for (int k = N - 1; k >= 1; --k) { y(k); } z",
+         "#define N 3\n{ const int k = 2; { y(k); } }\n{ const int k = 1; { y(k); } }\n z"},
+        {"UNROLL for (int i = -1; i <= 0; ++i) { if (a) { b; } }",
+         "{ const int i = -1; { if (a) { b; } } }\n{ const int i = 0; { if (a) { b; } } }\n"},
+        {"UNROLL for (int i = 0; i < 1; ++i) { UNROLL for (int k = 0; k < 2; ++k) { c; } }",
+         "{ const int i = 0; { { const int k = 0; { c; } }\n{ const int k = 1; { c; } }\n } }\n"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        char *unrolled = glssao__unroll(cases[i].source);
+        assert_string_equal(unrolled, cases[i].wanted);
+        free(unrolled);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(levels_have_their_steps),
+        cmocka_unit_test(tiles_add_their_steps),
+        cmocka_unit_test(inputs_are_copied_first),
+        cmocka_unit_test(rounds_share_dispatches_by_two),
+        cmocka_unit_test(estimates_are_added_and_averaged),
+        cmocka_unit_test(nothing_is_only_cleared),
+        cmocka_unit_test(all_schedules_keep_the_rules),
+        cmocka_unit_test(default_frames_have_at_most_twenty_steps),
+        cmocka_unit_test(loops_are_written_out),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
