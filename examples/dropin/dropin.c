@@ -11,15 +11,6 @@
 /* glssao, snippet: loader */
 #include <glssao/glssao.h>
 #include <string.h>
-
-static void *find_function(const char *name, void *user)
-{
-    (void)user;
-    GLFWglproc function = glfwGetProcAddress(name);
-    void *address; /* ISO C forbids the cast; POSIX and Windows define it */
-    memcpy(&address, &function, sizeof address);
-    return address;
-}
 /* end */
 
 static const char *const shader_texts[2] = {
@@ -94,7 +85,7 @@ int main(int argc, char **argv)
 
     /* glssao, snippet: create */
     glssao_effect *effect = NULL;
-    glssao_config config = {.load = find_function, .log = glssao_log_to_stderr, .width = 640, .height = 480};
+    glssao_config config = {.get_proc = glfwGetProcAddress, .log = glssao_log_to_stderr, .width = 640, .height = 480};
     if (glssao_create(&config, &effect) != GLSSAO_OK)
         return 1;
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);

@@ -13,7 +13,7 @@ awk '/^```c$/ { inside = 1; next } /^```$/ { inside = 0 } inside' "$page" >"$scr
     grep '^#include' "$scratch/block"
     cat <<'C'
 #include <string.h>
-void *my_gl_loader(const char *name, void *user);
+glssao_proc glfwGetProcAddress(const char *name);
 void each_frame(int w, int h, uint32_t depth, uint32_t framebuffer, const float clip_from_view[16]);
 void each_frame(int w, int h, uint32_t depth, uint32_t framebuffer, const float clip_from_view[16])
 {

@@ -20,8 +20,8 @@
  *              and release builds take none of yours: glGetError is called only after a GL call that is known to have
  *              failed (no memory, or a texture of another target in a context older than 4.5).
  *   Ownership  Structs handed in are copied. The effect deletes only what it created.
- *   Growth     Later versions may add fields at the end of a struct, and values at the end of an enum, where zero keeps
- *              today's meaning. Zero a struct, or use its default function, before you fill it.
+ *   Growth     Later versions add fields at the end of a struct, whose zero keeps today's meaning. Zero a struct, or use its
+ *              default function, before you fill it.
  *
  * Spaces: view space has the camera at its origin, is right-handed, and looks down -z; view distance is -z.
  * Window depth is what the depth buffer stores, 0 to 1. uv is 0 to 1 with its origin at the bottom left.
@@ -60,8 +60,7 @@ typedef struct glssao_effect glssao_effect; /* one per GL context; opaque */
 typedef enum glssao_result { /* what a call that can fail gives */
     GLSSAO_OK = 0,
     GLSSAO_INVALID_ARGUMENT,    /* the log names the field and its value */
-    GLSSAO_UNSUPPORTED_CONTEXT, /* older than 3.3, a function of 3.3 is missing, or compute shaders that config.path
-                                   requires */
+    GLSSAO_UNSUPPORTED_CONTEXT, /* older than 3.3, or it lacks a function or what config.path asks for */
     GLSSAO_OUT_OF_MEMORY,
     GLSSAO_SHADER_ERROR,        /* the log holds the driver's text and the numbered source */
     GLSSAO_FRAMEBUFFER_ERROR    /* the driver refuses one of the formats or attachments */
@@ -84,8 +83,7 @@ typedef void (*glssao_log_fn)(glssao_log_level level, const char *message, void 
 typedef enum glssao_path {
     GLSSAO_PATH_AUTO = 0, /* compute shaders on GPUs that have and take them; fragment shaders on software rasterisers */
     GLSSAO_PATH_FRAGMENT, /* never compute shaders */
-    GLSSAO_PATH_COMPUTE   /* compute shaders; glssao_create fails with UNSUPPORTED_CONTEXT where there are none: neither
-                             OpenGL 4.3 nor ARB_compute_shader and ARB_shader_image_load_store */
+    GLSSAO_PATH_COMPUTE   /* compute shaders, or UNSUPPORTED_CONTEXT where they can't write images */
 } glssao_path;
 
 typedef struct glssao_config { /* zero means default */
@@ -97,20 +95,18 @@ typedef struct glssao_config { /* zero means default */
     uint32_t seed;       /* of classic's vectors, hemisphere's kernel and the noise of glssao_accumulate: same seed, same
                             bits. The horizon technique's tile of noise does not depend on it */
     bool no_timers;      /* true: no timer queries; glssao_stats then holds no times */
-    const char *program_cache; /* a folder where linked programs are kept for the next run, where the driver can (GL 4.1 or
-                            ARB_get_program_binary); NULL: none. It must exist, and belong to the user who runs the program
-                            and be writable by nobody else: a linked program is code that the driver runs. Otherwise the
-                            log warns and nothing is kept */
+    const char *program_cache; /* a folder where linked programs are kept for the next run, if the driver can; NULL: none. It
+                            must exist, belong to the user who runs the program, and be writable by nobody else, since a
+                            linked program is code that the driver runs. Otherwise the log warns and nothing is kept */
     glssao_path path;    /* compute shaders or fragment shaders, where both can do it */
     glssao_proc (*get_proc)(const char *name); /* instead of load: glfwGetProcAddress, eglGetProcAddress and SDL's fit */
     bool host_restores_state; /* true: calls neither ask for GL state nor restore it, which spares a threaded driver every
                             wait. They change: program, vertex array, draw and read framebuffer, viewport, active texture
                             unit, 2D textures and samplers of units 0 to 7, uniform buffers 0 to 2, image unit 0, pixel
-                            store and pack and unpack buffers, blend functions; and they leave off: blending of draw
-                            buffer 0, scissor, depth, stencil, culling and the other switches that could drop a fragment;
-                            and on: colour mask 0, depth mask, filled polygons. Framebuffers given to glssao_apply are not
-                            checked. A texture is looked at the first time only, until glssao_resize, and must have
-                            default swizzle and base level. glssao_get_stats still asks for times */
+                            store, pack and unpack buffers, blend functions. They leave off: blending, scissor, depth and
+                            stencil test, culling and all that could drop a fragment. They leave on: colour mask 0, depth
+                            mask, filled polygons. A framebuffer for glssao_apply is not checked; a texture only the first
+                            time, until glssao_resize, and its swizzle and base level must be the default */
 } glssao_config;
 
 /* ---- settings: may change every frame ------------------------------------------------------------------- */

@@ -147,7 +147,7 @@ void glssao__shader_describe(enum glssao__shader shader, const glssao__variant *
             length += snprintf(out + length, (size_t)(size - length), " %s=%d", macros[i].name, variant->values[i]);
 }
 
-/* A text that grows; failed once there is no memory. */
+/* A text that grows. Once there is no memory, it has failed and `at` is NULL. */
 typedef struct text {
     char *at;
     size_t length, room;
@@ -157,25 +157,19 @@ typedef struct text {
 static void append(text *t, const char *more)
 {
     const size_t length = strlen(more);
-    if (t->length + length + 1 > t->room) {
+    if (!t->failed && t->length + length + 1 > t->room) {
         const size_t room = 2 * (t->length + length + 1);
         char *grown = realloc(t->at, room);
-        t->failed = t->failed || !grown;
         if (!grown)
-            return;
+            free(t->at);
+        t->failed = !grown;
         t->at = grown;
         t->room = room;
     }
+    if (t->failed)
+        return;
     memcpy(t->at + t->length, more, length + 1);
     t->length += length;
-}
-
-static char *finish(text *t)
-{
-    if (!t->failed)
-        return t->at;
-    free(t->at);
-    return NULL;
 }
 
 static void append_define(text *t, const char *name, int value)
@@ -201,7 +195,7 @@ char *glssao__shader_vertex_source(void)
     text t = {0};
     append_version(&t, 33, false);
     append(&t, shader_fullscreen_vert);
-    return finish(&t);
+    return t.at;
 }
 
 char *glssao__shader_source(enum glssao__shader shader, const glssao__variant *variant, int gl_version)
@@ -228,7 +222,7 @@ char *glssao__shader_source(enum glssao__shader shader, const glssao__variant *v
     }
     for (int i = 0; i < FILES && shaders[shader].files[i]; ++i)
         append(&t, shaders[shader].files[i]);
-    char *const source = finish(&t);
+    char *const source = t.at;
     char *const unrolled = source ? glssao__unroll(source, !variant->values[MACRO_LOOPS]) : NULL;
     free(source);
     return unrolled;

@@ -74,6 +74,7 @@ static const char *behind_block(const char *at)
 static const char *find_loop(const char *at, const char *end, bool is_short, const char **out_head)
 {
     const char *next = end;
+    *out_head = end;
     for (int i = 0; i < 1 + is_short; ++i) {
         const char *found = strstr(at, markers[i]);
         if (!found || found >= next)
