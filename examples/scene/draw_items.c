@@ -146,7 +146,7 @@ static bool add_mesh(scene_renderer *r, uint32_t *capacity, const scene_mesh *me
         const scene_primitive *p = &s->primitives[mesh->first_primitive + i];
         if (!p->index_count)
             continue;
-        bool colored = has_colors(s, p);
+        bool colored = !p->white && has_colors(s, p);
         if (!add_primitive(r, capacity, p, colored, instances, mesh->first_instance, plain_count, false) ||
             !add_primitive(r, capacity, p, colored, instances, split, mirrored_count, true))
             return false;

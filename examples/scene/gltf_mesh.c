@@ -148,6 +148,7 @@ static bool add_shapes(gltf_loader *l, gltf_triangles *shapes, int material, sce
     scene_primitive *made = &l->builder->made->primitives[l->builder->made->primitive_count - 1];
     made->topology = topology;
     made->flat = flat;
+    made->white = !l->recent.colors;
     return true;
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Growing arrays, sorting of instances, bounds.
+ * Growing arrays and sorting of instances.
  */
 #include "scene_builder.h"
 
@@ -8,12 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* An instance as it was added. */
-struct scene_placement {
-    int mesh;
-    double world_from_mesh[16];
-};
 
 /* Which element of `room` belongs to which array. */
 enum { VERTICES, INDICES, PRIMITIVES, MESHES, INSTANCES, MATERIALS, TEXTURES, IMAGES, CAMERAS, LIGHTS };
@@ -263,7 +257,7 @@ bool scene_builder_place(scene_builder *b, int mesh, const double world_from_mes
     s->instances = all;
     if (!follow(b, INSTANCES, &b->placements, sizeof *b->placements))
         return false;
-    struct scene_placement *to = &b->placements[s->instance_count++];
+    scene_placement *to = &b->placements[s->instance_count++];
     const double *center = b->centers[mesh];
     to->mesh = mesh;
     memcpy(to->world_from_mesh, world_from_mesh, sizeof to->world_from_mesh);
@@ -298,7 +292,7 @@ scene_material scene_default_material(void)
 static bool sort_placements(scene_builder *b)
 {
     scene *s = b->made;
-    struct scene_placement *sorted = malloc((s->instance_count + 1u) * sizeof *sorted);
+    scene_placement *sorted = malloc((s->instance_count + 1u) * sizeof *sorted);
     if (!sorted)
         return scene_fail_memory(b->fault);
     for (uint32_t i = 0; i < s->instance_count; ++i)
@@ -318,133 +312,14 @@ static bool sort_placements(scene_builder *b)
     return true;
 }
 
-typedef struct box {
-    double low[3], high[3];
-    bool finite; /* fmin and fmax pass over NaN, so the box does not show it */
-} box;
-
-static void grow_box(box *to, const double m[16], const float p[3])
-{
-    double sum = 0;
-    for (int row = 0; row < 3; ++row) {
-        const double at = m[row] * (double)p[0] + m[4 + row] * (double)p[1] + m[8 + row] * (double)p[2] + m[12 + row];
-        to->low[row] = fmin(to->low[row], at);
-        to->high[row] = fmax(to->high[row], at);
-        sum += at;
-    }
-    to->finite = to->finite && isfinite(sum);
-}
-
-static void grow_box_by_vertices(box *to, const scene *s, const scene_primitive *p, const double m[16])
-{
-    for (uint32_t i = 0; i < p->index_count; ++i)
-        grow_box(to, m, s->vertices[s->indices[p->first_index + i]].position);
-}
-
-/* By the eight corners of the primitive's box: exact where no axis is turned into two, and else for instances whose
- * every vertex would take too long. */
-static void grow_box_by_corners(box *to, const scene_primitive *p, const double m[16])
-{
-    for (int corner = 0; corner < 8; ++corner) {
-        float at[3];
-        for (int axis = 0; axis < 3; ++axis)
-            at[axis] = corner >> axis & 1 ? p->bounds_max[axis] : p->bounds_min[axis];
-        grow_box(to, m, at);
-    }
-}
-
-/* Whether each axis of mesh space goes along one of the world's. */
-static bool keeps_axes(const double m[16])
-{
-    bool kept = true;
-    for (int row = 0; row < 3; ++row)
-        kept = kept && (m[row] != 0) + (m[4 + row] != 0) + (m[8 + row] != 0) <= 1;
-    return kept;
-}
-
-static box measure(const scene_builder *b)
-{
-    enum { MOST_POINTS = 1 << 26 }; /* of the instances of a mesh: about a quarter of a second */
-    const scene *s = b->made;
-    box all = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, true};
-    for (uint32_t k = 0; k < s->mesh_count; ++k) {
-        const scene_mesh *mesh = &s->meshes[k];
-        for (uint32_t i = mesh->first_instance; i < mesh->first_instance + mesh->instance_count; ++i)
-            for (uint32_t n = mesh->first_primitive; n < mesh->first_primitive + mesh->primitive_count; ++n) {
-                const scene_primitive *p = &s->primitives[n];
-                const double *m = b->placements[i].world_from_mesh;
-                const bool few =
-                    mesh->instance_count == 1 || (uint64_t)p->index_count * mesh->instance_count <= MOST_POINTS;
-                if (few && !keeps_axes(m))
-                    grow_box_by_vertices(&all, s, p, m);
-                else
-                    grow_box_by_corners(&all, p, m);
-            }
-    }
-    return all;
-}
-
-bool scene_is_far(const double low[3], const double high[3])
-{
-    const double most = 8; /* times the size: 2^-21 of the size is told apart then */
-    double distance = 0, size = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double middle = 0.5 * low[axis] + 0.5 * high[axis];
-        distance += middle * middle;
-        size += (high[axis] - low[axis]) * (high[axis] - low[axis]);
-    }
-    return distance > most * most * size && isfinite(distance);
-}
-
-static bool move_instances(scene_builder *b)
-{
-    scene *s = b->made;
-    bool finite = true;
-    for (uint32_t i = 0; i < s->instance_count; ++i)
-        for (int k = 0; k < 16; ++k) {
-            const double at = b->placements[i].world_from_mesh[k] - (k >= 12 && k < 15 ? s->origin[k - 12] : 0);
-            s->instances[i].world_from_mesh[k] = (float)at;
-            finite = finite && isfinite(s->instances[i].world_from_mesh[k]);
-        }
-    return finite;
-}
-
-static void move_views(scene_builder *b)
-{
-    scene *s = b->made;
-    for (uint32_t i = 0; i < s->camera_count; ++i)
-        for (int axis = 0; axis < 3; ++axis)
-            s->cameras[i].world_from_view[12 + axis] = (float)(b->camera_places[i][axis] - s->origin[axis]);
-    for (uint32_t i = 0; i < s->light_count; ++i)
-        for (int axis = 0; axis < 3; ++axis)
-            s->lights[i].position_world[axis] = (float)(b->light_places[i][axis] - s->origin[axis]);
-}
-
-/* Chooses the world's zero, and makes single precision of all places. */
-static bool settle(scene_builder *b)
-{
-    scene *s = b->made;
-    const box all = measure(b);
-    const bool any = all.low[0] <= all.high[0], far = any && all.finite && scene_is_far(all.low, all.high);
-    bool finite = all.finite;
-    for (int axis = 0; axis < 3; ++axis) {
-        s->origin[axis] = far ? 0.5 * all.low[axis] + 0.5 * all.high[axis] : 0;
-        s->bounds_min[axis] = any ? (float)(all.low[axis] - s->origin[axis]) : 0;
-        s->bounds_max[axis] = any ? (float)(all.high[axis] - s->origin[axis]) : 0;
-        finite = finite && isfinite(s->bounds_max[axis] - s->bounds_min[axis]);
-    }
-    finite = move_instances(b) && finite;
-    move_views(b);
-    return finite || scene_fail(b->fault, "the scene is too large for single precision");
-}
-
 scene *scene_builder_finish(scene_builder *b)
 {
     const scene_material plain = scene_default_material();
     const bool has_material = b->made->material_count || scene_builder_add_material(b, &plain) >= 0;
     const bool has_tangents = !b->made->tangents || scene_builder_tangents(b);
     const bool has_uvs = !b->made->more_uvs || scene_builder_more_uvs(b);
-    if (b->fault->set || !has_material || !has_tangents || !has_uvs || !sort_placements(b) || !settle(b)) {
+    if (b->fault->set || !has_material || !has_tangents || !has_uvs || !sort_placements(b) ||
+        !scene_builder_settle(b)) {
         scene_builder_abandon(b);
         return NULL;
     }

@@ -10,13 +10,19 @@
 #include "scene.h"
 #include "scene_fault.h"
 
+/* An instance as it was added. */
+typedef struct scene_placement {
+    int mesh;
+    double world_from_mesh[16];
+} scene_placement;
+
 typedef struct scene_builder {
     scene *made;
     scene_fault *fault;
-    uint32_t tangent_count;             /* how many vertices have tangents, zeroed or set */
-    uint32_t more_uv_count;             /* the same for more_uvs */
-    struct scene_placement *placements; /* of each instance, until they are sorted */
-    double (*centers)[3];               /* of each mesh: where its zero lies in the file's mesh space */
+    uint32_t tangent_count;      /* how many vertices have tangents, zeroed or set */
+    uint32_t more_uv_count;      /* the same for more_uvs */
+    scene_placement *placements; /* of each instance, until they are sorted */
+    double (*centers)[3];        /* of each mesh: where its zero lies in the file's mesh space */
     double (*camera_places)[3], (*light_places)[3];
     uint32_t room[10]; /* allocated elements of each array, by enum in scene_builder.c */
 } scene_builder;
@@ -60,6 +66,10 @@ bool scene_is_far(const double low[3], const double high[3]);
 
 /* White, opaque, single-sided, no texture. */
 scene_material scene_default_material(void);
+
+/* scene_settle.c: chooses the world's zero and sets bounds and all places, in single precision; the placements are
+ * sorted by mesh. False, with the fault set, if the scene does not fit single precision. */
+bool scene_builder_settle(scene_builder *b);
 
 /* Hands over the finished scene; NULL, with everything freed, on failure. */
 scene *scene_builder_finish(scene_builder *b);

@@ -2,6 +2,7 @@
  *
  * Hostile files: each is refused with one line that names the file and the fault, and none crashes.
  */
+#include "environment.h"
 #include "gltf_writer.h"
 #include "scene_validity.h"
 
@@ -269,6 +270,10 @@ static void files_that_are_something_else_are_named(void **state)
     assert_refused(gltf_write_bytes("gzip.glb", "\x1f\x8b\x08\0\0\0\0\0", 8), "this is compressed with gzip");
     assert_refused(gltf_write_bytes("zip.glb", "PK\x03\x04\0\0\0\0", 8), "this is a ZIP archive");
     assert_refused(gltf_write(NULL, "page.gltf", "<!DOCTYPE HTML><p>404</p>"), "this is an HTML page");
+    char error[1024] = "";
+    assert_null(environment_load(gltf_write(NULL, "lfs.hdr", "version https://git-lfs.github.com/spec/v1\n"), error,
+                                 sizeof error));
+    assert_non_null(strstr(error, "lfs.hdr: this is a Git LFS pointer"));
 }
 
 static void files_that_are_no_gltf_are_refused(void **state)

@@ -30,7 +30,7 @@ const float pi = 3.14159265;
 uniform vec3 u_irradiance[9]; // irradiance / pi times: 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2 of the normal in the world
 uniform mat3 u_world_from_view;
 #if REFLECTIVE
-uniform sampler2D u_environment_map; // what mirrors show, a level for each fifth of roughness
+uniform sampler2D u_environment_map; // reflections; level i is for roughness i / 5
 #endif
 #else
 uniform vec3 u_ambient;      // radiance from the side; irradiance / pi on a surface that faces sideways
@@ -41,7 +41,7 @@ uniform vec3 u_directional;  // irradiance / pi
 uniform vec3 u_to_light_view;
 #if !BLENDED
 uniform sampler2D u_ambient_map; // accessibility in red
-uniform vec2 u_pixel_uv;         // one pixel of what the ambient map covers
+uniform vec2 u_pixel_uv;         // size of a pixel in the ambient map's uv
 uniform vec2 u_origin;           // its lower left corner, in pixels
 #endif
 
@@ -88,7 +88,7 @@ float light_share()
 // A surface that light falls on.
 struct surface {
     vec3 normal_view, to_eye_view;
-    vec3 diffuse, reflectance; // albedo of what goes in; reflectance head-on
+    vec3 diffuse, reflectance; // diffuse albedo; reflectance at normal incidence
     float roughness;
 };
 
@@ -151,7 +151,7 @@ vec3 lit_by_lights(surface s)
 }
 #endif
 
-// Irradiance / pi of a surface that faces that way, and what a mirror shows there.
+// Irradiance / pi on a surface with that normal, and the radiance that a mirror reflects.
 #if ENVIRONMENT
 vec3 matte_light(vec3 normal_view)
 {
@@ -218,7 +218,7 @@ layout(location = 0) out vec4 o_color;
 void main()
 {
 #if LIT
-    vec3 normal_view = shading_normal(); // before a pixel may be discarded, as it takes derivatives
+    vec3 normal_view = shading_normal(); // before any discard, since it may take derivatives
 #endif
     vec4 color = u_base_color;
 #if BASE_MAPPED

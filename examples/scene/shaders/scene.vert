@@ -1,8 +1,8 @@
 #version 330
 // SPDX-License-Identifier: MIT
 //
-// Every triangle of the scene, in every pass. The expression for gl_Position stands here once, is invariant, and
-// sees the same inputs in each variant, so that the main pass finds the pre-pass's depth with EQUAL.
+// Draws the scene in every pass. gl_Position is invariant and computed by the same expression from the same inputs in
+// each variant, so that the main pass can compare with the pre-pass's depth by EQUAL.
 // Macros, 0 or 1: TEXTURED (any map is read), MORE_UVS, COLORED, LIT (normals are wanted), and where LIT: FLAT,
 // NORMAL_MAPPED, REFLECTIVE, LIGHTS, SHADOWED.
 // In:  mesh-space vertex; per instance, world_from_mesh and the inverse transpose of its upper 3x3.

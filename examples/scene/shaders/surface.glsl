@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the pre-pass and the main pass read of a surface in the same way: where a map is sampled, and the shading normal.
+// Shared by the pre-pass and the main pass: texture coordinates of a map, and the shading normal.
 // Macros as in scene.vert, and DOUBLE_SIDED. In: its outputs.
 
 #if TEXTURED
@@ -37,11 +37,11 @@ uniform vec4 u_normal_uv[UV_ROWS];
 uniform float u_normal_scale;
 #endif
 
-// Unit, in view space; a back face's is turned round after the map, as glTF says.
+// Unit length, in view space. As glTF says, a back face's normal is reversed after the normal map is applied.
 vec3 shading_normal()
 {
 #if FLAT
-    // The triangle's own: view space is right-handed with y up, as the screen is, so that it faces the viewer.
+    // The triangle's own normal. View space is right-handed with y up, like the screen, so the result faces the viewer.
     vec3 normal_view = cross(dFdx(v_position_view), dFdy(v_position_view));
     float largest = max(max(abs(normal_view.x), abs(normal_view.y)), abs(normal_view.z));
     normal_view = largest > 0.0 ? normalize(normal_view / largest) : vec3(0.0, 0.0, 1.0); // squares may underflow
