@@ -28,7 +28,7 @@ typedef struct bake_options {
     bool cosine, accessibility_only;
     scene_load_options file;           /* how to load the input, except the memory limit: */
     int memory_mib;                    /* 0: half of the machine's */
-    bool in_place; /* the output may be the input */
+    bool in_place;                     /* the output may be the input */
     bool vertices, fit, help, version; /* as given */
     uint32_t seed;
     int threads;

@@ -54,7 +54,7 @@ bake_result bake_parse_options(int argc, char **argv, bake_options *out, char *e
 {
     const option_set set = {table, sizeof table / sizeof table[0], NULL, "scene", AT(input)};
     *out = (bake_options){.rays = 32, .distance = INFINITY, .offset = -1};
-    if (!option_parse(&set, argc, argv, out, &(fault){.text = error, .size = error_size}))
+    if (!option_parse(&set, argc, argv, out, &(failure){.text = error, .size = error_size}))
         return BAKE_WRONG;
     if (out->help) {
         puts("usage: glssao-bake [options] -o FILE.glb scene.gltf|scene.glb\n"

@@ -22,7 +22,7 @@ static void make_one_line(char *text)
     *out = '\0';
 }
 
-bool fault_set(fault *f, const char *format, ...)
+bool fault_set(failure *f, const char *format, ...)
 {
     const bool first = !f->set;
     f->set = true;
@@ -39,7 +39,7 @@ bool fault_set(fault *f, const char *format, ...)
     return false;
 }
 
-bool fault_set_memory(fault *f)
+bool fault_set_memory(failure *f)
 {
     return fault_set(f, "not enough memory");
 }

@@ -54,7 +54,7 @@ void inputs_forget(inputs *in, const char *path)
         }
 }
 
-bool inputs_spare(const inputs *in, const char *also, const char *path, fault *why)
+bool inputs_spare(const inputs *in, const char *also, const char *path, failure *why)
 {
     struct stat about, other;
     if (stat(path, &about) != 0 || !S_ISREG(about.st_mode))

@@ -32,7 +32,7 @@ void inputs_forget(inputs *in, const char *path);
 
 /* False, with one line in `why`, where writing to `path` would overwrite one of the files, or the file `also` (may be
  * NULL). */
-bool inputs_spare(const inputs *in, const char *also, const char *path, fault *why);
+bool inputs_spare(const inputs *in, const char *also, const char *path, failure *why);
 
 #ifdef __cplusplus
 }

@@ -145,7 +145,7 @@ static const option *find(const option_set *set, const char *argument, const cha
 }
 
 /* Parses an option and its value, which may be the next argument. *at moves behind them. */
-static bool parse_option(const option_set *set, int argc, char **argv, int *at, void *out, fault *why)
+static bool parse_option(const option_set *set, int argc, char **argv, int *at, void *out, failure *why)
 {
     const char *argument = argv[(*at)++], *rest;
     const option *o = find(set, argument, &rest);
@@ -171,7 +171,7 @@ static bool parse_option(const option_set *set, int argc, char **argv, int *at, 
     return false;
 }
 
-bool option_parse(const option_set *set, int argc, char **argv, void *out, fault *why)
+bool option_parse(const option_set *set, int argc, char **argv, void *out, failure *why)
 {
     bool options_end = false;
     for (int at = 1; at < argc;) {

@@ -60,7 +60,7 @@ typedef struct option_set {
 
 /* Parses the arguments from argv[1] on into the structure at `out`. Its strings live as long as argv. False, with one
  * line in `why` that names the option and the value, if one is wrong. */
-bool option_parse(const option_set *set, int argc, char **argv, void *out, fault *why);
+bool option_parse(const option_set *set, int argc, char **argv, void *out, failure *why);
 
 /* Prints each option that is not refused to stdout. */
 void option_print(const option_set *set);

@@ -150,7 +150,7 @@ static void print_summary(const batch *b, double start_ms)
 }
 
 /* Runs all jobs in this process. False, with one line in `why`, if no job can be drawn. */
-static bool run_together(batch *b, fault *why)
+static bool run_together(batch *b, failure *why)
 {
     int drawn = 0;
     if (b->mine && !session_open(&b->session, b->options, false, why))

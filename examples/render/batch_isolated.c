@@ -83,7 +83,7 @@ static int bury(const options *o, pid_t child)
     return status;
 }
 
-bool batch_run_isolated(const options *o, bool quiet, size_t *out_pictures, fault *why)
+bool batch_run_isolated(const options *o, bool quiet, size_t *out_pictures, failure *why)
 {
     static result r;
     int ends[2];

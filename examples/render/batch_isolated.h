@@ -12,6 +12,6 @@
 
 /* Renders the job, for --timeout's time at most, or until a signal stops the batch (stop.h). The calling process has
  * one thread and no context. False, with one line in `why`, where the job could not be done. */
-bool batch_run_isolated(const options *o, bool quiet, size_t *out_pictures, fault *why);
+bool batch_run_isolated(const options *o, bool quiet, size_t *out_pictures, failure *why);
 
 #endif

@@ -109,7 +109,7 @@ static bool add_job(batch_list *list, const options *defaults, int number, char 
     return true;
 }
 
-bool batch_list_read(batch_list *list, const options *defaults, fault *why)
+bool batch_list_read(batch_list *list, const options *defaults, failure *why)
 {
     size_t size = 0;
     *list = (batch_list){.count = 0};

@@ -25,7 +25,7 @@ typedef struct batch_list {
 /* Reads the list defaults->batch ("-": standard input). Options that a line does not set come from `defaults`. A wrong
  * line becomes a job with an error, and so does a line that writes a file of an earlier line. False, with one line in
  * `why`, if the list cannot be read. Call batch_list_free in either case. */
-bool batch_list_read(batch_list *list, const options *defaults, fault *why);
+bool batch_list_read(batch_list *list, const options *defaults, failure *why);
 void batch_list_free(batch_list *list);
 
 /* batch_names.c: sets the error of each job that writes a file of an earlier job. False if memory is short. */

@@ -41,7 +41,7 @@ static void *load_scene(void *argument)
 }
 
 /* Loads the scene and makes the context at the same time. */
-static bool open_scene_and_context(job *j, fault *why)
+static bool open_scene_and_context(job *j, failure *why)
 {
     loader *l = &j->loader;
     stopwatch *times = &j->session.times;
@@ -58,7 +58,7 @@ static bool open_scene_and_context(job *j, fault *why)
     return opened && (l->scene || fault_set(why, "%s", l->error));
 }
 
-static bool render(job *j, double start_ms, fault *why)
+static bool render(job *j, double start_ms, failure *why)
 {
     const options *o = j->options;
     session *s = &j->session;
@@ -77,7 +77,7 @@ static bool render(job *j, double start_ms, fault *why)
     return session_finish(s, &j->slip, why) && (!o->stats || session_write_stats(s, start_ms, 0, why));
 }
 
-bool job_run(const options *o, bool quiet, double start_ms, size_t *out_pictures, fault *why)
+bool job_run(const options *o, bool quiet, double start_ms, size_t *out_pictures, failure *why)
 {
     static job j; /* too large for the stack */
     j = (job){.options = o, .quiet = quiet};

@@ -12,6 +12,6 @@
 
 /* Renders what the options say, which began at `start_ms` (clock.h); says on stderr how far it is and what the context
  * is unless it is `quiet`. False, with one line in `why`, where it could not. */
-bool job_run(const options *o, bool quiet, double start_ms, size_t *out_pictures, fault *why);
+bool job_run(const options *o, bool quiet, double start_ms, size_t *out_pictures, failure *why);
 
 #endif

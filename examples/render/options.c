@@ -35,7 +35,7 @@ static void print_help(options_program program)
                                    : "\nExit code: 0 success, 1 a picture could not be rendered, 2 wrong usage.");
 }
 
-static options_result parse(int argc, char **argv, options_program program, options *out, fault *why)
+static options_result parse(int argc, char **argv, options_program program, options *out, failure *why)
 {
     *out = (options){.width = 1280,
                      .height = 720,
@@ -63,17 +63,17 @@ static options_result parse(int argc, char **argv, options_program program, opti
     return OPTIONS_RUN;
 }
 
-options_result options_parse(int argc, char **argv, options *out, fault *why)
+options_result options_parse(int argc, char **argv, options *out, failure *why)
 {
     return parse(argc, argv, OPTIONS_RENDER, out, why);
 }
 
-options_result options_parse_for_viewer(int argc, char **argv, options *out, fault *why)
+options_result options_parse_for_viewer(int argc, char **argv, options *out, failure *why)
 {
     return parse(argc, argv, OPTIONS_VIEWER, out, why);
 }
 
-bool options_parse_job(const options *defaults, int argc, char **argv, options *out, fault *why)
+bool options_parse_job(const options *defaults, int argc, char **argv, options *out, failure *why)
 {
     *out = *defaults;
     out->scene_path = out->scene_name = NULL;

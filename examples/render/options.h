@@ -72,13 +72,13 @@ typedef enum options_result { OPTIONS_RUN, OPTIONS_DONE, OPTIONS_WRONG } options
 
 /* OPTIONS_DONE: help or version was printed to stdout. OPTIONS_WRONG: one line in `why` names the option and the value.
  * The strings live as long as argv. */
-options_result options_parse(int argc, char **argv, options *out, fault *why);
+options_result options_parse(int argc, char **argv, options *out, failure *why);
 
 /* Parses a line of a batch, from argv[1] on. Options that the line does not set come from `defaults`, the command line;
  * a scene on the line replaces theirs. False, with one line in `why`, if the line is wrong. */
-bool options_parse_job(const options *defaults, int argc, char **argv, options *out, fault *why);
+bool options_parse_job(const options *defaults, int argc, char **argv, options *out, failure *why);
 
 /* The same for glssao-view, which needs no output and refuses options that only concern files. */
-options_result options_parse_for_viewer(int argc, char **argv, options *out, fault *why);
+options_result options_parse_for_viewer(int argc, char **argv, options *out, failure *why);
 
 #endif

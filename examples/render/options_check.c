@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool same_file(const options *o, fault *why)
+static bool same_file(const options *o, failure *why)
 {
     const char *const files[] = {o->output, o->ao, o->normals, o->depth, o->stats};
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
@@ -34,11 +34,11 @@ static bool is_horizon_count(int n)
 }
 
 /* Checks the number of samples from --set, which is valid, or from --samples. */
-static bool check_samples(const options *o, fault *why)
+static bool check_samples(const options *o, failure *why)
 {
     glssao_settings settings = {.sample_count = o->sample_count};
     if (o->set)
-        setting_apply(o->set, &settings, &(fault){0});
+        setting_apply(o->set, &settings, &(failure){0});
     const int count = settings.sample_count, most = o->technique == GLSSAO_CLASSIC ? 14 : 64;
     if (count == 0 || o->technique == OPTIONS_RAYTRACE)
         return true;
@@ -72,7 +72,7 @@ static bool ends_in(const char *path, const char *end)
     return length > end_length && strcmp(path + length - end_length, end) == 0;
 }
 
-static bool check_picture(const options *o, options_program program, fault *why)
+static bool check_picture(const options *o, options_program program, failure *why)
 {
     float color[4];
     if (o->background && strcmp(o->background, "sky") != 0 && !options_parse_background(o->background, color))
@@ -90,7 +90,7 @@ static bool check_picture(const options *o, options_program program, fault *why)
 }
 
 /* Options that need or cannot be used together. */
-static bool check_together(const options *o, bool is_viewer, fault *why)
+static bool check_together(const options *o, bool is_viewer, failure *why)
 {
     const bool file_wanted =
         o->output || o->ao || o->normals || o->depth || o->stats || o->bench || o->plan || is_viewer;
@@ -168,7 +168,7 @@ static bool check_together(const options *o, bool is_viewer, fault *why)
 }
 
 /* Tries the text of --set on some settings. */
-static bool check_settings(const options *o, fault *why)
+static bool check_settings(const options *o, failure *why)
 {
     char text[256];
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
@@ -177,7 +177,7 @@ static bool check_settings(const options *o, fault *why)
     return fault_set(why, "--set %s", text);
 }
 
-bool options_check(const options *o, options_program program, fault *why)
+bool options_check(const options *o, options_program program, failure *why)
 {
     if (program == OPTIONS_RENDER && o->batch) { /* these options are checked again with each job */
         if (o->bench)

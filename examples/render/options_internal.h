@@ -13,6 +13,6 @@
 option_set options_set(options_program program);
 
 /* options_check.c: checks what no value alone tells, and the text of --set. False, with one line in `why`. */
-bool options_check(const options *o, options_program program, fault *why);
+bool options_check(const options *o, options_program program, failure *why);
 
 #endif

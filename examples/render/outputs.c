@@ -45,7 +45,7 @@ static int writing_error(const char *path)
     return access(name, W_OK | X_OK) == 0 ? 0 : errno;
 }
 
-bool outputs_check(const options *o, fault *why)
+bool outputs_check(const options *o, failure *why)
 {
     const char *const files[] = {o->output, o->ao, o->normals, o->depth, o->stats};
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
@@ -63,7 +63,7 @@ bool outputs_check(const options *o, fault *why)
 }
 
 bool outputs_take(const options *o, pipeline *p, const scene_view *view, int number, readback *r, writer_slip *slip,
-                  fault *why)
+                  failure *why)
 {
     const pixel_kind ao_kind = o->ao && strcmp(strrchr(o->ao, '.'), ".pfm") == 0 ? PIXELS_FLOAT : PIXELS_GREY8;
     const struct {
@@ -101,20 +101,20 @@ bool outputs_each(const options *o, bool (*visit)(const char *path, void *user),
 
 typedef struct spare {
     const options *options;
-    const inputs *scene;
-    fault *why;
+    const inputs *read;
+    failure *why;
 } spare;
 
 static bool spare_inputs(const char *path, void *user)
 {
     const spare *s = user;
     static const inputs none = {0};
-    return inputs_spare(s->scene, s->options->environment, path, s->why) &&
+    return inputs_spare(s->read, s->options->environment, path, s->why) &&
            inputs_spare(&none, s->options->batch, path, s->why);
 }
 
-bool outputs_spare_inputs(const options *o, const inputs *scene, fault *why)
+bool outputs_spare_inputs(const options *o, const inputs *read, failure *why)
 {
-    spare s = {o, scene, why};
+    spare s = {o, read, why};
     return outputs_each(o, spare_inputs, &s) && (!o->stats || spare_inputs(o->stats, &s));
 }

@@ -38,7 +38,7 @@ glssao_settings pipeline_settings(const options *o, const scene *s)
     if (o->blur_rounds >= 0)
         settings.blur_rounds = o->blur_rounds;
     if (o->set) {
-        setting_apply(o->set, &settings, &(fault){0}); /* options_parse made sure that it is valid */
+        setting_apply(o->set, &settings, &(failure){0}); /* options_parse made sure that it is valid */
     }
     return settings;
 }
@@ -53,7 +53,7 @@ static void hear(glssao_log_level level, const char *message, void *user)
         snprintf(heard, sizeof heard, "%.*s", (int)strcspn(message, "\n"), message);
 }
 
-bool pipeline_check(glssao_result result, const char *what, fault *why)
+bool pipeline_check(glssao_result result, const char *what, failure *why)
 {
     if (result != GLSSAO_OK) {
         fault_set(why, "%s failed: %s%s%s", what, glssao_result_string(result), heard[0] ? ": " : "", heard);
@@ -68,7 +68,7 @@ static bool is_folder(const char *path)
     return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
 }
 
-static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, const options *o, fault *why)
+static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, const options *o, failure *why)
 {
     p->effect = NULL;
     if (!p->wants.normals)
@@ -108,7 +108,7 @@ static void drop_environment(pipeline *p)
     p->environment_path = NULL;
 }
 
-bool pipeline_surround(pipeline *p, const stage *st, const char *path, fault *why)
+bool pipeline_surround(pipeline *p, const stage *st, const char *path, failure *why)
 {
     if (!path) {
         drop_environment(p);
@@ -128,7 +128,7 @@ bool pipeline_surround(pipeline *p, const stage *st, const char *path, fault *wh
 }
 
 bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_user, const options *o,
-                      pipeline_wants wants, fault *why)
+                      pipeline_wants wants, failure *why)
 {
     const int width = o->width + 2 * o->margin, height = o->height + 2 * o->margin;
     p->wants = wants;
@@ -162,7 +162,7 @@ bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_us
 }
 
 bool pipeline_create(pipeline *p, const scene *s, glssao_load_fn load, void *load_user, const options *o,
-                     pipeline_wants wants, fault *why)
+                     pipeline_wants wants, failure *why)
 {
     *p = (pipeline){.margin = 0};
     return stage_open(&p->own, s, NULL, why) && pipeline_prepare(p, &p->own, load, load_user, o, wants, why);
@@ -193,7 +193,7 @@ bool pipeline_reads_normals(const pipeline *p, const scene_view *view)
     return p->effect && (p->wants.normal_map || pipeline_runs_occlusion(p, view));
 }
 
-static bool draw_prepass(pipeline *p, const scene_view *view, fault *why)
+static bool draw_prepass(pipeline *p, const scene_view *view, failure *why)
 {
     if (pipeline_reads_normals(p, view)) {
         if (!pipeline_check(glssao_begin_normals(p->effect, p->depth), "glssao_begin_normals", why))
@@ -234,7 +234,7 @@ glssao_frame pipeline_frame(const pipeline *p, const scene_view *view)
 
 /* Finds accessibility for one of `count` samples of a pixel. The picture shows their mean. So each sample gets its
  * share of the rays and of the time, and a larger sampling error. */
-static bool find_accessibility(pipeline *p, const scene_view *view, int index, int count, fault *why)
+static bool find_accessibility(pipeline *p, const scene_view *view, int index, int count, failure *why)
 {
     if (p->wants.traced) {
         glssao_settings share = p->settings;
@@ -280,7 +280,7 @@ void pipeline_shade(pipeline *p, const scene_view *view, GLuint ambient_map, GLu
 }
 
 /* Draws the pre-pass and finds accessibility. */
-static bool draw_maps(pipeline *p, const scene_view *view, int index, int count, stopwatch *times, fault *why)
+static bool draw_maps(pipeline *p, const scene_view *view, int index, int count, stopwatch *times, failure *why)
 {
     if (p->wants.prepass) {
         if (!draw_prepass(p, view, why))
@@ -295,7 +295,7 @@ static bool draw_maps(pipeline *p, const scene_view *view, int index, int count,
     return true;
 }
 
-bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, fault *why)
+bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, failure *why)
 {
     const int count = p->wants.samples;
     const bool averages = p->wants.picture && (count > 1 || p->transparent);

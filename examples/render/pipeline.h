@@ -65,23 +65,23 @@ typedef struct pipeline {
 
 /* False, with one line in `why`, on failure. Call pipeline_destroy in either case. */
 bool pipeline_create(pipeline *p, const scene *s, glssao_load_fn load, void *load_user, const options *o,
-                     pipeline_wants wants, fault *why);
+                     pipeline_wants wants, failure *why);
 
 /* Prepares the pipeline, which is zero or has drawn something else, to draw a stage with these options. The effect, its
  * shaders and targets are kept where they fit. The stage must outlive its use. False, with one line in `why`, on
  * failure; then only pipeline_destroy may follow. */
 bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_user, const options *o,
-                      pipeline_wants wants, fault *why);
+                      pipeline_wants wants, failure *why);
 
 /* Lights the scene with the picture at `path`, or with the built-in light (NULL). A picture that is in use is not read
  * again. Call scene_renderer_configure afterwards. False, with one line in `why`, on failure; the light then stays. */
-bool pipeline_surround(pipeline *p, const stage *st, const char *path, fault *why);
+bool pipeline_surround(pipeline *p, const stage *st, const char *path, failure *why);
 
 /* The settings that the command line asks for. */
 glssao_settings pipeline_settings(const options *o, const scene *s);
 
 /* Makes the targets again for another size. Call pipeline_destroy in either case. Not for traced frames. */
-bool pipeline_resize(pipeline *p, int width, int height, fault *why);
+bool pipeline_resize(pipeline *p, int width, int height, failure *why);
 
 /* Texture name of the accessibility map of the last frame. */
 GLuint pipeline_ambient_map(const pipeline *p);
@@ -90,7 +90,7 @@ GLuint pipeline_ambient_map(const pipeline *p);
 void pipeline_destroy(pipeline *p);
 
 /* Draws everything that is wanted and records the phases in `times`. `view` includes the margin. */
-bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, fault *why);
+bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, failure *why);
 
 /* Draws the picture of the last frame again, with another accessibility map (0: none), into a framebuffer of the
  * pipeline's size whose depth attachment is the pipeline's `depth`. */
@@ -122,11 +122,11 @@ void pipeline_print_plan(const pipeline *p, const scene_view *view);
 /* ---- Used only by the pipeline's own files */
 
 /* False, with the failed call and the library's last error in `why`, if the result is not GLSSAO_OK. */
-bool pipeline_check(glssao_result result, const char *what, fault *why);
+bool pipeline_check(glssao_result result, const char *what, failure *why);
 /* Frees the targets. False, with one line in `why`, if the context has no framebuffers of that size. */
-bool pipeline_change_size(pipeline *p, int width, int height, fault *why);
+bool pipeline_change_size(pipeline *p, int width, int height, failure *why);
 /* Makes the targets that are wanted and missing. */
-bool pipeline_make_targets(pipeline *p, fault *why);
+bool pipeline_make_targets(pipeline *p, failure *why);
 void pipeline_free_targets(pipeline *p);
 /* The framebuffer for maps that are read back; 0 if OpenGL offers none. */
 GLuint pipeline_map_framebuffer(pipeline *p, pixel_kind kind);

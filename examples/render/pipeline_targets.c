@@ -32,7 +32,7 @@ static bool make_framebuffer(GLuint color, GLuint depth, GLuint *out)
     return gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
 }
 
-static bool check_size(int width, int height, fault *why)
+static bool check_size(int width, int height, failure *why)
 {
     GLint max_size = 0;
     GLint max_viewport[2] = {0, 0};
@@ -64,7 +64,7 @@ void pipeline_free_targets(pipeline *p)
     samples_close(&p->samples);
 }
 
-bool pipeline_make_targets(pipeline *p, fault *why)
+bool pipeline_make_targets(pipeline *p, failure *why)
 {
     bool complete = true;
     if (!p->depth)
@@ -111,7 +111,7 @@ GLuint pipeline_map_framebuffer(pipeline *p, pixel_kind kind)
     return p->map_framebuffers[kind];
 }
 
-bool pipeline_change_size(pipeline *p, int width, int height, fault *why)
+bool pipeline_change_size(pipeline *p, int width, int height, failure *why)
 {
     if (!check_size(width, height, why))
         return false;
@@ -124,7 +124,7 @@ bool pipeline_change_size(pipeline *p, int width, int height, fault *why)
     return true;
 }
 
-bool pipeline_resize(pipeline *p, int width, int height, fault *why)
+bool pipeline_resize(pipeline *p, int width, int height, failure *why)
 {
     return pipeline_change_size(p, width, height, why) && pipeline_make_targets(p, why);
 }

@@ -101,7 +101,7 @@ void readback_destroy(readback *r)
     free(r);
 }
 
-static bool check_gl(const char *path, fault *why)
+static bool check_gl(const char *path, failure *why)
 {
     const GLenum code = gl.GetError();
     if (code != GL_NO_ERROR)
@@ -111,7 +111,7 @@ static bool check_gl(const char *path, fault *why)
 
 /* Takes an output that is in memory. */
 static bool take_from_memory(readback *r, pipeline *p, pipeline_output output, pixel_kind kind, const char *path,
-                             writer_slip *slip, fault *why)
+                             writer_slip *slip, failure *why)
 {
     void *pixels = malloc(pipeline_output_size(p, kind));
     if (!pixels)
@@ -138,7 +138,7 @@ static bool start_reading(slot *s, pipeline *p, pipeline_output output, const sc
 }
 
 bool readback_take(readback *r, pipeline *p, pipeline_output output, pixel_kind kind, const scene_view *view,
-                   const char *path, writer_slip *slip, fault *why)
+                   const char *path, writer_slip *slip, failure *why)
 {
     if (pipeline_is_in_memory(p, output, kind))
         return check_gl(path, why) && take_from_memory(r, p, output, kind, path, slip, why);

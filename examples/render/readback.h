@@ -21,7 +21,7 @@ void readback_destroy(readback *r);
 /* Reads an output of the last frame and writes it to `path`. The slip tells the result; it must live until then. False,
  * with one line in `why`, if the output cannot be read. */
 bool readback_take(readback *r, pipeline *p, pipeline_output output, pixel_kind kind, const scene_view *view,
-                   const char *path, writer_slip *slip, fault *why);
+                   const char *path, writer_slip *slip, failure *why);
 
 /* Passes the frames that the GPU has finished to the writer. */
 void readback_poll(readback *r);

@@ -205,7 +205,7 @@ static void print_bench(FILE *f, const bench *b)
     fputs("},\n", f);
 }
 
-bool report_write(const report *r, const char *path, fault *why)
+bool report_write(const report *r, const char *path, failure *why)
 {
     static const char *const phase_names[PHASE_COUNT] = {"load", "context", "setup",    "prepass",
                                                          "ao",   "main",    "readback", "encode"};

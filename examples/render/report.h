@@ -60,6 +60,6 @@ typedef struct report {
 } report;
 
 /* Writes JSON. False, with one line in `why`, if the file cannot be written. */
-bool report_write(const report *r, const char *path, fault *why);
+bool report_write(const report *r, const char *path, failure *why);
 
 #endif

@@ -38,7 +38,7 @@ static bool attach_shader(GLuint program, GLenum type, const char *source)
     return compiled;
 }
 
-static bool make_program(samples *s, fault *why)
+static bool make_program(samples *s, failure *why)
 {
     GLint linked = GL_FALSE;
     s->program = gl.CreateProgram();
@@ -71,7 +71,7 @@ static bool make_target(GLenum format, int width, int height, GLuint depth, GLui
     return gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
 }
 
-bool samples_open(samples *s, int width, int height, GLuint depth, fault *why)
+bool samples_open(samples *s, int width, int height, GLuint depth, failure *why)
 {
     if (s->sample)
         return true;

@@ -19,7 +19,7 @@ typedef struct samples {
 
 /* Makes what is missing, of the size of `depth`, a depth texture that is attached. False, with one line in `why`;
  * samples_close is due in either case. */
-bool samples_open(samples *s, int width, int height, GLuint depth, fault *why);
+bool samples_open(samples *s, int width, int height, GLuint depth, failure *why);
 void samples_close(samples *s);
 
 /* The view of one of `count` samples. */

@@ -12,7 +12,7 @@
 
 enum { WARM_UP_FRAMES = 3 };
 
-bool session_open(session *s, const options *o, bool quiet, fault *why)
+bool session_open(session *s, const options *o, bool quiet, failure *why)
 {
     s->context = context_create(&(context_options){.kind = (context_kind)o->context}, why->text, why->size);
     if (!s->context || !gl_load(context_load, s->context, why->text, why->size))
@@ -64,7 +64,7 @@ static pipeline_wants choose_wants(const session *s)
 }
 
 /* The view of the job, including the margin. */
-static bool find_view(session *s, float angle_rad, scene_view *out_view, fault *why)
+static bool find_view(session *s, float angle_rad, scene_view *out_view, failure *why)
 {
     const options *o = s->options;
     if (!viewpoint_view(&s->viewpoint, s->scene, angle_rad, o->width, o->height, out_view, why))
@@ -73,7 +73,7 @@ static bool find_view(session *s, float angle_rad, scene_view *out_view, fault *
     return true;
 }
 
-bool session_begin(session *s, const options *o, stage *st, fault *why)
+bool session_begin(session *s, const options *o, stage *st, failure *why)
 {
     s->options = o;
     s->scene = st->scene;
@@ -98,7 +98,7 @@ bool session_begin(session *s, const options *o, stage *st, fault *why)
     return true;
 }
 
-static bool draw(session *s, float angle_rad, scene_view *out_view, fault *why)
+static bool draw(session *s, float angle_rad, scene_view *out_view, failure *why)
 {
     if (!find_view(s, angle_rad, out_view, why))
         return false;
@@ -112,7 +112,7 @@ static bool draw(session *s, float angle_rad, scene_view *out_view, fault *why)
     return true;
 }
 
-bool session_bench(session *s, fault *why)
+bool session_bench(session *s, failure *why)
 {
     const int frames = s->options->bench;
     if (!bench_create(&s->bench, frames)) {
@@ -138,7 +138,7 @@ bool session_bench(session *s, fault *why)
     return true;
 }
 
-bool session_draw(session *s, bool shows_progress, writer_slip *slip, fault *why)
+bool session_draw(session *s, bool shows_progress, writer_slip *slip, failure *why)
 {
     const float full_turn = 6.283185307f;
     const options *o = s->options;
@@ -166,7 +166,7 @@ bool session_draw(session *s, bool shows_progress, writer_slip *slip, fault *why
     return true;
 }
 
-bool session_finish(session *s, writer_slip *slip, fault *why)
+bool session_finish(session *s, writer_slip *slip, failure *why)
 {
     readback_drain(s->readback);
     const bool done = writer_wait(s->writer, slip);
@@ -176,7 +176,7 @@ bool session_finish(session *s, writer_slip *slip, fault *why)
     return done;
 }
 
-bool session_write_stats(session *s, double start_ms, double start_cpu_ms, fault *why)
+bool session_write_stats(session *s, double start_ms, double start_cpu_ms, failure *why)
 {
     const pipeline *p = &s->pipeline;
     const report facts = {.options = s->options,

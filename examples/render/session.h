@@ -30,25 +30,25 @@ typedef struct session {
 
 /* Makes a context and leaves it current. Prints its description to stderr unless `quiet`. False, with one line in
  * `why`; session_close is due in either case. */
-bool session_open(session *s, const options *o, bool quiet, fault *why);
+bool session_open(session *s, const options *o, bool quiet, failure *why);
 /* Waits until all pictures are written. */
 void session_close(session *s);
 
 /* Prepares the pipeline for a job and its scene, and prints the plan if the job asks for it. False, with one line in
  * `why`, if the job cannot be drawn; other jobs still can. */
-bool session_begin(session *s, const options *o, stage *st, fault *why);
+bool session_begin(session *s, const options *o, stage *st, failure *why);
 
 /* Draws the frames of the job and passes them to the writer. The slip tells the result; it must live until the pictures
  * are written. `shows_progress`: print the progress of a turntable to stderr. */
-bool session_draw(session *s, bool shows_progress, writer_slip *slip, fault *why);
+bool session_draw(session *s, bool shows_progress, writer_slip *slip, failure *why);
 
 /* Draws whole frames, waits for each, reads nothing back, and prints the times. */
-bool session_bench(session *s, fault *why);
+bool session_bench(session *s, failure *why);
 
 /* Waits until the pictures of the slip are written. False, with one line in `why`, if one could not be written. */
-bool session_finish(session *s, writer_slip *slip, fault *why);
+bool session_finish(session *s, writer_slip *slip, failure *why);
 
 /* Writes the file of --stats, after session_finish. start_ms and start_cpu_ms: when the job began (clock.h). */
-bool session_write_stats(session *s, double start_ms, double start_cpu_ms, fault *why);
+bool session_write_stats(session *s, double start_ms, double start_cpu_ms, failure *why);
 
 #endif

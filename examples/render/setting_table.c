@@ -78,7 +78,7 @@ static bool take(const setting *s, const char *text, size_t length, glssao_setti
     return value == floor(value);
 }
 
-bool setting_apply(const char *text, glssao_settings *settings, fault *why)
+bool setting_apply(const char *text, glssao_settings *settings, failure *why)
 {
     while (*text) {
         const size_t length = strcspn(text, ","), name_length = strcspn(text, "=,");

@@ -26,7 +26,7 @@ extern const setting setting_table[];
 extern const int setting_count;
 
 /* Sets what "name=value,name=value" says. False, with one line in `why`, if a name or value is wrong. */
-bool setting_apply(const char *text, glssao_settings *settings, fault *why);
+bool setting_apply(const char *text, glssao_settings *settings, failure *why);
 
 /* Writes the differences as such a text, "" if there are none. False if it does not fit. */
 bool setting_differences(const glssao_settings *from, const glssao_settings *to, char *out, size_t out_size);

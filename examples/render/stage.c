@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-scene *stage_load_scene(const options *o, inputs *out_inputs, fault *why)
+scene *stage_load_scene(const options *o, inputs *out_inputs, failure *why)
 {
     *out_inputs = (inputs){0};
     if (!o->scene_path)
@@ -21,7 +21,7 @@ scene *stage_load_scene(const options *o, inputs *out_inputs, fault *why)
     return s;
 }
 
-bool stage_open(stage *st, const scene *s, const stage *like, fault *why)
+bool stage_open(stage *st, const scene *s, const stage *like, failure *why)
 {
     *st = (stage){.scene = s, .lights = malloc((s->light_count + 1u) * sizeof *st->lights)};
     if (!st->lights) {
@@ -40,7 +40,7 @@ void stage_close(stage *st)
     *st = (stage){0};
 }
 
-bool stage_trace(stage *st, fault *why)
+bool stage_trace(stage *st, failure *why)
 {
     if (!st->traced)
         st->traced = trace_scene_create(st->scene, why->text, why->size);

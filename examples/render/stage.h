@@ -23,14 +23,14 @@ typedef struct stage {
 
 /* Loads the scene of the options and lists the files that it was read from. Warnings go to stderr. NULL, with one line
  * in `why`, on failure. Any thread. The caller frees the list in either case. */
-scene *stage_load_scene(const options *o, inputs *out_inputs, fault *why);
+scene *stage_load_scene(const options *o, inputs *out_inputs, failure *why);
 
 /* Uploads the scene, which must outlive the stage. Programs are shared with those of `like`, which may be NULL. False,
  * with one line in `why`, on failure. Call stage_close in either case. */
-bool stage_open(stage *st, const scene *s, const stage *like, fault *why);
+bool stage_open(stage *st, const scene *s, const stage *like, failure *why);
 void stage_close(stage *st);
 
 /* Builds Embree's acceleration structure unless it exists. */
-bool stage_trace(stage *st, fault *why);
+bool stage_trace(stage *st, failure *why);
 
 #endif

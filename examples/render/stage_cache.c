@@ -161,7 +161,7 @@ bool stage_cache_load_ahead(stage_cache *c, const options *o)
 }
 
 /* Takes ownership of `k`, also on failure. */
-static scene *load_scene(stage_cache *c, key *k, inputs *out_inputs, fault *why)
+static scene *load_scene(stage_cache *c, key *k, inputs *out_inputs, failure *why)
 {
     loading *ahead = &c->ahead, here = {.key = *k};
     if (ahead->used && !is_same(&ahead->key, k) && strcmp(ahead->key.name, k->name) == 0 &&
@@ -226,7 +226,7 @@ static void shrink(stage_cache *c)
     }
 }
 
-stage *stage_cache_get(stage_cache *c, const options *o, fault *why)
+stage *stage_cache_get(stage_cache *c, const options *o, failure *why)
 {
     key k = make_key(o);
     entry **at = k.name ? find(c, &k) : NULL;

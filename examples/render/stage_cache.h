@@ -18,7 +18,7 @@ void stage_cache_destroy(stage_cache *c);
 
 /* The stage of the options' scene. A file counts as unchanged if its path, size and times are; the files that it refers
  * to are not checked. Valid until the next call. NULL, with one line in `why`, on failure. */
-stage *stage_cache_get(stage_cache *c, const options *o, fault *why);
+stage *stage_cache_get(stage_cache *c, const options *o, failure *why);
 
 /* Starts to load the options' scene unless it is there or another one is being loaded. True if it started. */
 bool stage_cache_load_ahead(stage_cache *c, const options *o);

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-bool truth_open(truth *t, const trace_scene *s, int width, int height, fault *why)
+bool truth_open(truth *t, const trace_scene *s, int width, int height, failure *why)
 {
     t->scene = s;
     t->stats = (trace_stats){0};
@@ -42,7 +42,7 @@ static bool is_stopped(void *user)
     return stop_signal();
 }
 
-bool truth_trace(truth *t, const scene_view *view, const glssao_settings *settings, uint32_t seed, fault *why)
+bool truth_trace(truth *t, const scene_view *view, const glssao_settings *settings, uint32_t seed, failure *why)
 {
     progress bar = progress_start("tracing");
     const trace_options options = {.radius = settings->radius,

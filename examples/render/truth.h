@@ -21,10 +21,10 @@ typedef struct truth {
 
 /* Allocates memory for frames of that size unless it exists. The scene must outlive it. False, with one line in `why`,
  * on failure. Call truth_close in either case. */
-bool truth_open(truth *t, const trace_scene *s, int width, int height, fault *why);
+bool truth_open(truth *t, const trace_scene *s, int width, int height, failure *why);
 void truth_close(truth *t);
 
 /* Traces a frame with the radius, sample count and power of `settings`. Prints progress to stderr. */
-bool truth_trace(truth *t, const scene_view *view, const glssao_settings *settings, uint32_t seed, fault *why);
+bool truth_trace(truth *t, const scene_view *view, const glssao_settings *settings, uint32_t seed, failure *why);
 
 #endif

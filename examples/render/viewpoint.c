@@ -40,9 +40,9 @@ bool viewpoint_parse_view(const char *text, float out_deg[2])
 {
     /* Isometric: at an elevation of atan(1 / sqrt(2)) the three axes look equally long. */
     static const float named[][2] = {{0, 0}, {90, 0}, {180, 0}, {-90, 0}, {0, 90}, {0, -90}, {45, 35.2643897f}};
-    const int word = words_find(VIEW_WORDS, text);
-    if (word >= 0) {
-        memcpy(out_deg, named[word], sizeof named[word]);
+    const int index = words_find(VIEW_WORDS, text);
+    if (index >= 0) {
+        memcpy(out_deg, named[index], sizeof named[index]);
         return true;
     }
     char *end = NULL;
@@ -114,7 +114,7 @@ float viewpoint_fov_deg(const viewpoint *v)
     return (c->half_height > 0 ? 2 * atan2f(c->half_height, distance_to_target(c)) : c->fov_y_rad) / rad_per_deg;
 }
 
-bool viewpoint_choose(const options *o, const scene *s, float free_left, viewpoint *out, fault *why)
+bool viewpoint_choose(const options *o, const scene *s, float free_left, viewpoint *out, failure *why)
 {
     *out = (viewpoint){.axis = {0, 1, 0}, .near_plane = o->near_plane, .far_plane = o->far_plane};
     if (o->camera > 0 && (uint32_t)o->camera > s->camera_count)
@@ -156,7 +156,7 @@ static void fit_planes(const viewpoint *v, const scene *s, camera *c)
 }
 
 bool viewpoint_view(const viewpoint *v, const scene *s, float angle_rad, int width, int height, scene_view *out,
-                    fault *why)
+                    failure *why)
 {
     camera c = angle_rad == 0 ? v->base : camera_turned(&v->base, v->pivot, v->axis, angle_rad);
     fit_planes(v, s, &c);

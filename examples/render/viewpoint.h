@@ -24,13 +24,13 @@ bool viewpoint_parse_view(const char *text, float out_deg[2]);
 
 /* Chooses the camera. A view that is fitted to the scene uses the part of the picture to the right of `free_left`, a
  * share of its width. False, with one line in `why`, if the file has no camera of that number. */
-bool viewpoint_choose(const options *o, const scene *s, float free_left, viewpoint *out, fault *why);
+bool viewpoint_choose(const options *o, const scene *s, float free_left, viewpoint *out, failure *why);
 
 /* The field of view; for an orthographic view, the one that gives the same view with --ortho. */
 float viewpoint_fov_deg(const viewpoint *v);
 
 /* The view, turned by `angle_rad` about the axis. False, with one line in `why`, if it is degenerate. */
 bool viewpoint_view(const viewpoint *v, const scene *s, float angle_rad, int width, int height, scene_view *out,
-                    fault *why);
+                    failure *why);
 
 #endif

@@ -52,7 +52,7 @@ static size_t pixel_bytes(const entry *e)
     return (size_t)e->width * (size_t)e->height * (e->kind == PIXELS_GREY8 ? 1 : 4);
 }
 
-static bool encode(const entry *e, fault *why)
+static bool encode(const entry *e, failure *why)
 {
     if (e->kind == PIXELS_FLOAT)
         return picture_write_pfm(e->path, e->width, e->height, 1, e->pixels, why->text, why->size);

@@ -19,25 +19,25 @@
 typedef struct scene_renderer scene_renderer;
 
 typedef struct scene_view {
-    float view_from_world[16];  /* column-major */
+    float view_from_world[16]; /* column-major */
     float clip_from_view[16];
-    int width, height;          /* pixels */
-    int margin;                 /* pixels on each side that the ambient map does not cover */
+    int width, height; /* pixels */
+    int margin;        /* pixels on each side that the ambient map does not cover */
 } scene_view;
 
 typedef struct scene_environment scene_environment;
 
 typedef struct scene_lighting {
-    float ambient[3];                /* linear radiance of the environment at the horizon, scaled by accessibility */
-    float ambient_tilt[3];           /* how much more comes from straight above, and less from straight below */
-    float direction_world[3];        /* unit, the way the light travels */
-    float directional[3];            /* linear irradiance; all 0: no such light */
-    float sky[3];                    /* linear, at the horizon; drawn where nothing is */
-    float sky_tilt[3];               /* how much more straight above, as with ambient; all 0: one colour */
-    bool plain;                      /* draws no sky, but `background` where nothing is */
-    float background[4];             /* linear colour, and alpha, by which it is multiplied */
+    float ambient[3];         /* linear radiance of the environment at the horizon, scaled by accessibility */
+    float ambient_tilt[3];    /* how much more comes from straight above, and less from straight below */
+    float direction_world[3]; /* unit, the way the light travels */
+    float directional[3];     /* linear irradiance; all 0: no such light */
+    float sky[3];             /* linear, at the horizon; drawn where nothing is */
+    float sky_tilt[3];        /* how much more straight above, as with ambient; all 0: one colour */
+    bool plain;               /* draws no sky, but `background` where nothing is */
+    float background[4];      /* linear colour, and alpha, by which it is multiplied */
     const scene_environment *environment; /* in the place of the four gradients; NULL: those */
-    const scene_light *lights;       /* further lights; they cast no shadow. Past 16, the rest is left out */
+    const scene_light *lights;            /* further lights; they cast no shadow. Past 16, the rest is left out */
     uint32_t light_count;
 } scene_lighting;
 
@@ -63,16 +63,16 @@ void scene_lighting_surround(scene_lighting *lighting, const scene *s, const sce
 bool scene_lighting_has_ambient(const scene_lighting *lighting);
 
 typedef struct scene_draw_options { /* zero is the plainest */
-    bool shadows;            /* of the directional light; ambient light is not shadowed */
-    int shadow_size;         /* side of the shadow map in texels; 0: 2048 */
+    bool shadows;                   /* of the directional light; ambient light is not shadowed */
+    int shadow_size;                /* side of the shadow map in texels; 0: 2048 */
     bool mapped_normals;     /* the pre-pass applies normal maps, so that occlusion sees them; else it does not */
     bool specular_occlusion; /* accessibility darkens ambient reflections by their lobe; else like the rest */
     bool layers;             /* scene_draw_layer will be called */
     bool no_picture;         /* the main pass is not drawn: neither its programs nor a shadow map are made */
-    /* For measuring what leaving out spares: every part of the shaders on every surface, whatever the scene holds, nothing
-     * culled, and shadow map and sky drawn in each frame. Matte and unlit materials then look otherwise. */
+    /* For measuring what leaving out spares: every part of the shaders on every surface, whatever the scene holds,
+     * nothing culled, and shadow map and sky drawn in each frame. Matte and unlit materials then look otherwise. */
     bool everything;
-    bool multi_bounce;       /* occluded ambient light takes on the surface's colour */
+    bool multi_bounce; /* occluded ambient light takes on the surface's colour */
 } scene_draw_options;
 
 /* Uploads the scene through the table in gl.h, which must be loaded. Shaders and textures only for what the scene
@@ -84,9 +84,9 @@ scene_renderer *scene_renderer_create_like(const scene *s, const scene_renderer 
 void scene_renderer_destroy(scene_renderer *r);
 
 /* Chooses what the passes do from now on, and makes the programs and the shadow map that this calls for. Lighting may
- * change from frame to frame, but whether it has a directional light, further ones and an environment is decided here. Without this
- * call the first drawing chooses the plainest, and draws nothing where that fails. False, with one line in `error`, on
- * failure; the renderer then still draws. */
+ * change from frame to frame, but whether it has a directional light, further ones and an environment is decided here.
+ * Without this call the first drawing chooses the plainest, and draws nothing where that fails. False, with one line in
+ * `error`, on failure; the renderer then still draws. */
 bool scene_renderer_configure(scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options,
                               char *error, size_t error_size);
 
@@ -130,9 +130,10 @@ void scene_draw_layer(scene_renderer *r, const scene_view *view, unsigned depth_
 
 /* Draws the picture into the bound framebuffer, whose depth buffer holds the pre-pass's depth: clears colour to
  * the sky at the horizon, opaque with depth EQUAL, the sky where it is no single colour with depth LEQUAL (unless the
- * last drawing of the same view, without scissors, showed none of it), then blended materials back to front with depth LEQUAL and no depth write.
- * Output is linear; the caller's framebuffer is GL_SRGB8_ALPHA8 with GL_FRAMEBUFFER_SRGB enabled by this call.
- * `ambient_map` is an accessibility texture (red; any size, sampled linearly by uv), 0: fully accessible. */
+ * last drawing of the same view, without scissors, showed none of it), then blended materials back to front with depth
+ * LEQUAL and no depth write. Output is linear; the caller's framebuffer is GL_SRGB8_ALPHA8 with GL_FRAMEBUFFER_SRGB
+ * enabled by this call. `ambient_map` is an accessibility texture (red; any size, sampled linearly by uv), 0: fully
+ * accessible. */
 void scene_draw_main(scene_renderer *r, const scene_view *view, const scene_lighting *lighting, unsigned ambient_map);
 
 /* Draws texture `map` over the whole bound framebuffer of width x height, through one channel transform:

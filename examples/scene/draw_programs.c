@@ -191,8 +191,8 @@ void scene_renderer_effects(const scene_renderer *r, const scene_lighting *light
         {"environment", surrounded ? "ambient light from a picture" : "no picture given: a gradient", surrounded},
         {"sky",
          surrounded && sky ? "the environment's picture, last, until a view shows none of it"
-         : sky      ? "a gradient, last, at the far plane, until a view shows none of it"
-                    : "one colour: the clear's",
+         : sky             ? "a gradient, last, at the far plane, until a view shows none of it"
+                           : "one colour: the clear's",
          sky},
     };
     for (int i = 0; i < SCENE_EFFECT_COUNT; i++)

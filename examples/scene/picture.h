@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Writes and reads pictures: PNG, JPEG, WebP, and PFM (Portable Float Map, little-endian float32) for linear data. Rows go
- * from bottom to top, as OpenGL reads them.
+ * Writes and reads pictures: PNG, JPEG, WebP, and PFM (Portable Float Map, little-endian float32) for linear data. Rows
+ * go from bottom to top, as OpenGL reads them.
  */
 #ifndef GLSSAO_EXAMPLES_PICTURE_H
 #define GLSSAO_EXAMPLES_PICTURE_H
@@ -10,8 +10,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* PNG with 8 bits a channel; channels 1 (grey), 3 (RGB) or 4 (RGBA). False, with one line in `error`, on failure. The file
- * appears whole or not at all (whole_file.h). Any thread. */
+/* PNG with 8 bits a channel; channels 1 (grey), 3 (RGB) or 4 (RGBA). False, with one line in `error`, on failure. The
+ * file appears whole or not at all (whole_file.h). Any thread. */
 bool picture_write_png(const char *path, int width, int height, int channels, const uint8_t *pixels, char *error,
                        size_t error_size);
 
@@ -33,7 +33,8 @@ bool picture_write(const char *path, int width, int height, int channels, const 
 bool picture_write_pfm(const char *path, int width, int height, int channels, const float *pixels, char *error,
                        size_t error_size);
 
-/* Reads a file that picture_write_pfm wrote. The caller frees the pixels. NULL, with one line in `error`, on failure. */
+/* Reads a file that picture_write_pfm wrote. The caller frees the pixels. NULL, with one line in `error`, on failure.
+ */
 float *picture_read_pfm(const char *path, int *out_width, int *out_height, int *out_channels, char *error,
                         size_t error_size);
 

@@ -72,7 +72,7 @@ static bool encode_jpeg(jpeg_job *job, FILE *file, int width, int height)
 bool picture_write_jpeg(const char *path, int width, int height, int channels, const uint8_t *pixels, char *error,
                         size_t error_size)
 {
-    fault why = {.file = path, .text = error, .size = error_size};
+    failure why = {.file = path, .text = error, .size = error_size};
     whole_file file;
     if (channels != 1 && channels != 3)
         return fault_set(&why, "a JPEG of %d channels can't be written", channels);
@@ -106,7 +106,7 @@ bool picture_has_webp(void)
 bool picture_write_webp(const char *path, int width, int height, int channels, const uint8_t *pixels, char *error,
                         size_t error_size)
 {
-    fault why = {.file = path, .text = error, .size = error_size};
+    failure why = {.file = path, .text = error, .size = error_size};
     whole_file file;
     uint8_t *bytes = NULL;
     if (channels != 3 && channels != 4)
@@ -139,7 +139,7 @@ bool picture_write_webp(const char *path, int width, int height, int channels, c
                         size_t error_size)
 {
     (void)width, (void)height, (void)channels, (void)pixels;
-    return fault_set(&(fault){.file = path, .text = error, .size = error_size},
+    return fault_set(&(failure){.file = path, .text = error, .size = error_size},
                      "this program was built without libwebp");
 }
 

@@ -7,7 +7,7 @@
 
 #include "fault.h"
 
-typedef fault scene_fault;
+typedef failure scene_fault;
 #define scene_fail fault_set
 #define scene_fail_memory fault_set_memory
 

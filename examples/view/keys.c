@@ -84,9 +84,9 @@ static void step_scene(viewer *v, int by)
     viewer_open(v, NULL, names[(at + by + 4) % 4]);
 }
 
-static void toggle(viewer *v, bool *option)
+static void toggle(viewer *v, bool *value)
 {
-    *option = !*option;
+    *value = !*value;
     viewer_configure(v);
 }
 

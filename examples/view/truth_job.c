@@ -107,7 +107,7 @@ truth_job *truth_job_start(const scene *s, const scene_view *view, float radius,
     return j;
 }
 
-int truth_job_read(truth_job *j, float *out, fault *why)
+int truth_job_read(truth_job *j, float *out, failure *why)
 {
     pthread_mutex_lock(&j->lock);
     const int rounds = j->rounds;

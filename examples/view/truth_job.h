@@ -23,7 +23,7 @@ truth_job *truth_job_start(const scene *s, const scene_view *view, float radius,
 
 /* Returns how many of TRUTH_ROUNDS are done. If there is one, copies the mean to out[width * height], rows bottom to
  * top; `out` may be NULL. Negative, with the reason in `why`: the tracing failed. */
-int truth_job_read(truth_job *j, float *out, fault *why);
+int truth_job_read(truth_job *j, float *out, failure *why);
 
 /* Ends the tracing within moments. NULL is allowed. */
 void truth_job_stop(truth_job *j);

@@ -127,7 +127,7 @@ options_result options_parse(int argc, char **argv, options *out, char *error, s
     for (int i = 1; i < argc; i++) /* first, so that the others can change what it sets */
         if (strcmp(argv[i], "--quick") == 0)
             set_quick(out);
-    if (!option_parse(&set, argc, argv, out, &(fault){.text = error, .size = error_size}))
+    if (!option_parse(&set, argc, argv, out, &(failure){.text = error, .size = error_size}))
         return OPTIONS_WRONG;
     keep_command(argc, argv, out);
     if (out->help)

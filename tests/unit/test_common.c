@@ -154,7 +154,7 @@ static void faults_are_one_line_and_the_first_stays(void **state)
 {
     (void)state;
     char error[32];
-    fault f = {.file = "a.b", .text = error, .size = sizeof error};
+    failure f = {.file = "a.b", .text = error, .size = sizeof error};
     assert_false(fault_set(&f, "two\nlines\t\tand\001 more."));
     assert_string_equal(error, "a.b: two lines and? more");
     fault_set(&f, "later");
