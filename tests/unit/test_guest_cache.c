@@ -20,7 +20,7 @@ typedef struct cache {
     guest g;
     char folder[64], outside[64]; /* the second holds what an attacker owns or aims at */
     int count;                    /* files of a run */
-    char names[MOST_FILES][128];
+    char names[MOST_FILES][256];
 } cache;
 
 static gl_counts run(cache *c, const char *folder)
