@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The radius that suits what is seen, from the depth read back.
+ * Reads depth back and finds a radius that suits what is in view.
  */
 #include "inject.h"
 
@@ -16,7 +16,7 @@ static int compare_floats(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Reads the depth texture back, whatever the program set for packing. The caller frees. */
+/* Reads the depth texture back, independent of the program's pixel pack state. The caller frees. */
 static float *read_depth(GLuint texture, int width, int height)
 {
     INJECT_REAL(PFNGLGETINTEGERVPROC, GetIntegerv);
