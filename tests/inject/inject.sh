@@ -68,7 +68,7 @@ for modes in "ubo ortho" "mapped reversed" range; do
     "$check" --alike modes-after.ppm modes-before.ppm modes-own.ppm || fail "$modes: wrong picture"
 done
 # The effect is drawn before the frame ends, so the picture without it comes from a run that is switched off.
-for mode in weapon icon pick post shared resolve contexts; do
+for mode in weapon icon small pick post shared resolve contexts; do
     inject on "$foreign" $mode --frames 5
     GLSSAO_INJECT_OFF=1 inject off "$foreign" $mode --frames 5
     "$foreign" $mode own --frames 3 --picture own.ppm
