@@ -11,7 +11,7 @@
 uniform sampler2D u_back_map;
 uniform sampler2D u_second_map;
 
-// In units of the radius, found by experiment: docs/decisions.md, "A second layer".
+// In units of the radius, found by experiment: docs/decisions/0034.
 const float GAP = 0.15;  // with the next front face less than this behind the back face, both may be one solid
 const float THIN = 0.03; // anything thinner is a sheet or a seam, whose thickness says nothing about what is behind it
 #else

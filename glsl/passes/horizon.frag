@@ -7,7 +7,8 @@
 // in  u_distance_map  view distance at the estimate's size, with LAYERS 1 thickness and second layer too; point sampled,
 //                     clamped
 // out result          by OUTPUT: accessibility, the paired value, or linear accessibility for the sum of its replicate
-// SLICES slices of STEPS samples on each side. BRANCHES 1: a branch that all pixels of a warp take alike spares work.
+// SLICES slices of STEPS samples on each side. LOOPS 1: the loops over slices and sides are not written out, and a side
+// without an occluder is left early.
 //
 // Coordinates in a slice, in units of the radius: x is the distance from the point along the slice, outwards on either side;
 // y is the height towards the eye. Angles are measured from y. tuned.glsl has the tuned constants.
@@ -185,7 +186,7 @@ uint hidden_sectors(point p, slice_side side, out float highest)
             samples[i].xy = BELOW_THE_POINT; // no step below asks again
     }
     highest = side.lowest;
-#if !UNROLLED
+#if LOOPS
     if (!any_occludes)
         return 0u;
 #endif
@@ -268,7 +269,7 @@ float slice_occlusion(point p, float angle)
 
     uint mask = 0u;
     float veiled = total;
-    UNROLL for (int i = 0; i < 2; ++i) {
+    UNROLL_IF_SHORT for (int i = 0; i < 2; ++i) {
         float sign = i == 0 ? 1.0 : -1.0; // the plus side, then the minus side
         side.uv_per_px = sign * way * gInvRenderTargetSize;
         side.y_per_px = sign * way * y_per_px;
@@ -317,7 +318,7 @@ RESULT result()
     p.up_view = -ray / ray_length;
     p.jitter = noise.y;
     float occlusion = 0.0;
-    UNROLL for (int i = 0; i < SLICES; ++i) {
+    UNROLL_IF_SHORT for (int i = 0; i < SLICES; ++i) {
         occlusion += slice_occlusion(p, (noise.x + float(i)) / float(SLICES));
     }
     occlusion /= float(SLICES);

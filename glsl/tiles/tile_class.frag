@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: MIT
-// Whether a tile needs an estimate. It needs none where the estimate's own rules leave every pixel at 1 whatever lies
-// between the bounds: no surface is seen; no sample leaves its own texel; everything in reach lies within a range of
-// distance that does not count; or the tile is a plane and what is in reach lies in it or below. docs/economy.md has the
-// proofs, and what they allow for rounding.
+// Whether a tile needs an estimate. It needs none where the estimate's own rules leave every pixel at 1 whatever lies between
+// the bounds: no surface is seen; no sample leaves its own texel; everything in reach lies within a range of distance that does
+// not count; or the tile is a plane and everything in reach lies in it or below. proof.md has the proofs, and what they allow
+// for rounding.
 // in  u_ambient_map  bounds of tiles; fetched
 // out o_needed       1: to be estimated, 0: open
 
 uniform sampler2D u_ambient_map;
 out float o_needed;
 
-const int MOST_TILES = 16;    // in reach along an axis; where there are more, the tile is estimated without a look
-const float FACING = 0.35;    // cosine: seen at more of a slant, horizon's polynomials leave more of a plane than a step
+const int MOST_TILES = 16;    // in reach along an axis; with more, the tile is estimated unseen
+const float FACING = 0.35;    // cosine: at more of a slant, horizon's polynomials leave more of a plane than a step of R16
 
 vec3 bounds_of(ivec2 tile)
 {
     return texelFetch(u_ambient_map, tile, 0).xyz;
 }
 
-// How far samples reach, in texels; negative: no bound.
+// How far samples reach, in texels; negative: there is no bound.
 vec2 reach_of(float nearest, vec2 widest_ray)
 {
     float reach = gTiles.y * gOcclusionRadius;
 #if FROM_DEPTH
-    // Samples lie in a ball, whose picture is wider off the axis and nearer to the eye.
+    // Samples lie in a ball, whose image is wider off the axis and nearer to the eye.
     float depth = orthographic() ? 1.0 : nearest - reach;
     vec2 wide = orthographic() ? vec2(reach) : reach * (1.0 + widest_ray);
 #else
@@ -45,12 +45,12 @@ bool lies_below(ivec2 tile, float nearest, vec3 plane, vec3 point)
     float side = float(tile_side());
     vec2 middle = uv_at((vec2(tile) + 0.5) * side - 0.5);
     vec2 half_uv = 0.5 * side * (uv_at(vec2(1.0)) - uv_at(vec2(0.0)));
-    // Heights over the parallel plane through the eye, at the corner where they are greatest. Seen from its front, the
-    // plane is left downwards along every ray, so that the nearest surface is the highest.
+    // Heights over the parallel plane through the eye, at the corner where they are greatest. Seen from the plane's front,
+    // every ray leads downwards, so the nearest surface is the highest.
     vec3 ray = ray_at(middle);
     float along = dot(plane, ray) + dot(abs(plane.xy * gRayDirection.xy), half_uv);
     float origin = dot(plane.xy, middle * gRayOrigin.xy + gRayOrigin.zw) + dot(abs(plane.xy * gRayOrigin.xy), half_uv);
-    // All of the other tile is nearer to the point than by way of the eye; the rays of a tile are alike.
+    // The way by the eye is longer than any from the point to the other tile; the rays of a tile are alike.
     float farthest = length(point) + 2.0 * nearest * length(ray) + length(point.xy);
     return nearest > 0.0 && along < 0.0 && origin + along * nearest - dot(plane, point) < -gTiles.z * farthest;
 }
@@ -91,7 +91,7 @@ bool needs_estimate(ivec2 tile)
 #endif
     ivec2 tiles = textureSize(u_ambient_map, 0);
     float side = float(tile_side());
-    // Bounded before they become integers, which large numbers do not fit.
+    // Bounded first, since large numbers do not fit an integer.
     vec2 low = max(floor((vec2(tile) * side - reach - 1.0) / side), vec2(-1.0));
     vec2 high = min(floor((vec2(tile + 1) * side + reach + 1.0) / side), vec2(tiles));
     ivec2 first = max(ivec2(low), ivec2(0));
@@ -105,7 +105,7 @@ bool needs_estimate(ivec2 tile)
     vec3 point = position_view_from_uv(uv_at(vec2(middle)), distances_at(middle).x);
     flat_all = own.z <= gTiles.z;
 #if !FROM_DEPTH
-    // On the picture's edge a sample is clamped to a texel that can lie at right angles to its slice, where rounding is all.
+    // On the picture's edge a sample may be clamped to a texel at right angles to its slice, where rounding decides.
     flat_all = flat_all && all(greaterThan(tile, ivec2(0))) && all(lessThan(tile, tiles - 1));
 #endif
     for (int i = 0; i < 4; ++i) {
@@ -125,7 +125,7 @@ bool needs_estimate(ivec2 tile)
             may_be_open = flat_all || gTiles.w > 0.0;
 #endif
         }
-    // The difference of two distances is off by their rounding.
+    // Allows for the rounding of the two distances.
     return !flat_all && !(own.y - nearest + 1e-6 * own.y < gTiles.w);
 }
 

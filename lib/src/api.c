@@ -20,27 +20,14 @@ static glssao_result check_state(const glssao_effect *effect, const char *functi
     return effect->host_restores_state ? GLSSAO_OK : glssao__state_check(&effect->gl, &effect->log, function);
 }
 
-static glssao__request request_of(const glssao_effect *effect, const glssao_frame *frame,
-                                  const glssao_settings *settings, int estimates)
-{
-    return (glssao__request){.frame = frame,
-                             .settings = settings,
-                             .size = {effect->size[0], effect->size[1]},
-                             .estimates = estimates,
-                             .can = effect->can};
-}
-
 /* A texture that a pass both reads and draws into gives undefined pixels. */
-static bool check_loops(const glssao_effect *effect, const glssao_frame *frame, const glssao__schedule *schedule,
-                        const glssao__log *log)
+static bool check_loops(const glssao_effect *effect, const glssao__schedule *schedule, const glssao__log *log)
 {
-    gl_uint names[HOST_TEXTURES];
-    glssao__host_names(frame, names);
     for (int map = MAP_FIRST_TARGET; map < MAP_COUNT; ++map)
         for (int i = 0; i < HOST_TEXTURES; ++i) {
             const gl_uint own = effect->resources.targets[map].texture;
             const bool is_output = map == MAP_NORMAL ? schedule->maps[map].format != 0 : own != 0;
-            if (is_output && names[i] == own) {
+            if (is_output && schedule->host_names[i] == own) {
                 glssao__log_write(log, GLSSAO_LOG_ERROR, "frame texture = %u: the effect's own map can't be its input",
                                   own);
                 return false;
@@ -55,9 +42,10 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
     glssao__projection projection;
     glssao__schedule schedule;
     if (effect && glssao__check_frame(frame, settings, effect->size, &silent, &projection)) {
-        const glssao__request request = request_of(effect, frame, settings, 0);
+        const glssao__request request = {
+            .frame = frame, .settings = settings, .size = {effect->size[0], effect->size[1]}, .can = effect->can};
         glssao__schedule_make(&schedule, &request);
-        if (check_loops(effect, frame, &schedule, &silent))
+        if (check_loops(effect, &schedule, &silent))
             return schedule.plan;
     }
     glssao__choose_nothing(&schedule.plan, "glssao_compute would refuse these arguments");
@@ -152,9 +140,13 @@ static glssao_result run_call(glssao_effect *effect, call *c)
     glssao_result result = check_state(effect, c->function);
     glssao__schedule schedule;
     for (bool again = result == GLSSAO_OK; again;) {
-        const glssao__request request = request_of(effect, c->frame, c->settings, c->estimates);
+        const glssao__request request = {.frame = c->frame,
+                                         .settings = c->settings,
+                                         .size = {effect->size[0], effect->size[1]},
+                                         .estimates = c->estimates,
+                                         .can = effect->can};
         glssao__schedule_make(&schedule, &request);
-        if (!check_loops(effect, c->frame, &schedule, &effect->log))
+        if (!check_loops(effect, &schedule, &effect->log))
             return GLSSAO_INVALID_ARGUMENT;
         result = run_guarded(effect, c, &schedule);
         again = result == GLSSAO_SHADER_ERROR && schedule.may_use_compute;

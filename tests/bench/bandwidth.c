@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Side of a work group: smaller ones are bound by how fast they are launched, larger ones gain nothing. */
+/* Side of a work group. The launch rate bounds smaller groups; larger ones are not faster. */
 #define GROUP 16
 #define LAYOUT(side) "layout(local_size_x = " #side ", local_size_y = " #side ") in;\n"
 #define LAYOUT_OF(side) LAYOUT(side)
@@ -41,7 +41,7 @@ static const char compute_source[] =
                                       "        imageStore(u_to, at, texelFetch(u_from, at, 0));\n"
                                       "}\n";
 
-/* What is newer than 3.3; NULL where the context has it not. */
+/* Newer than OpenGL 3.3; NULL where the context lacks them. */
 static PFNGLDISPATCHCOMPUTEPROC dispatch_compute;
 static PFNGLBINDIMAGETEXTUREPROC bind_image_texture;
 static PFNGLMEMORYBARRIERPROC memory_barrier;
@@ -67,7 +67,7 @@ static const struct format {
 
 typedef struct job {
     void (*once)(const struct job *, int i);
-    GLuint maps[2], framebuffers[2]; /* copied to and fro, so that none can be left out */
+    GLuint maps[2], framebuffers[2]; /* copied to and fro, so that no copy can be optimised away */
     GLenum format;
     int width, height;
     GLsizeiptr size;
@@ -94,7 +94,7 @@ static void dispatch(const job *j, int i)
     memory_barrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
-/* Least time of one, from runs of `count`. */
+/* The least time of one copy, from runs of `count`. */
 static double least_ms(const job *j, int count)
 {
     double least = 1e9;

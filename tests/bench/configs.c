@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * To measure one more choice, add a row to `changes`.
+ * To measure one more setting, add a row to `changes`.
  */
 #include "configs.h"
+
+#include "peers.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -23,37 +25,39 @@ static const struct change {
     int technique;    /* ANY: each */
     bool every_level; /* or the default one alone */
     int half, upsample, blur, rounds, samples;
-    bool no_angle_weight, beyond;
+    bool no_angle_weight;
+    bench_inputs inputs;
 } changes[] = {
-    {"", ANY, true, SAME, SAME, SAME, SAME, SAME, false, false},
-    {"-full", ANY, true, false, SAME, SAME, SAME, SAME, false, false},
-    {"-half", ANY, true, true, SAME, SAME, SAME, SAME, false, false},
-    {"-noblur", ANY, false, SAME, SAME, GLSSAO_BLUR_NONE, 0, SAME, false, false},
-    {"-gaussian-1", ANY, false, SAME, SAME, GLSSAO_BLUR_GAUSSIAN, 1, SAME, false, false},
-    {"-gaussian-2", ANY, false, SAME, SAME, GLSSAO_BLUR_GAUSSIAN, 2, SAME, false, false},
-    {"-gaussian-3", ANY, false, SAME, SAME, GLSSAO_BLUR_GAUSSIAN, 3, SAME, false, false},
-    {"-gaussian-4", ANY, false, SAME, SAME, GLSSAO_BLUR_GAUSSIAN, 4, SAME, false, false},
-    {"-bilateral-1", ANY, false, SAME, SAME, GLSSAO_BLUR_BILATERAL, 1, SAME, false, false},
-    {"-bilateral-2", ANY, false, SAME, SAME, GLSSAO_BLUR_BILATERAL, 2, SAME, false, false},
-    {"-bilateral-3", ANY, false, SAME, SAME, GLSSAO_BLUR_BILATERAL, 3, SAME, false, false},
-    {"-bilateral-4", ANY, false, SAME, SAME, GLSSAO_BLUR_BILATERAL, 4, SAME, false, false},
-    {"-box-1", ANY, false, SAME, SAME, GLSSAO_BLUR_BOX, 1, SAME, false, false},
-    {"-box-2", ANY, false, SAME, SAME, GLSSAO_BLUR_BOX, 2, SAME, false, false},
-    {"-box-3", ANY, false, SAME, SAME, GLSSAO_BLUR_BOX, 3, SAME, false, false},
-    {"-box-4", ANY, false, SAME, SAME, GLSSAO_BLUR_BOX, 4, SAME, false, false},
-    {"-4samples", GLSSAO_CLASSIC, false, SAME, SAME, SAME, SAME, 4, false, false},
-    {"-8samples", GLSSAO_CLASSIC, false, SAME, SAME, SAME, SAME, 8, false, false},
-    {"-noangle", GLSSAO_CLASSIC, false, SAME, SAME, SAME, SAME, SAME, true, false},
-    {"-planar-1", ANY, false, SAME, SAME, GLSSAO_BLUR_PLANAR, 1, SAME, false, false},
-    {"-planar-2", ANY, false, SAME, SAME, GLSSAO_BLUR_PLANAR, 2, SAME, false, false},
-    {"-upsample", ANY, false, true, true, SAME, SAME, SAME, false, false},
-    {"-noupsample", ANY, false, true, false, SAME, SAME, SAME, false, false},
-    {"-beyond", GLSSAO_HORIZON, true, SAME, SAME, SAME, SAME, SAME, false, true},
-    {"-12samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 12, false, false},
-    {"-16samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 16, false, false},
-    {"-24samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 24, false, false},
-    {"-48samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 48, false, false},
-    {"-64samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 64, false, false},
+    {"", ANY, true, SAME, SAME, SAME, SAME, SAME, false, INPUTS_NORMALS},
+    {"-depth", ANY, true, SAME, SAME, SAME, SAME, SAME, false, INPUTS_DEPTH},
+    {"-full", ANY, true, false, SAME, SAME, SAME, SAME, false, INPUTS_NORMALS},
+    {"-half", ANY, true, true, SAME, SAME, SAME, SAME, false, INPUTS_NORMALS},
+    {"-noblur", ANY, false, SAME, SAME, GLSSAO_BLUR_NONE, 0, SAME, false, INPUTS_NORMALS},
+    {"-gaussian-1", ANY, false, SAME, SAME, GLSSAO_BLUR_GAUSSIAN, 1, SAME, false, INPUTS_NORMALS},
+    {"-gaussian-2", ANY, false, SAME, SAME, GLSSAO_BLUR_GAUSSIAN, 2, SAME, false, INPUTS_NORMALS},
+    {"-gaussian-3", ANY, false, SAME, SAME, GLSSAO_BLUR_GAUSSIAN, 3, SAME, false, INPUTS_NORMALS},
+    {"-gaussian-4", ANY, false, SAME, SAME, GLSSAO_BLUR_GAUSSIAN, 4, SAME, false, INPUTS_NORMALS},
+    {"-bilateral-1", ANY, false, SAME, SAME, GLSSAO_BLUR_BILATERAL, 1, SAME, false, INPUTS_NORMALS},
+    {"-bilateral-2", ANY, false, SAME, SAME, GLSSAO_BLUR_BILATERAL, 2, SAME, false, INPUTS_NORMALS},
+    {"-bilateral-3", ANY, false, SAME, SAME, GLSSAO_BLUR_BILATERAL, 3, SAME, false, INPUTS_NORMALS},
+    {"-bilateral-4", ANY, false, SAME, SAME, GLSSAO_BLUR_BILATERAL, 4, SAME, false, INPUTS_NORMALS},
+    {"-box-1", ANY, false, SAME, SAME, GLSSAO_BLUR_BOX, 1, SAME, false, INPUTS_NORMALS},
+    {"-box-2", ANY, false, SAME, SAME, GLSSAO_BLUR_BOX, 2, SAME, false, INPUTS_NORMALS},
+    {"-box-3", ANY, false, SAME, SAME, GLSSAO_BLUR_BOX, 3, SAME, false, INPUTS_NORMALS},
+    {"-box-4", ANY, false, SAME, SAME, GLSSAO_BLUR_BOX, 4, SAME, false, INPUTS_NORMALS},
+    {"-4samples", GLSSAO_CLASSIC, false, SAME, SAME, SAME, SAME, 4, false, INPUTS_NORMALS},
+    {"-8samples", GLSSAO_CLASSIC, false, SAME, SAME, SAME, SAME, 8, false, INPUTS_NORMALS},
+    {"-noangle", GLSSAO_CLASSIC, false, SAME, SAME, SAME, SAME, SAME, true, INPUTS_NORMALS},
+    {"-planar-1", ANY, false, SAME, SAME, GLSSAO_BLUR_PLANAR, 1, SAME, false, INPUTS_NORMALS},
+    {"-planar-2", ANY, false, SAME, SAME, GLSSAO_BLUR_PLANAR, 2, SAME, false, INPUTS_NORMALS},
+    {"-upsample", ANY, false, true, true, SAME, SAME, SAME, false, INPUTS_NORMALS},
+    {"-noupsample", ANY, false, true, false, SAME, SAME, SAME, false, INPUTS_NORMALS},
+    {"-beyond", GLSSAO_HORIZON, true, SAME, SAME, SAME, SAME, SAME, false, INPUTS_BEYOND},
+    {"-12samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 12, false, INPUTS_NORMALS},
+    {"-16samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 16, false, INPUTS_NORMALS},
+    {"-24samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 24, false, INPUTS_NORMALS},
+    {"-48samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 48, false, INPUTS_NORMALS},
+    {"-64samples", GLSSAO_HORIZON, false, SAME, SAME, SAME, SAME, 64, false, INPUTS_NORMALS},
 };
 
 static glssao_settings apply(const struct change *c, glssao_technique technique, glssao_quality level)
@@ -73,7 +77,6 @@ static glssao_settings apply(const struct change *c, glssao_technique technique,
     return s;
 }
 
-/* A change that changes nothing would only be measured twice. */
 static bool changes_nothing(const glssao_settings *a, const glssao_settings *b)
 {
     const bool same_result_size = a->upsample == b->upsample || !a->half_resolution;
@@ -82,13 +85,13 @@ static bool changes_nothing(const glssao_settings *a, const glssao_settings *b)
            a->no_angle_weight == b->no_angle_weight;
 }
 
-/* Under another id: to add upsampling can be the same as to halve the size. */
+/* Whether the same settings have another id: upsampling and half size can be the same change. */
 static bool measured(const bench_config *configs, int count, const bench_config *config)
 {
     const glssao_settings *s = &config->settings;
     for (int i = 0; i < count; i++) {
         const bench_config *other = &configs[i];
-        if (!config->level && !other->level && !config->beyond && !other->beyond &&
+        if (!config->level && !other->level && config->inputs == INPUTS_NORMALS && other->inputs == INPUTS_NORMALS &&
             other->settings.technique == s->technique && changes_nothing(&other->settings, s))
             return true;
     }
@@ -97,10 +100,35 @@ static bool measured(const bench_config *configs, int count, const bench_config 
 
 static bool taken(const glssao_effect *effect, const glssao_settings *settings)
 {
-    glssao_frame frame = {.depth_texture = 1, .normal_texture = 1}; /* names are not looked at in a plan */
+    glssao_frame frame = {.depth_texture = 1, .normal_texture = 1}; /* a plan does not look at the names */
     for (int i = 0; i < 16; i += 5)
         frame.projection[i] = 1;
     return glssao_plan_frame(effect, &frame, settings).passes[GLSSAO_PASS_ESTIMATE].run;
+}
+
+static int add_rays(const options *o, bench_config *out, int count)
+{
+    for (int rays = 1; rays <= o->most_rays && count < BENCH_CONFIGS_MAX; rays *= 2) {
+        bench_config c = {.kind = BENCH_RAYS, .level = true, .rays = rays};
+        snprintf(c.id, sizeof c.id, "rays-%d", rays);
+        if (options_match(o->only, c.id))
+            out[count++] = c;
+    }
+    return count;
+}
+
+static int add_peers(const options *o, bench_config *out, int count)
+{
+    for (int i = 0; o->peers && i < peers_count(o->peer_grid) && count < BENCH_CONFIGS_MAX; i++) {
+        bench_config c = {.kind = BENCH_PEER, .level = true, .peer = i};
+        bool listed = false;
+        peers_name(i, c.id);
+        for (int k = 0; k < count; k++)
+            listed |= strcmp(out[k].id, c.id) == 0;
+        if (!listed && options_match(o->only, c.id))
+            out[count++] = c;
+    }
+    return count;
 }
 
 int bench_configs_list(const options *o, const glssao_effect *effect, bench_config out[BENCH_CONFIGS_MAX])
@@ -115,16 +143,16 @@ int bench_configs_list(const options *o, const glssao_effect *effect, bench_conf
                     continue;
                 bench_config config = {.settings = apply(c, (glssao_technique)t, (glssao_quality)level),
                                        .level = c->suffix[0] == '\0',
-                                       .beyond = c->beyond};
+                                       .inputs = c->inputs};
                 snprintf(config.id, sizeof config.id, "%s-%s%s", technique_names[t], level_names[level], c->suffix);
-                if ((config.level || config.beyond || !changes_nothing(&config.settings, &base)) &&
+                if ((config.level || config.inputs != INPUTS_NORMALS || !changes_nothing(&config.settings, &base)) &&
                     !measured(out, count, &config) && options_match(o->only, config.id) && count < BENCH_CONFIGS_MAX &&
                     taken(effect, &config.settings))
                     out[count++] = config;
             }
         }
     }
-    return count;
+    return add_peers(o, out, add_rays(o, out, count));
 }
 
 const char *bench_technique_name(glssao_technique technique)
@@ -137,9 +165,9 @@ const char *bench_blur_name(glssao_blur blur)
     return blur_names[blur];
 }
 
-bool bench_has_contrast(glssao_technique technique)
+bool bench_has_contrast(const bench_config *c)
 {
-    return technique != GLSSAO_HORIZON;
+    return c->kind == BENCH_PEER || (c->kind == BENCH_EFFECT && c->settings.technique != GLSSAO_HORIZON);
 }
 
 glssao_settings bench_scale_settings(const glssao_settings *settings, float radius)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * glssao-economy: what a frame costs as the plan leaves out what the scene does not call for. Takes times with and
- * without, in turns, and writes tables and charts. No rays are traced.
+ * glssao-economy: what a frame saves by skipping passes and tiles that the scene does not need. It times frames with
+ * and without, in turns, and writes tables. No rays are traced.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "economy.h"
@@ -59,7 +59,7 @@ double economy_skipped_share(const glssao_effect *effect)
     return (double)skipped / (width * height);
 }
 
-/* CPU time of all threads where the rasteriser is software, else the GPU's. */
+/* CPU time of all threads on a software rasteriser, GPU time otherwise. */
 static bool run_once(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings, bool software,
                      double *out_ms, char *error, size_t error_size)
 {
@@ -91,7 +91,7 @@ static double worst_difference(glssao_effect *const effects[2])
     }
     for (int i = 0; pictures[0] && pictures[1] && i < w * h; i++) {
         const double off = fabs((double)pictures[0][i] - (double)pictures[1][i]) * 65535;
-        worst = !(off <= worst) ? off : worst; /* also where it is no number */
+        worst = !(off <= worst) ? off : worst; /* also for NaN */
     }
     free(pictures[0]);
     free(pictures[1]);
@@ -113,7 +113,7 @@ bool economy_compare(const economy *e, const glssao_frame *frame, int width, int
                                       .width = width,
                                       .height = height,
                                       .no_timers = e->software,
-                                      .path = GLSSAO_PATH_FRAGMENT}; /* only draws leave tiles out */
+                                      .path = GLSSAO_PATH_FRAGMENT}; /* only draws can skip tiles */
         glssao_settings s = *settings;
         s.tiles = tiles[i];
         done = glssao_create(&config, &effects[i]) == GLSSAO_OK && glssao_compute(effects[i], frame, &s) == GLSSAO_OK;
@@ -142,16 +142,15 @@ bool economy_compare(const economy *e, const glssao_frame *frame, int width, int
     return done;
 }
 
-static const char *const first_names[ECONOMY_FIRSTS] = {"nothing kept by anyone", "the driver's own cache is warm",
-                                                        "the same, and programs are written to a folder",
-                                                        "the same, and programs come from that folder"};
+static const char *const first_names[ECONOMY_FIRSTS] = {"no cache", "the driver's cache",
+                                                        "the driver's cache; program_cache is being written",
+                                                        "the driver's cache and program_cache"};
 
 const char *economy_first_name(int first)
 {
     return first_names[first];
 }
 
-/* The driver's cache lies in a folder of this run alone: main sees to that. */
 static bool measure_firsts(economy *e, const char *folder, char *error, size_t error_size)
 {
     const int w = e->options->time_size[0], h = e->options->time_size[1];
@@ -161,7 +160,7 @@ static bool measure_firsts(economy *e, const char *folder, char *error, size_t e
     gbuffer g = {.depth = 0};
     scene *s = bench_scene_open(&b, w, h, &view, &radius, error, error_size);
     bool done = s && gbuffer_draw(&g, s, &view, 0, error, error_size);
-    const glssao_frame frame = gbuffer_frame(&g);
+    const glssao_frame frame = gbuffer_frame(&g, false);
     for (int i = 0; done && i < ECONOMY_FIRSTS; i++) {
         const glssao_config config = {.load = context_load,
                                       .load_user = e->context,
@@ -198,7 +197,7 @@ static bool measure_scene(economy *e, const bench_scene *b, char *error, size_t 
         snprintf(row->name, sizeof row->name, "%s", b->name);
         const glssao_settings settings = economy_settings(t);
         const glssao_settings scaled = bench_scale_settings(&settings, radius);
-        const glssao_frame frame = gbuffer_frame(&g);
+        const glssao_frame frame = gbuffer_frame(&g, false);
         done = economy_compare(e, &frame, view.width, view.height, &scaled, row, error, error_size);
         fprintf(stderr, "%-24s %-18s off %8.2f ms, on %8.2f ms, ratio %.3f, skipped %.3f, worst %.2f steps\n",
                 row->name, economy_config_name(t), row->ms[0], row->ms[1], row->ms[1] / row->ms[0], row->skipped,
@@ -219,7 +218,7 @@ static bool measure(economy *e, char *error, size_t error_size)
     static bench_scene scenes[BENCH_SCENES_MAX];
     char *folder = e->driver_cache;
     const double start = clock_wall_ms();
-    /* Before there is a context: Mesa keeps what it compiles, and a first frame must be one. */
+    /* Set before there is a context, so that no program of an earlier run is found in the driver's cache. */
     snprintf(folder, sizeof e->driver_cache, "%s/shader-cache-%ld", e->options->out, (long)getpid());
     if (!make_folder(folder)) {
         snprintf(error, error_size, "%s: no such folder can be made", folder);
@@ -243,8 +242,8 @@ static bool measure(economy *e, char *error, size_t error_size)
     if (!economy_measure_wholes(e, scenes, count, error, error_size) || !economy_measure_shares(e, error, error_size) ||
         !economy_measure_steps(e, error, error_size))
         return false;
-    e->seconds = (clock_wall_ms() - start) / 1e3;
-    return !e->options->doc || economy_write(e, e->options->doc, error, error_size);
+    fprintf(stderr, "%d scenes, %.0f s: %s\n", count, (clock_wall_ms() - start) / 1e3, e->options->out);
+    return economy_write(e, error, error_size);
 }
 
 int main(int argc, char **argv)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Pictures made for the purpose: rough on the left, and on the right sky or a plane.
+ * Pictures that are rough on the left, with sky or a plane on the right.
  */
 #include "economy.h"
 
@@ -69,7 +69,7 @@ bool economy_measure_shares(economy *e, char *error, size_t error_size)
             bool done = make_picture(&g, kind, (double)i / (ECONOMY_SHARES - 1));
             if (!done)
                 snprintf(error, error_size, "out of memory");
-            const glssao_frame frame = gbuffer_frame(&g);
+            const glssao_frame frame = gbuffer_frame(&g, false);
             done = done && economy_compare(e, &frame, w, h, &settings, row, error, error_size);
             gbuffer_destroy(&g);
             if (!done)

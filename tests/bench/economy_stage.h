@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Frames of the example renderer, for measuring: a scene, and what draws it.
+ * Frames of the example renderer, to be timed: a scene, and the objects that draw it.
  */
 #ifndef GLSSAO_BENCH_ECONOMY_STAGE_H
 #define GLSSAO_BENCH_ECONOMY_STAGE_H
@@ -24,7 +24,7 @@ typedef struct economy_stage {
 bool economy_stage_open(economy_stage *s, const bench_scene *b, int width, int height, char *error, size_t error_size);
 void economy_stage_close(economy_stage *s);
 
-/* What draws a stage: programs, textures, targets. */
+/* Programs, textures and targets that draw a stage. */
 typedef struct economy_player {
     const economy_stage *stage;
     scene_renderer *renderer;
@@ -38,15 +38,15 @@ bool economy_player_open(economy_player *p, const economy_stage *s, glssao_load_
                          size_t error_size);
 void economy_player_close(economy_player *p);
 
-/* What of a frame is drawn. */
+/* Which parts of a frame are drawn. */
 typedef struct economy_frame {
     int quality; /* of the horizon technique; -1: no occlusion */
     glssao_tiles tiles;
     bool main;
-    bool everything; /* normals are rebuilt though they are there, and nothing that the host knows is told */
+    bool everything; /* normals are rebuilt although they exist, and the effect gets no hints from the host */
 } economy_frame;
 
-/* Draws it, and waits for it. The renderer has been configured. */
+/* Draws the frame with the configured renderer and waits until it is done. */
 void economy_player_draw(economy_player *p, const economy_frame *frame);
 
 #endif

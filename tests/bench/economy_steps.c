@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Each step has what the one before has. */
+/* Each step adds to the one before. */
 static const struct {
     const char *what;
     bool main, sky, shadows;

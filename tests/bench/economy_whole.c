@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Whole frames of the example renderer: with everything on, whatever the scene holds, and as planned.
+ * Whole frames of the example renderer: with everything on although the scene does not need it, and as planned.
  */
 #define _XOPEN_SOURCE 700 /* nftw */
 #include "economy.h"
@@ -20,13 +20,13 @@ enum { EVERYTHING = 0, PLANNED, WARM_UP = 2 };
 static int remove_one(const char *path, const struct stat *found, int kind, struct FTW *where)
 {
     (void)found;
-    /* Folders stay: Mesa does without its cache where one is gone. So does its index, which it has open. */
+    /* Mesa stops caching when a folder is gone, and it has its index open, so both stay. */
     if (kind == FTW_F && strcmp(path + where->base, "index") != 0)
         remove(path);
     return 0;
 }
 
-/* What the driver kept: this run has told it to keep that in a folder of its own. */
+/* This run has told the driver to cache programs in a folder of its own. */
 static void empty_driver_cache(const economy *e)
 {
     nftw(e->driver_cache, remove_one, 16, FTW_PHYS);
@@ -46,7 +46,7 @@ static void draw(economy_player *p, int which)
     economy_player_draw(p, &frame);
 }
 
-/* Programs, textures and the first frame, with nothing kept from before. */
+/* Programs, textures and the first frame, with an empty cache. */
 static bool open_player(const economy *e, economy_player *p, const economy_stage *s, int which, economy_whole *out,
                         char *error, size_t error_size)
 {
@@ -97,7 +97,7 @@ static bool measure_one(const economy *e, const bench_scene *b, economy_whole *o
 
 bool economy_measure_wholes(economy *e, const bench_scene *scenes, int count, char *error, size_t error_size)
 {
-    /* Counted at the table of functions, as the effect's are. */
+    /* Count the renderer's GL calls, too. */
     gl_counter_start(context_load, e->context);
     bool done = gl_load(gl_counter_load, NULL, error, error_size);
     for (int i = 0; done && i < count; i++) {

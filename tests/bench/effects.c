@@ -77,33 +77,20 @@ static void read_map(const glssao_effect *effect, const map_reader *m, float *ou
     gl.ReadPixels(0, 0, m->width, m->height, GL_RED, GL_FLOAT, out);
 }
 
-static bool run(effects *e, map_reader *m, const gbuffer *g, float radius, const glssao_settings *settings,
-                bool accumulates, float *out, char *error, size_t error_size)
+bool effects_run(effects *e, map_reader *m, const effect_job *job, float *out, char *error, size_t error_size)
 {
-    glssao_effect *effect = effects_get(e, g, settings, error, error_size);
+    glssao_effect *effect = effects_get(e, job->gbuffer, job->settings, error, error_size);
     if (!effect)
         return false;
-    const glssao_settings scaled = bench_scale_settings(settings, radius);
-    const glssao_frame frame = gbuffer_frame(g);
+    const glssao_settings scaled = bench_scale_settings(job->settings, job->radius);
+    const glssao_frame frame = gbuffer_frame(job->gbuffer, job->depth_alone);
     glssao_restart_accumulation(effect);
     const glssao_result result =
-        accumulates ? glssao_accumulate(effect, &frame, &scaled) : glssao_compute(effect, &frame, &scaled);
+        job->accumulates ? glssao_accumulate(effect, &frame, &scaled) : glssao_compute(effect, &frame, &scaled);
     if (result == GLSSAO_OK)
         read_map(effect, m, out);
     else
-        snprintf(error, error_size, "%s: %s", accumulates ? "glssao_accumulate" : "glssao_compute",
+        snprintf(error, error_size, "%s: %s", job->accumulates ? "glssao_accumulate" : "glssao_compute",
                  glssao_result_string(result));
     return result == GLSSAO_OK;
-}
-
-bool effects_run(effects *e, map_reader *m, const gbuffer *g, float radius, const glssao_settings *settings, float *out,
-                 char *error, size_t error_size)
-{
-    return run(e, m, g, radius, settings, false, out, error, error_size);
-}
-
-bool effects_run_noise(effects *e, map_reader *m, const gbuffer *g, float radius, const glssao_settings *settings,
-                       float *out, char *error, size_t error_size)
-{
-    return run(e, m, g, radius, settings, true, out, error, error_size);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Runs the effect on stored views. One effect for each technique and size, with a margin or without, because an effect
- * makes its maps anew when half_resolution changes, which would be timed too.
+ * Runs the effect on stored views. There is one effect for each technique, size and margin, because an effect
+ * reallocates its maps when half_resolution changes, and that must not be timed.
  */
 #ifndef GLSSAO_BENCH_EFFECTS_H
 #define GLSSAO_BENCH_EFFECTS_H
@@ -33,16 +33,20 @@ typedef struct effects {
 
 void effects_destroy(effects *e);
 
+/* One estimate of a view. */
+typedef struct effect_job {
+    const gbuffer *gbuffer;
+    const glssao_settings *settings; /* lengths as in bench_config; they are scaled to `radius` */
+    float radius;
+    bool depth_alone; /* no normals are handed over */
+    bool accumulates; /* the first estimate of glssao_accumulate, whose noise follows the seed; horizon, full size */
+} effect_job;
+
 /* The effect that these settings are run on; NULL, with one line in `error`, where it can't be made. */
 glssao_effect *effects_get(effects *e, const gbuffer *g, const glssao_settings *settings, char *error,
                            size_t error_size);
 
-/* Accessibility of the view at full size into `out`; settings as in bench_config, scaled to the radius here. */
-bool effects_run(effects *e, map_reader *m, const gbuffer *g, float radius, const glssao_settings *settings, float *out,
-                 char *error, size_t error_size);
-
-/* The same for the first estimate of glssao_accumulate, whose noise follows the effect's seed; horizon, full size. */
-bool effects_run_noise(effects *e, map_reader *m, const gbuffer *g, float radius, const glssao_settings *settings,
-                       float *out, char *error, size_t error_size);
+/* Accessibility of the view at full size into `out`. */
+bool effects_run(effects *e, map_reader *m, const effect_job *job, float *out, char *error, size_t error_size);
 
 #endif

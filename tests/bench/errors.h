@@ -8,6 +8,10 @@
 #include "effects.h"
 #include "results.h"
 
+/* Runs one configuration on one view, with power 1 where `plain`. */
+bool errors_run(const results *r, const bench_config *c, int view, bool plain, effects *e, map_reader *m, float *out,
+                char *error, size_t error_size);
+
 /* Fills the error figures of r->configs. False, with one line in `error`. */
 bool errors_measure(results *r, effects *e, map_reader *m, char *error, size_t error_size);
 

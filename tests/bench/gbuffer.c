@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The pre-pass, and reading back what it left.
+ * Draws the pre-pass and reads it back.
  */
 #include "gbuffer.h"
 
@@ -83,10 +83,10 @@ void gbuffer_destroy(gbuffer *g)
     *g = (gbuffer){0};
 }
 
-glssao_frame gbuffer_frame(const gbuffer *g)
+glssao_frame gbuffer_frame(const gbuffer *g, bool depth_alone)
 {
     glssao_frame frame = {.depth_texture = g->depth,
-                          .normal_texture = g->normals,
+                          .normal_texture = depth_alone ? 0 : g->normals,
                           .margin = g->margin,
                           .back_texture = g->layers[0],
                           .second_texture = g->layers[1]};

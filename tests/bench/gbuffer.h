@@ -26,10 +26,11 @@ bool gbuffer_draw(gbuffer *g, const scene *s, const scene_view *view, int margin
 int gbuffer_margin(int width);
 void gbuffer_destroy(gbuffer *g);
 
-glssao_frame gbuffer_frame(const gbuffer *g);
+/* What a host hands over; without normals where `depth_alone`. */
+glssao_frame gbuffer_frame(const gbuffer *g, bool depth_alone);
 
 /* View distances (0: nothing there) and normals (three floats a pixel), rows bottom to top; the caller frees both.
- * NULL in both where memory is short. */
+ * Both are NULL when memory is short. */
 void gbuffer_read(const gbuffer *g, float **out_distance, float **out_normals);
 
 /* Scene units of view distance that one step of the depth buffer stands for, at that view distance. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Sums first, figures from them later, so that views can be merged and exponents tried without the pictures.
+ * Errors, and the exponent that fits best.
  */
 #include "measure.h"
 
@@ -13,47 +13,44 @@ static int bin_of(double value)
     return bin < 0 ? 0 : bin >= MEASURE_BINS ? MEASURE_BINS - 1 : bin;
 }
 
-void error_add(error_sum *e, const float *picture, const float *truth, const uint8_t *classes, size_t count)
+static double percentile(const double histogram[MEASURE_BINS], double below)
 {
+    double sum = 0;
+    int bin = 0;
+    while (bin < MEASURE_BINS - 1 && sum + histogram[bin] < below)
+        sum += histogram[bin++];
+    return (bin + 1.0) / MEASURE_BINS;
+}
+
+error_measure measure_error(const float *picture, const float *truth, const uint8_t *classes, size_t count)
+{
+    double histogram[MEASURE_BINS] = {0}, pixels[PIXEL_EDGE + 1] = {0}, squares[PIXEL_EDGE + 1] = {0};
+    double sum = 0, off = 0, nonfinite = 0;
     for (size_t i = 0; i < count; i++) {
         if (classes[i] == PIXEL_NONE)
             continue;
-        e->weight++;
         if (!isfinite(picture[i])) {
-            e->nonfinite++;
+            nonfinite++;
             continue;
         }
         const double error = (double)picture[i] - (double)truth[i];
-        e->sum += error;
-        e->sum2 += error * error;
-        e->histogram[bin_of(fabs(error))]++;
+        pixels[classes[i]]++;
+        squares[classes[i]] += error * error;
+        sum += error;
+        off += fabs(error) > 0.1;
+        histogram[bin_of(fabs(error))]++;
     }
-}
-
-void error_merge(error_sum *e, const error_sum *from)
-{
-    const double scale = from->weight > 0 ? 1 / from->weight : 0;
-    e->weight += from->weight * scale;
-    e->nonfinite += from->nonfinite * scale;
-    e->sum += from->sum * scale;
-    e->sum2 += from->sum2 * scale;
-    for (int i = 0; i < MEASURE_BINS; i++)
-        e->histogram[i] += from->histogram[i] * scale;
-}
-
-error_measure error_finish(const error_sum *e)
-{
-    const double finite = e->weight - e->nonfinite;
+    const double finite = pixels[PIXEL_SMOOTH] + pixels[PIXEL_EDGE];
     if (!(finite > 0))
-        return (error_measure){.nonfinite_share = e->weight > 0 ? 1 : 0};
-    error_measure m = {
-        .rmse = sqrt(e->sum2 / finite), .mean = e->sum / finite, .nonfinite_share = e->nonfinite / e->weight};
-    double below = 0;
-    int bin = 0;
-    while (bin < MEASURE_BINS - 1 && below + e->histogram[bin] < 0.95 * finite)
-        below += e->histogram[bin++];
-    m.p95 = (bin + 1.0) / MEASURE_BINS;
-    return m;
+        return (error_measure){.nonfinite_share = nonfinite > 0 ? 1 : 0};
+    return (error_measure){.rmse = sqrt((squares[PIXEL_SMOOTH] + squares[PIXEL_EDGE]) / finite),
+                           .mean = sum / finite,
+                           .p95 = percentile(histogram, 0.95 * finite),
+                           .p99 = percentile(histogram, 0.99 * finite),
+                           .off_share = off / finite,
+                           .nonfinite_share = nonfinite / (finite + nonfinite),
+                           .smooth_rmse = sqrt(squares[PIXEL_SMOOTH] / fmax(pixels[PIXEL_SMOOTH], 1)),
+                           .edge_rmse = sqrt(squares[PIXEL_EDGE] / fmax(pixels[PIXEL_EDGE], 1))};
 }
 
 void fit_add(fit_sum *f, const float *picture, const float *truth, const uint8_t *classes, size_t count)
@@ -61,63 +58,41 @@ void fit_add(fit_sum *f, const float *picture, const float *truth, const uint8_t
     for (size_t i = 0; i < count; i++) {
         if (classes[i] == PIXEL_NONE || !isfinite(picture[i]))
             continue;
-        const int c = classes[i], bin = bin_of((double)picture[i]);
+        const int bin = bin_of((double)picture[i]);
         const double t = (double)truth[i];
-        f->weight[c][bin]++;
-        f->picture[c][bin] += (double)picture[i];
-        f->truth[c][bin] += t;
-        f->truth2[c][bin] += t * t;
+        f->weight[bin]++;
+        f->picture[bin] += (double)picture[i];
+        f->truth[bin] += t;
+        f->truth2[bin] += t * t;
     }
 }
 
 void fit_merge(fit_sum *f, const fit_sum *from)
 {
     double weight = 0;
-    for (int c = 0; c < PIXEL_CLASSES; c++)
-        for (int i = 0; i < MEASURE_BINS; i++)
-            weight += from->weight[c][i];
+    for (int i = 0; i < MEASURE_BINS; i++)
+        weight += from->weight[i];
     const double scale = weight > 0 ? 1 / weight : 0;
-    for (int c = 0; c < PIXEL_CLASSES; c++) {
-        for (int i = 0; i < MEASURE_BINS; i++) {
-            f->weight[c][i] += from->weight[c][i] * scale;
-            f->picture[c][i] += from->picture[c][i] * scale;
-            f->truth[c][i] += from->truth[c][i] * scale;
-            f->truth2[c][i] += from->truth2[c][i] * scale;
-        }
+    for (int i = 0; i < MEASURE_BINS; i++) {
+        f->weight[i] += from->weight[i] * scale;
+        f->picture[i] += from->picture[i] * scale;
+        f->truth[i] += from->truth[i] * scale;
+        f->truth2[i] += from->truth2[i] * scale;
     }
 }
 
-typedef struct moments {
-    double weight, sum, sum2;
-} moments;
-
-static moments error_moments(const fit_sum *f, double exponent, int of_class)
+double fit_rmse(const fit_sum *f, double exponent)
 {
-    moments m = {0, 0, 0};
-    for (int c = 0; c < PIXEL_CLASSES; c++) {
-        for (int i = 0; i < MEASURE_BINS; i++) {
-            const double w = f->weight[c][i];
-            if ((of_class != FIT_ALL && of_class != c) || !(w > 0))
-                continue;
-            const double a = pow(f->picture[c][i] / w, exponent);
-            m.weight += w;
-            m.sum += w * a - f->truth[c][i];
-            m.sum2 += w * a * a - 2 * a * f->truth[c][i] + f->truth2[c][i];
-        }
+    double weight = 0, sum2 = 0;
+    for (int i = 0; i < MEASURE_BINS; i++) {
+        const double w = f->weight[i];
+        if (!(w > 0))
+            continue;
+        const double a = pow(f->picture[i] / w, exponent);
+        weight += w;
+        sum2 += w * a * a - 2 * a * f->truth[i] + f->truth2[i];
     }
-    return m;
-}
-
-double fit_rmse(const fit_sum *f, double exponent, int of_class)
-{
-    const moments m = error_moments(f, exponent, of_class);
-    return m.weight > 0 ? sqrt(fmax(m.sum2 / m.weight, 0)) : 0;
-}
-
-double fit_mean(const fit_sum *f, double exponent)
-{
-    const moments m = error_moments(f, exponent, FIT_ALL);
-    return m.weight > 0 ? m.sum / m.weight : 0;
+    return weight > 0 ? sqrt(fmax(sum2 / weight, 0)) : 0;
 }
 
 double fit_exponent(const fit_sum *f)
@@ -128,7 +103,7 @@ double fit_exponent(const fit_sum *f)
     int best = 0;
     double best_rmse = INFINITY;
     for (int i = 0; i < SCAN; i++) {
-        const double rmse = fit_rmse(f, least * pow(ratio, i), FIT_ALL);
+        const double rmse = fit_rmse(f, least * pow(ratio, i));
         if (rmse < best_rmse) {
             best_rmse = rmse;
             best = i;
@@ -138,20 +113,20 @@ double fit_exponent(const fit_sum *f)
     double low = least * pow(ratio, best > 0 ? best - 1 : 0);
     double high = least * pow(ratio, best < SCAN - 1 ? best + 1 : best);
     double a = high - golden * (high - low), b = low + golden * (high - low);
-    double rmse_a = fit_rmse(f, a, FIT_ALL), rmse_b = fit_rmse(f, b, FIT_ALL);
+    double rmse_a = fit_rmse(f, a), rmse_b = fit_rmse(f, b);
     while (high - low > 1e-4) {
         if (rmse_a < rmse_b) {
             high = b;
             b = a;
             rmse_b = rmse_a;
             a = high - golden * (high - low);
-            rmse_a = fit_rmse(f, a, FIT_ALL);
+            rmse_a = fit_rmse(f, a);
         } else {
             low = a;
             a = b;
             rmse_a = rmse_b;
             b = low + golden * (high - low);
-            rmse_b = fit_rmse(f, b, FIT_ALL);
+            rmse_b = fit_rmse(f, b);
         }
     }
     return (low + high) / 2;

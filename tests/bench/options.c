@@ -24,6 +24,8 @@ static const option table[] = {
     {"pick", "NAME,...", "only scenes whose name holds one of these", KIND_TEXT, AT(pick), 0, 0},
     {"only", "ID,...", "only configurations whose id holds one of these", KIND_TEXT, AT(only), 0, 0},
     {"all-views", NULL, "every view of every scene, not the first of the main ones", KIND_FLAG, AT(all_views), 0, 0},
+    {"peer-grid", NULL, "peers with many settings, to find their best; with --only PEER", KIND_FLAG, AT(peer_grid), 0,
+     0},
     {"size", "WxH", "size at which errors are measured (960x540)", KIND_SIZE, AT(size), 16, 8192},
     {"rays", "N", "rays a pixel of the truth (512)", KIND_INT, AT(rays), 1, 1 << 20},
     {"cache", "DIR", "where traced truths are kept (out/bench-cache)", KIND_TEXT, AT(cache), 0, 0},
@@ -31,17 +33,22 @@ static const option table[] = {
     {"frames", "N", "timed frames of each configuration, 0: no times (15)", KIND_INT, AT(frames), 0, 10000},
     {"time-scene", "NAME", "the scene times are taken on (steps)", KIND_TEXT, AT(time_scene), 0, 0},
     {"time-all", NULL, "times on every scene", KIND_FLAG, AT(time_all), 0, 0},
+    {"most-rays", "N", "ray tracing as a peer with 1, 2, 4 to N rays a pixel, 0: none (512)", KIND_INT, AT(most_rays),
+     0, 1 << 16},
+    {"sequence-frames", "N", "frames of a moving camera for frame and roll change, 0: none (6)", KIND_INT,
+     AT(sequence_frames), 0, 1000},
     {"oracle-step", "N", "the error is split on one pixel of every N x N (4)", KIND_INT, AT(oracle_step), 1, 64},
     {"oracle-rays", "N", "rays a pixel through the depth map (256)", KIND_INT, AT(oracle_rays), 1, 65536},
     {"split-seeds", "N", "seeds whose mean stands for convergence, 0: no split (64)", KIND_INT, AT(split_seeds), 0,
      4096},
-    {"out", "DIR", "where everything is written (out/bench)", KIND_TEXT, AT(out), 0, 0},
-    {"doc", "FILE.md", "writes the report, with its pictures in pictures/ beside it", KIND_TEXT, AT(doc), 0, 0},
+    {"out", "DIR", "where tables and pictures are written (out/bench)", KIND_TEXT, AT(out), 0, 0},
+    {"peers", "NODE_MODULES", "also the effects of the npm packages there (docs/comparison.md)", KIND_TEXT, AT(peers),
+     0, 0},
     {"quick", NULL, "built-in scenes, small and rough: under 3 minutes on 2 cores", KIND_FLAG, AT(quick), 0, 0},
-    {"check", NULL, "also fails where the figures are not finite and ordered as they must be", KIND_FLAG, AT(check), 0,
-     0},
+    {"check", NULL, "also fails where figures are not finite or not in the right order", KIND_FLAG, AT(check), 0, 0},
     {"context", "auto|egl|osmesa", "how to get OpenGL (auto)", KIND_WORD, AT(context), 0, 0},
-    {"path", "auto|fragment|compute", "how passes run that can run both ways (auto)", KIND_WORD, AT(path), 0, 0},
+    {"path", "auto|fragment|compute", "fragment or compute shaders, where both will do (auto)", KIND_WORD, AT(path), 0,
+     0},
     {"fold", "N", "glssao-tune: searches on even scenes (0), on odd ones (1), or on all (2)", KIND_INT, AT(fold), 0, 2},
     {"rounds", "N", "glssao-tune: passes over its constants (12)", KIND_INT, AT(rounds), 0, 1000},
     {"seed", "N", "of every random input (0)", KIND_SEED, AT(seed), 0, 0},
@@ -136,7 +143,7 @@ static const option *find(const char *argument)
     return NULL;
 }
 
-/* Small enough for every build of a project, and still the whole chain from tracing to the chart. */
+/* The whole chain from tracing to the tables, small enough for CI. */
 static void set_quick(options *o)
 {
     o->size[0] = 320;
@@ -147,14 +154,22 @@ static void set_quick(options *o)
     o->frames = 3;
     o->oracle_rays = 64;
     o->split_seeds = 8;
+    o->most_rays = 16;
+    o->sequence_frames = 3;
 }
 
+/* Folders of this machine are called what the help calls them. */
 static void keep_command(int argc, char **argv, options *out)
 {
     const char *slash = strrchr(argv[0], '/');
     size_t length = (size_t)snprintf(out->command, sizeof out->command, "%s", slash ? slash + 1 : argv[0]);
-    for (int i = 1; i < argc && length < sizeof out->command; i++)
-        length += (size_t)snprintf(out->command + length, sizeof out->command - length, " %s", argv[i]);
+    for (int i = 1; i < argc && length < sizeof out->command; i++) {
+        const option *before = find(argv[i - 1]);
+        const bool folder = before && before->kind == KIND_TEXT &&
+                            (strcmp(before->value, "DIR") == 0 || strcmp(before->value, "NODE_MODULES") == 0);
+        length += (size_t)snprintf(out->command + length, sizeof out->command - length, " %s",
+                                   folder ? before->value : argv[i]);
+    }
 }
 
 options_result options_parse(int argc, char **argv, options *out, char *error, size_t error_size)
@@ -167,6 +182,8 @@ options_result options_parse(int argc, char **argv, options *out, char *error, s
                      .rays = 512,
                      .rounds = 12,
                      .frames = 15,
+                     .most_rays = 512,
+                     .sequence_frames = 6,
                      .oracle_step = 4,
                      .oracle_rays = 256,
                      .split_seeds = 64};

@@ -12,14 +12,18 @@
 typedef struct options {
     const char *scenes;      /* folder of glTF scenes; NULL: the built-in ones alone */
     const char *pick, *only; /* words separated by commas; NULL: all */
-    const char *cache, *out, *doc, *time_scene;
+    const char *cache, *out, *time_scene;
+    const char *peers;         /* node_modules; NULL: no peers */
     int size[2], time_size[2]; /* pixels */
     int rays, frames;
-    int rounds, fold; /* glssao-tune's */
+    int most_rays;       /* of ray tracing as a peer; 0: not measured */
+    int sequence_frames; /* 0: no frame change */
+    int rounds, fold;    /* glssao-tune's */
     int oracle_step, oracle_rays, split_seeds;
     int context, path; /* context_kind, glssao_path */
     uint32_t seed;
-    bool all_views, time_all, quick, check, help;
+    bool peer_grid, all_views, time_all, quick, check, help;
+    bool flat;          /* truths about the surfaces' own normals are wanted, too */
     char command[1024]; /* as typed, without the program's folder */
 } options;
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * A ray's view distance and the surface's are both handled as their inverse, which is linear over the screen along a
- * straight line and over a plane.
+ * Distances of the ray and of the surface are kept as their inverses, which are linear over the screen along a straight
+ * line and over a plane.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "oracle.h"
@@ -58,9 +58,9 @@ static bool agree(double a, double b)
     return fabs(a - b) < 0.5 * fmin(fabs(a), fabs(b));
 }
 
-/* The change of the inverse distance to the next of `count` pixels in a row of which `at` is number `i`. The smaller of
- * the two one-sided differences belongs to the surface that the pixel shows, if it is no steeper than 4 pixels' size a
- * pixel, or the pixels on both sides, or the next two, lie in one plane. If not, the pixel shows something thin:
+/* The change of the inverse distance to the next pixel, where `at` is pixel `i` of `count` in a row. The smaller
+ * one-sided difference belongs to the surface that the pixel shows, if its slope is at most 4 pixel sizes a pixel, or
+ * if the pixels on both sides, or the next two, lie in one plane. Otherwise the pixel shows something thin:
  * `from_normal`. */
 static double slope(const march *m, int at, int step, int i, int count, double from_normal)
 {
@@ -75,8 +75,8 @@ static double slope(const march *m, int at, int step, int i, int count, double f
     return plane || fabs(after) < gentle ? after : from_normal;
 }
 
-/* What the stored normal says of both slopes: over a plane n . x = n . p, the inverse distance is n . r / n . p with r
- * the point of the pixel's ray at distance 1. */
+/* Both slopes by the stored normal. Over a plane n . x = n . p the inverse distance is n . r / n . p, where r is the
+ * point of the pixel's ray at distance 1. */
 static void slopes_of_normal(const march *m, int x, int y, double out[2])
 {
     const scene_view *view = &m->view->gbuffer.view;
@@ -117,7 +117,7 @@ typedef struct ray_end {
     double x, y, inverse; /* pixels, pixel centres at halves; 1 / view distance */
 } ray_end;
 
-/* Where a view-space point is seen. */
+/* Projects a view-space point. */
 static ray_end project(const march *m, const double p[3])
 {
     const scene_view *view = &m->view->gbuffer.view;
@@ -127,8 +127,8 @@ static ray_end project(const march *m, const double p[3])
                      ((double)c[5] * p[1] * inverse - (double)c[9] + 1) * 0.5 * view->height, inverse};
 }
 
-/* How far the ray comes to lie behind what is seen, at the least; INFINITY: it never does. `tolerance` times the square
- * of the distance is what the depth buffer can't tell apart. */
+/* The least distance by which the ray lies behind the visible surface; INFINITY: it never does. `tolerance` times the
+ * square of the distance is the depth buffer's resolution. */
 static double least_depth_behind(const march *m, ray_end from, ray_end to, double tolerance)
 {
     const int w = m->view->gbuffer.view.width, h = m->view->gbuffer.view.height;
@@ -154,7 +154,7 @@ static double least_depth_behind(const march *m, ray_end from, ray_end to, doubl
     return least;
 }
 
-/* Two unit vectors that make a right angle with n and with each other (Duff et al. 2017). */
+/* Two unit vectors orthogonal to n and to each other (Duff et al. 2017). */
 static void basis(const double n[3], double t[3], double b[3])
 {
     const double sign = copysign(1, n[2]), a = -1 / (sign + n[2]), c = n[0] * n[1] * a;
@@ -204,7 +204,7 @@ static void march_pixel(const march *m, int i)
         m->out[k][i] = 1 - (float)blocked[k] / (float)m->rays;
 }
 
-/* Neighbouring pixels go to different threads, so that all have as much to do. */
+/* Neighbouring pixels go to different threads, so that the work is balanced. */
 static void *run_worker(void *argument)
 {
     const worker *w = argument;

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * The best that one depth layer can give: rays marched densely through the depth map, in plain C, written to be read.
- * What it gets wrong against the truth, no screen-space technique that sees only this layer can know, except by a
- * better guess of how thick things are.
+ * The best that one depth layer can give: rays marched densely through the depth map, in plain C. Its error is the
+ * error of every screen-space technique that sees only this layer, except for a better estimate of thickness.
  */
 #ifndef GLSSAO_BENCH_ORACLE_H
 #define GLSSAO_BENCH_ORACLE_H
@@ -16,12 +15,12 @@ typedef struct sampled_pixels {
     int *index; /* into the picture; malloc */
 } sampled_pixels;
 
-/* One foreground pixel at random of every step x step, the same for the same seed: a fixed one would always hit the
- * same cell of a noise tile. index is NULL where memory is short. */
+/* One random foreground pixel of every step x step. A fixed one would always hit the same cell of a noise tile. index
+ * is NULL when memory is short. */
 sampled_pixels oracle_pixels(const bench_view *v, int step, uint32_t seed);
 
-/* out[k][i]: accessibility of pixel i where what is seen is thickness[k] times the radius thick. False where memory or
- * threads are short. */
+/* out[k][i]: accessibility of pixel i if every surface is thickness[k] radii thick. False when memory or threads are
+ * short. */
 bool oracle_march(const bench_view *v, const sampled_pixels *pixels, int rays, int threads, uint32_t seed,
                   const double thickness[THICKNESS_COUNT], float *const out[THICKNESS_COUNT]);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Runs every seed once over all techniques and views, and sums up on the sampled pixels alone, so that memory stays
- * small. An estimate at convergence is the mean over the seeds, taken before the exponent.
+ * Runs every seed once over all techniques and views. Sums are kept for the sampled pixels only, to save memory. The
+ * converged estimate is the mean over the seeds, before the exponent.
  */
 #include "split.h"
 
@@ -13,9 +13,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How the estimate of one technique is run for the split, all with power 1 but the last. */
+/* Variants of one technique's estimate; all but the last have power 1. */
 typedef enum variant { FULL = 0, HALF, BLURRED, SHIPPED, VARIANT_COUNT } variant;
-enum { SINGLE_SEEDS = 4 }; /* seeds whose pictures are looked at one by one */
+enum { SINGLE_SEEDS = 4 }; /* seeds whose pictures are kept one by one */
 
 typedef struct accumulator { /* of one technique on one view; a value a sampled pixel */
     double *sum[2];          /* FULL, HALF */
@@ -67,11 +67,11 @@ static bool allocate(splitter *s)
     s->truth = calloc(views, sizeof *s->truth);
     s->oracle = calloc(views, sizeof *s->oracle);
     s->accumulators = calloc(views * (size_t)r->split_count + 1, sizeof *s->accumulators);
-    r->oracle.view_rmse = calloc(views, sizeof *r->oracle.view_rmse);
-    bool ok = s->picture && s->pixels && s->truth && s->oracle && s->accumulators && r->oracle.view_rmse;
+    r->oracle.rmse = calloc(views, sizeof *r->oracle.rmse);
+    bool ok = s->picture && s->pixels && s->truth && s->oracle && s->accumulators && r->oracle.rmse;
     for (int i = 0; i < r->split_count; i++) {
-        r->splits[i].view_total = calloc(views, sizeof *r->splits[i].view_total);
-        ok = ok && r->splits[i].view_total;
+        r->splits[i].views = calloc(views, sizeof *r->splits[i].views);
+        ok = ok && r->splits[i].views;
     }
     for (int v = 0; ok && v < r->view_count; v++) {
         s->pixels[v] = oracle_pixels(&r->views[v], r->options->oracle_step, r->options->seed);
@@ -117,7 +117,7 @@ static void release(splitter *s)
     free(s->picture);
 }
 
-/* Mean square over pixels that both sides know. */
+/* Mean square of the difference. */
 static double mean_square(const float *a, const float *b, int count)
 {
     double sum = 0;
@@ -131,26 +131,20 @@ static bool measure_oracle(splitter *s)
     results *r = s->results;
     oracle_result *o = &r->oracle;
     memcpy(o->thickness, thickness_of_radius, sizeof o->thickness);
-    double sum[THICKNESS_COUNT] = {0}, sum_own = 0;
+    double sum[THICKNESS_COUNT] = {0};
     for (int v = 0; v < r->view_count; v++) {
         progress_show("marching through the depth map: %s", r->views[v].name);
         if (!oracle_march(&r->views[v], &s->pixels[v], r->options->oracle_rays, r->cores, r->options->seed,
                           o->thickness, s->oracle[v]))
             return false;
-        double own = INFINITY;
         for (int k = 0; k < THICKNESS_COUNT; k++) {
             const double square = mean_square(s->oracle[v][k], s->truth[v], s->pixels[v].count);
-            o->view_rmse[v][k] = sqrt(square);
+            o->rmse[v][k] = sqrt(square);
             sum[k] += square;
-            own = fmin(own, square);
         }
-        sum_own += own;
     }
-    for (int k = 0; k < THICKNESS_COUNT; k++) {
-        o->rmse[k] = sqrt(sum[k] / r->view_count);
-        o->best = o->rmse[k] < o->rmse[o->best] ? k : o->best;
-    }
-    o->rmse_own = sqrt(sum_own / r->view_count);
+    for (int k = 0; k < THICKNESS_COUNT; k++)
+        o->best = sum[k] < sum[o->best] ? k : o->best;
     return true;
 }
 
@@ -166,10 +160,12 @@ static bool run_variants(splitter *s, effects *e, int technique, int view, int s
             break;
         const glssao_settings settings = variant_settings(split, (variant)v);
         const bench_view *on = &r->views[view];
-        /* Horizon's noise is a tile, the same for all seeds; the estimates that it accumulates differ. */
-        const bool noise = v == FULL && settings.technique == GLSSAO_HORIZON;
-        if (!(noise ? effects_run_noise : effects_run)(e, s->reader, &on->gbuffer, on->radius, &settings, s->picture,
-                                                       error, error_size))
+        /* Horizon's noise is a tile that is the same for all seeds. The estimates of glssao_accumulate differ. */
+        const effect_job job = {.gbuffer = &on->gbuffer,
+                                .settings = &settings,
+                                .radius = on->radius,
+                                .accumulates = v == FULL && settings.technique == GLSSAO_HORIZON};
+        if (!effects_run(e, s->reader, &job, s->picture, error, error_size))
             return false;
         for (int i = 0; i < pixels->count; i++) {
             const float value = s->picture[pixels->index[i]];
@@ -217,9 +213,7 @@ static double mean_of_seeds(const double *squares, int seeds)
     return sum / seeds;
 }
 
-/* Adds the view's mean squares to `alone` and `total`. */
-static bool add_view(splitter *s, split_result *split, int technique, int view, double alone[STEP_COUNT],
-                     double total[STEP_COUNT])
+static bool finish_view(splitter *s, split_result *split, int technique, int view)
 {
     const results *r = s->results;
     accumulator *a = accumulator_of(s, technique, view);
@@ -231,7 +225,7 @@ static bool add_view(splitter *s, split_result *split, int technique, int view, 
     for (int size = 0; ok && size < 2; size++) {
         for (int i = 0; i < count; i++)
             converged[size][i] = (float)(a->sum[size][i] / seeds);
-        raise(converged[size], count, split->exponent);
+        raise(converged[size], count, split->of->exponent);
     }
     const variant own = own_size(split);
     double square[STEP_COUNT] = {0}, step[STEP_COUNT] = {0};
@@ -240,10 +234,10 @@ static bool add_view(splitter *s, split_result *split, int technique, int view, 
         double shipped[SINGLE_SEEDS], shipped_step[SINGLE_SEEDS];
         for (int k = 0; k < singles; k++) {
             float **single = a->single[k];
-            raise(single[own], count, split->exponent);
-            raise(single[BLURRED], count, split->exponent);
+            raise(single[own], count, split->of->exponent);
+            raise(single[BLURRED], count, split->of->exponent);
             noise[k] = mean_square(single[own], truth, count);
-            /* The mean holds the seed itself: its distance from a mean of others is that much larger. */
+            /* The mean includes the seed itself. This factor gives the distance from the mean of the others. */
             noise_step[k] = mean_square(single[own], converged[own], count) * (seeds > 1 ? seeds / (seeds - 1.0) : 1);
             blurred[k] = mean_square(single[BLURRED], truth, count);
             blurred_step[k] = mean_square(single[BLURRED], converged[own], count);
@@ -262,10 +256,11 @@ static bool add_view(splitter *s, split_result *split, int technique, int view, 
         step[STEP_CONTRAST] = mean_of_seeds(shipped_step, singles);
         square[STEP_CONTRAST] = mean_of_seeds(shipped, singles);
     }
+    const bool skipped[STEP_COUNT] = {
+        [STEP_HALF] = own == FULL, [STEP_CONTRAST] = !bench_has_contrast(&split->of->config)};
     for (int k = 0; k < STEP_COUNT; k++) {
-        alone[k] += step[k];
-        total[k] += square[k];
-        split->view_total[view][k] = sqrt(square[k]);
+        split->views[view].alone[k] = sqrt(step[k]);
+        split->views[view].total[k] = skipped[k] ? NAN : sqrt(square[k]);
     }
     free(converged[0]);
     free(converged[1]);
@@ -274,21 +269,10 @@ static bool add_view(splitter *s, split_result *split, int technique, int view, 
 
 static bool finish(splitter *s)
 {
-    const results *r = s->results;
-    for (int t = 0; t < r->split_count; t++) {
-        split_result *split = &s->results->splits[t];
-        for (int v = 0; v < r->view_count; v++)
-            if (!add_view(s, split, t, v, split->alone, split->total))
+    for (int t = 0; t < s->results->split_count; t++)
+        for (int v = 0; v < s->results->view_count; v++)
+            if (!finish_view(s, &s->results->splits[t], t, v))
                 return false;
-        for (int k = 0; k < STEP_COUNT; k++) {
-            split->alone[k] = sqrt(split->alone[k] / r->view_count);
-            split->total[k] = sqrt(split->total[k] / r->view_count);
-        }
-        if (own_size(split) == FULL)
-            split->total[STEP_HALF] = -1;
-        if (!bench_has_contrast(split->of->config.settings.technique))
-            split->total[STEP_CONTRAST] = -1;
-    }
     return true;
 }
 
@@ -298,20 +282,19 @@ bool split_measure(results *r, context *c, map_reader *m, char *error, size_t er
     for (int t = 0; t < BENCH_TECHNIQUES; t++)
         for (int level = GLSSAO_LOW; level <= GLSSAO_ULTRA; level++) {
             const config_result *of = results_level(r, (glssao_technique)t, (glssao_quality)level);
-            const bool contrast = bench_has_contrast((glssao_technique)t);
             if (of && (level == GLSSAO_HIGH || t == GLSSAO_HORIZON))
-                r->splits[r->split_count++] = (split_result){.of = of, .exponent = contrast ? of->exponent : 1};
+                r->splits[r->split_count++] = (split_result){.of = of};
         }
     snprintf(error, error_size, "out of memory, or of threads");
-    r->split = allocate(&s) && measure_oracle(&s) && run_seeds(&s, c, error, error_size) && finish(&s);
+    const bool done = allocate(&s) && measure_oracle(&s) && run_seeds(&s, c, error, error_size) && finish(&s);
     progress_clear();
     release(&s);
-    return r->split;
+    return done;
 }
 
 void split_destroy(results *r)
 {
-    free(r->oracle.view_rmse);
+    free(r->oracle.rmse);
     for (int i = 0; i < r->split_count; i++)
-        free(r->splits[i].view_total);
+        free(r->splits[i].views);
 }

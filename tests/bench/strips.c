@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * Pictures of truth, result and signed error side by side, each panel at half the measuring size, over a scale of the
- * error's colours. A second row shows the result with the best exponent. Blue: too dark; orange: too bright.
+ * Panels side by side, each at half the measuring size, above a scale of the error's colours.
  */
-#include "reports.h"
+#include "strips.h"
 
+#include "errors.h"
 #include "picture.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 
 enum { PLACE_WIDTH = 160, PLACE_HEIGHT = 90, PLACE_BLOCKS = 2 };
 enum { COLUMNS = 3, GAP = 4, BAR_HEIGHT = 12, FOOT = 40, GLYPH_SCALE = 2 };
-static const double error_range = 0.5; /* the colours end here */
+static const double error_range = 0.5; /* where the colours end */
 
 typedef struct canvas {
     int width, height;
@@ -36,8 +36,8 @@ static void put(canvas *c, int x, int y, const double rgb[3])
 
 static void error_color(double error, double rgb[3])
 {
-    static const double dark[3] = {0.02, 0.19, 0.50}, bright[3] = {0.65, 0.22, 0.00}, none[3] = {0.97, 0.97, 0.97};
-    const double t = fmin(fabs(error) / error_range, 1), shape = sqrt(t); /* small errors show */
+    static const double dark[3] = {0.02, 0.19, 0.50}, bright[3] = {0.80, 0.20, 0.00}, none[3] = {0.97, 0.97, 0.97};
+    const double t = fmin(fabs(error) / error_range, 1), shape = sqrt(t); /* makes small errors visible */
     for (int k = 0; k < 3; k++)
         rgb[k] = none[k] + shape * ((error < 0 ? dark[k] : bright[k]) - none[k]);
 }
@@ -72,7 +72,7 @@ static void draw_scale(canvas *c, int left, int width)
         for (int y = 0; y < BAR_HEIGHT; y++)
             put(c, left + x, FOOT - GAP - 2 - y, rgb);
     }
-    for (int k = 0; k <= 4; k += width < 300 ? 2 : 1) { /* no room for all in a small one */
+    for (int k = 0; k <= 4; k += width < 300 ? 2 : 1) { /* a small scale has no room for all */
         char text[16];
         const double value = (k / 2.0 - 1) * error_range;
         snprintf(text, sizeof text, k == 2 ? "0" : "%+.2f", value);
@@ -126,7 +126,7 @@ static bool draw_strip(const bench_view *v, const config_result *c, const float 
     const panel panels[] = {
         {v->truth.accessibility, 1, false, 0, 0}, {as_is, 1, false, 1, 0},           {as_is, 1, true, 2, 0},
         {v->truth.accessibility, 1, false, 0, 1}, {plain, c->exponent, false, 1, 1}, {plain, c->exponent, true, 2, 1}};
-    const int rows = bench_has_contrast(c->config.settings.technique) ? 2 : 1, count = rows * COLUMNS;
+    const int rows = bench_has_contrast(&c->config) ? 2 : 1, count = rows * COLUMNS;
     const int wide = v->gbuffer.view.width / 2, high = v->gbuffer.view.height / 2;
     canvas image = {.width = COLUMNS * (wide + GAP) - GAP, .height = rows * (high + GAP) - GAP + FOOT};
     const size_t bytes = 3 * (size_t)image.width * (size_t)image.height;
@@ -145,7 +145,7 @@ static bool draw_strip(const bench_view *v, const config_result *c, const float 
     return written;
 }
 
-bool report_strips(const results *r, effects *e, map_reader *m, const char *folder, char *error, size_t error_size)
+bool strips_write(const results *r, effects *e, map_reader *m, char *error, size_t error_size)
 {
     const size_t count = (size_t)m->width * (size_t)m->height;
     float *as_is = malloc(2 * count * sizeof *as_is);
@@ -155,18 +155,18 @@ bool report_strips(const results *r, effects *e, map_reader *m, const char *fold
     }
     float *plain = as_is + count;
     bool written = true;
-    for (int t = 0; written && t < BENCH_TECHNIQUES; t++) {
-        const config_result *c = results_default(r, (glssao_technique)t);
-        for (int i = 0; written && c && i < r->view_count; i++) {
-            const bench_view *v = &r->views[i];
+    for (int k = 0; written && k < r->config_count; k++) {
+        const config_result *c = &r->configs[k];
+        const glssao_technique technique = c->config.settings.technique;
+        const bool peer = c->config.kind == BENCH_PEER && !strchr(c->config.id, '@'); /* none of the grid */
+        const bool level = c->config.kind == BENCH_EFFECT && c == results_level(r, technique, GLSSAO_HIGH);
+        for (int i = 0; written && (peer || level) && i < r->view_count; i++) {
             char path[2048];
-            snprintf(path, sizeof path, "%s/strip-%s-%s.png", folder, v->name,
-                     bench_technique_name((glssao_technique)t));
-            glssao_settings settings = c->config.settings;
-            written = effects_run(e, m, &v->gbuffer, v->radius, &settings, as_is, error, error_size);
-            settings.power = 1;
-            written = written && effects_run(e, m, &v->gbuffer, v->radius, &settings, plain, error, error_size) &&
-                      draw_strip(v, c, as_is, plain, path, error, error_size);
+            snprintf(path, sizeof path, "%s/strip-%s-%s.png", r->options->out, r->views[i].name,
+                     peer ? c->config.id : bench_technique_name(technique));
+            written = errors_run(r, &c->config, i, false, e, m, as_is, error, error_size) &&
+                      errors_run(r, &c->config, i, true, e, m, plain, error, error_size) &&
+                      draw_strip(&r->views[i], c, as_is, plain, path, error, error_size);
         }
     }
     free(as_is);
@@ -215,10 +215,9 @@ static void draw_place(canvas *c, const bench_view *v, const float *picture, int
     }
 }
 
-bool report_worst_places(const results *r, effects *e, map_reader *m, const char *folder, char *error,
-                         size_t error_size)
+bool strips_write_worst(const results *r, effects *e, map_reader *m, char *error, size_t error_size)
 {
-    const config_result *c = results_default(r, GLSSAO_HORIZON);
+    const config_result *c = results_level(r, GLSSAO_HORIZON, GLSSAO_HIGH);
     if (!c || m->width < PLACE_WIDTH || m->height < PLACE_HEIGHT)
         return true;
     const int rows = (r->view_count + PLACE_BLOCKS - 1) / PLACE_BLOCKS, block = COLUMNS * (PLACE_WIDTH + GAP) + 3 * GAP;
@@ -232,31 +231,14 @@ bool report_worst_places(const results *r, effects *e, map_reader *m, const char
     else
         snprintf(error, error_size, "out of memory");
     for (int i = 0; made && i < r->view_count; i++) {
-        const bench_view *v = &r->views[i];
-        made = effects_run(e, m, &v->gbuffer, v->radius, &c->config.settings, picture, error, error_size);
+        made = errors_run(r, &c->config, i, false, e, m, picture, error, error_size);
         if (made)
-            draw_place(&image, v, picture, i / rows * block, (rows - 1 - i % rows) * (PLACE_HEIGHT + GAP));
+            draw_place(&image, &r->views[i], picture, i / rows * block, (rows - 1 - i % rows) * (PLACE_HEIGHT + GAP));
     }
     char path[2048];
-    snprintf(path, sizeof path, "%s/worst-horizon.png", folder);
+    snprintf(path, sizeof path, "%s/worst-horizon.png", r->options->out);
     made = made && picture_write_png(path, image.width, image.height, 3, image.rgb, error, error_size);
     free(image.rgb);
     free(picture);
     return made;
-}
-
-const char *report_worst_built_in(const results *r, const config_result *c)
-{
-    static const char *const built_ins[] = {"columns", "cornell", "steps", "plane"};
-    const char *worst = NULL;
-    double worst_rmse = -1;
-    for (int i = 0; i < r->view_count; i++) {
-        for (size_t k = 0; k < sizeof built_ins / sizeof built_ins[0]; k++) {
-            if (strcmp(r->views[i].name, built_ins[k]) == 0 && c->views[i].rmse_fit > worst_rmse) {
-                worst_rmse = c->views[i].rmse_fit;
-                worst = r->views[i].name;
-            }
-        }
-    }
-    return worst;
 }

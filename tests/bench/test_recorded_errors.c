@@ -17,7 +17,7 @@
 
 enum { WIDTH = 240, HEIGHT = 135, RAYS = 64, LEVELS = GLSSAO_ULTRA + 1, ERROR_LENGTH = 1024, MAX_ROWS = 64 };
 
-/* Other drivers and compilers round otherwise; what a change of the shader brings is larger. */
+/* Larger than the rounding of other drivers and compilers, smaller than the effect of a change to the shader. */
 static const double WORSE = 0.01, BETTER = 0.03, FLOOR = 0.0002;
 
 /* Words of their names; "cornell" stands for cornell-box too. */
@@ -83,19 +83,17 @@ static bool write_record(const char *path, const record *r)
 static bool measure_view(effects *e, map_reader *m, const bench_view *v, float *picture, row *out, char *error)
 {
     memcpy(out->scene, v->name, sizeof out->scene);
-    error_sum *sum = malloc(sizeof *sum);
-    bool measured = sum != NULL;
-    for (int level = 0; measured && level < LEVELS; level++) {
+    for (int level = 0; level < LEVELS; level++) {
         const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)level);
-        memset(sum, 0, sizeof *sum);
-        measured = effects_run(e, m, &v->gbuffer, v->radius, &settings, picture, error, ERROR_LENGTH);
-        error_add(sum, picture, v->truth.accessibility, v->classes, (size_t)WIDTH * HEIGHT);
-        const error_measure found = error_finish(sum);
-        measured = measured && found.nonfinite_share <= 0.0;
+        const effect_job job = {.gbuffer = &v->gbuffer, .settings = &settings, .radius = v->radius};
+        if (!effects_run(e, m, &job, picture, error, ERROR_LENGTH))
+            return false;
+        const error_measure found = measure_error(picture, v->truth.accessibility, v->classes, (size_t)WIDTH * HEIGHT);
+        if (found.nonfinite_share > 0)
+            return false;
         out->rmse[level] = found.rmse;
     }
-    free(sum);
-    return measured;
+    return true;
 }
 
 /* Measures every scene that is there. */

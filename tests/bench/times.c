@@ -5,6 +5,7 @@
 #include "times.h"
 
 #include "clock.h"
+#include "peers.h"
 #include "progress.h"
 
 #include <math.h>
@@ -14,8 +15,7 @@
 
 enum { WARM_UP_FRAMES = 1, FRAMES_AHEAD = 3, ROWS = 2 + GLSSAO_PASS_COUNT }; /* frame, CPU, passes */
 
-/* What the GPU takes for a frame whose passes are not timed one by one, which holds it up between them; negative: not
- * known. */
+/* GPU time of a frame without timers around its passes, because those delay it; negative: not known. */
 static double untimed_frame_ms(effects *plain, const gbuffer *g, const glssao_frame *frame,
                                const glssao_settings *settings, const glssao_settings *scaled, char *error,
                                size_t error_size)
@@ -27,7 +27,7 @@ static double untimed_frame_ms(effects *plain, const gbuffer *g, const glssao_fr
         return -1;
     gl.GenQueries(2, queries);
     gl.Finish();
-    /* Those before keep the GPU from waiting for what the processor has yet to send. */
+    /* The frames ahead keep the GPU from waiting for the processor. */
     glssao_result result = GLSSAO_OK;
     for (int i = 0; i < FRAMES_AHEAD && result == GLSSAO_OK; i++)
         result = glssao_compute(effect, frame, scaled);
@@ -42,15 +42,16 @@ static double untimed_frame_ms(effects *plain, const gbuffer *g, const glssao_fr
 }
 
 /* values[row]: this frame's. */
-static bool time_frame(bool software, effects *e, effects *plain, const gbuffer *g, float radius,
-                       const glssao_settings *settings, double values[ROWS], char *error, size_t error_size)
+static bool time_frame(bool software, effects *e, effects *plain, const gbuffer *g, float radius, const bench_config *c,
+                       double values[ROWS], char *error, size_t error_size)
 {
+    const glssao_settings *settings = &c->settings;
     glssao_effect *effect = effects_get(e, g, settings, error, error_size);
     if (!effect)
         return false;
     const glssao_settings scaled = bench_scale_settings(settings, radius);
-    const glssao_frame frame = gbuffer_frame(g);
-    /* Configurations that take turns find the maps of another; a host's frames find their own. */
+    const glssao_frame frame = gbuffer_frame(g, c->inputs == INPUTS_DEPTH);
+    /* The first compute is not timed: configurations that take turns find another's maps. */
     glssao_result result = glssao_compute(effect, &frame, &scaled);
     gl.Finish();
     const double wall = clock_wall_ms(), cpu = clock_cpu_ms();
@@ -64,8 +65,8 @@ static bool time_frame(bool software, effects *e, effects *plain, const gbuffer 
     }
     const glssao_stats stats = glssao_get_stats(effect);
     for (int i = 0; i < GLSSAO_PASS_COUNT; i++)
-        /* A software rasteriser defers drawing past the queries: their differences mean nothing there. */
-        values[2 + i] = software ? -1 : stats.passes[i].gpu_ms;
+        /* A software rasteriser defers drawing past the queries, so their differences mean nothing. */
+        values[2 + i] = software || stats.passes[i].gpu_ms < 0 ? NAN : stats.passes[i].gpu_ms;
     if (!software && stats.gpu_ms >= 0)
         values[0] = untimed_frame_ms(plain, g, &frame, settings, &scaled, error, error_size);
     return values[0] >= 0;
@@ -90,9 +91,11 @@ static bool take_turns(results *r, effects *e, effects *plain, const gbuffer g[2
     for (int f = -WARM_UP_FRAMES; f < frames; f++) {
         progress_show("times: frame %d/%d", f < 0 ? 0 : f + 1, frames);
         for (int i = 0; i < r->config_count; i++) {
+            const bench_config *c = &r->configs[i].config;
             double row[ROWS];
-            if (!time_frame(r->software, e, plain, &g[r->configs[i].config.beyond], radius,
-                            &r->configs[i].config.settings, row, error, error_size))
+            if (c->kind != BENCH_EFFECT)
+                continue;
+            if (!time_frame(r->software, e, plain, &g[c->inputs == INPUTS_BEYOND], radius, c, row, error, error_size))
                 return false;
             for (int k = 0; f >= 0 && k < ROWS; k++)
                 values[((ptrdiff_t)i * ROWS + k) * frames + f] = row[k];
@@ -101,7 +104,65 @@ static bool take_turns(results *r, effects *e, effects *plain, const gbuffer g[2
     return true;
 }
 
-bool times_measure(results *r, effects *e, const bench_scene *on, int of_view, char *error, size_t error_size)
+/* Ray tracing, once each: it takes long, and its times hardly vary. */
+static bool time_rays(results *r, const scene *s, const scene_view *view, float radius, int of_view, char *error,
+                      size_t error_size)
+{
+    for (int i = 0; i < r->config_count; i++) {
+        const bench_config *c = &r->configs[i].config;
+        if (c->kind != BENCH_RAYS)
+            continue;
+        const truth_request request = {.name = c->id, .radius = radius, .rays = c->rays, .seed = r->options->seed};
+        bench_truth t;
+        const double cpu = clock_cpu_ms();
+        const bool traced = truth_get(&request, s, view, &t, error, error_size);
+        timing *out = &r->configs[i].views[of_view].time;
+        out->cpu_ms = clock_cpu_ms() - cpu;
+        out->median_ms = out->p95_ms = t.seconds * 1e3;
+        truth_destroy(&t);
+        if (!traced)
+            return false;
+    }
+    return true;
+}
+
+/* What a host with depth and normals pays for a peer: its passes, drawn from a recording. */
+static bool time_peers(results *r, const gbuffer *g, float radius, int of_view, char *error, size_t error_size)
+{
+    const int frames = r->options->frames;
+    const peer_view view = {g, radius, r->views[of_view].median_distance};
+    double *values = calloc((size_t)frames * ROWS, sizeof *values);
+    replay_inputs in;
+    bool timed = replay_inputs_create(&in, g) && values && peers_record_configs(r, &view, 1, error, error_size);
+    for (int i = 0; timed && i < r->config_count; i++) {
+        if (r->configs[i].config.kind != BENCH_PEER)
+            continue;
+        replay *p = peers_load(r->peers, r->configs[i].config.peer, &view, error, error_size);
+        timed = p != NULL;
+        for (int k = 0; timed && k < frames * ROWS; k++)
+            values[k] = NAN;
+        for (int f = -WARM_UP_FRAMES; timed && f < frames; f++) {
+            gl.Finish();
+            const double wall = clock_wall_ms(), cpu = clock_cpu_ms();
+            replay_draw(r->peers->replayer, p, &in);
+            gl.Finish();
+            if (f < 0)
+                continue;
+            values[f] = clock_wall_ms() - wall;
+            values[frames + f] = clock_cpu_ms() - cpu;
+            if (!r->software)
+                values[f] = replay_gpu_ms(r->peers->replayer, p, &in);
+        }
+        if (timed)
+            r->configs[i].views[of_view].time = summarise(values, frames);
+        replay_destroy(p);
+    }
+    replay_inputs_destroy(&in);
+    free(values);
+    return timed;
+}
+
+bool times_measure(results *r, effects *e, int of_view, char *error, size_t error_size)
 {
     const ptrdiff_t per_config = (ptrdiff_t)ROWS * r->options->frames;
     double *values = calloc((size_t)r->config_count * (size_t)per_config, sizeof *values);
@@ -115,14 +176,16 @@ bool times_measure(results *r, effects *e, const bench_scene *on, int of_view, c
     scene_view view;
     float radius;
     gbuffer g[2] = {{.depth = 0}};
-    scene *s = bench_scene_open(on, e->width, e->height, &view, &radius, error, error_size);
+    scene *s = bench_scene_open(&r->scenes[of_view], e->width, e->height, &view, &radius, error, error_size);
     const bool timed = s && gbuffer_draw(&g[0], s, &view, 0, error, error_size) &&
                        gbuffer_draw(&g[1], s, &view, gbuffer_margin(e->width), error, error_size) &&
-                       take_turns(r, e, &plain, g, radius, values, error, error_size);
+                       take_turns(r, e, &plain, g, radius, values, error, error_size) &&
+                       time_rays(r, s, &view, radius, of_view, error, error_size) &&
+                       (!r->peers || time_peers(r, &g[0], radius, of_view, error, error_size));
     effects_destroy(&plain);
     for (int i = 0; timed && i < r->config_count; i++) {
-        const timing t = summarise(values + i * per_config, r->options->frames);
-        *(of_view < 0 ? &r->configs[i].time : &r->configs[i].views[of_view].time) = t;
+        if (r->configs[i].config.kind == BENCH_EFFECT)
+            r->configs[i].views[of_view].time = summarise(values + i * per_config, r->options->frames);
     }
     progress_clear();
     gbuffer_destroy(&g[0]);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * The hash covers the scene as loaded, not the file's bytes: a .gltf file names others, and a change of the loader can
- * change the scene too. The truth is a PFM file, its foreground a grey PNG beside it.
+ * The hash covers the scene as loaded, not the file's bytes, because a .gltf file names others and because the loader
+ * may change. The truth is a PFM file with its foreground in a grey PNG beside it.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "truth.h"
@@ -19,7 +19,7 @@
 
 enum { FORMAT_VERSION = 1, PATH_LENGTH = 2048 };
 
-/* FNV-1a, over words where there are whole ones. */
+/* FNV-1a over words, and over the bytes that are left. */
 static void hash(uint64_t *h, const void *data, size_t size)
 {
     const unsigned char *bytes = data;
@@ -38,7 +38,7 @@ static void hash_number(uint64_t *h, double value)
     hash(h, &value, sizeof value);
 }
 
-/* What blocks a ray or shows a surface; colours don't. */
+/* Only what decides whether a ray is blocked or a surface seen. */
 static void hash_material(uint64_t *h, const scene *s, const scene_material *m)
 {
     hash_number(h, m->alpha);
@@ -134,7 +134,7 @@ static bool write_cached(const char *truth_path, const char *mask_path, const sc
     }
     for (size_t i = 0; i < count; i++)
         mask[i] = t->foreground[i] ? 255 : 0;
-    /* The mask first: a truth that is there is complete. */
+    /* The mask first, so that a truth that exists is complete. */
     const bool written =
         picture_write_png(mask_path, view->width, view->height, 1, mask, error, error_size) &&
         picture_write_pfm(truth_path, view->width, view->height, 1, t->accessibility, error, error_size);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * glssao-tune: searches the horizon technique's constants against ray-traced truth on one half of the scenes (--fold 0
- * or 1), and reports how the rest, which the search never saw, fare; or on all (--fold 2), for the constants that ship,
- * where both halves have shown that the search holds on what it has not seen. It changes no file: what it prints is
- * copied into glsl/horizon.frag by hand.
+ * glssao-tune: searches the horizon technique's constants against ray-traced truth. With --fold 0 or 1 it searches on
+ * one half of the scenes and reports the error on the other half. With --fold 2 it searches on all, for the constants
+ * that ship. Scenes for judging are never used. It changes no file: its result is copied into glsl/horizon.frag by
+ * hand.
  */
 #include "effects.h"
 #include "progress.h"
@@ -18,8 +18,8 @@
 
 enum { LEVELS = GLSSAO_ULTRA + 1, SHARED = LEVELS, ERROR_LENGTH = 4096, SOURCE_ROOM = 4096 };
 
-/* What is searched: constants of glsl/horizon.frag, written there as `const float NAME = value;`. `level`: the only
- * quality level that uses it, or SHARED. */
+/* A constant of glsl/horizon.frag, written there as `const float NAME = value;`. `level`: the only quality level that
+ * uses it, or SHARED. */
 typedef struct tuned {
     const char *name;
     int level;
@@ -62,7 +62,7 @@ static bool applies(const tuned *c, int level)
     return c->level == SHARED || c->level == level;
 }
 
-/* Puts the value of a constant where the source declares it; a source without it stays as it is. */
+/* Replaces the value where the source declares the constant. */
 static void substitute(char *source, const tuned *c)
 {
     char declared[64];
@@ -76,7 +76,7 @@ static void substitute(char *source, const tuned *c)
     }
 }
 
-/* Stands between the library and the driver. */
+/* Replaces glShaderSource for the library. */
 static void take_source(GLuint shader, GLsizei count, const GLchar *const *strings, const GLint *lengths)
 {
     (void)lengths; /* the library's strings end in 0 */
@@ -118,8 +118,8 @@ static bool run(const glssao_settings *settings, fit_sum *fits)
     bool ran = true;
     for (int v = 0; ran && v < t.view_count; v++) {
         memset(&fits[v], 0, sizeof fits[v]);
-        ran = effects_run(&e, &t.reader, &t.views[v].gbuffer, t.views[v].radius, settings, t.picture, t.error,
-                          sizeof t.error);
+        const effect_job job = {.gbuffer = &t.views[v].gbuffer, .settings = settings, .radius = t.views[v].radius};
+        ran = effects_run(&e, &t.reader, &job, t.picture, t.error, sizeof t.error);
         if (ran)
             fit_add(&fits[v], t.picture, t.views[v].truth.accessibility, t.views[v].classes, count);
     }
@@ -127,7 +127,7 @@ static bool run(const glssao_settings *settings, fit_sum *fits)
     return ran;
 }
 
-/* As shipped, with power 1: no exponent is fitted to the level. */
+/* As shipped: no exponent is fitted. */
 static bool measure_level(int level, double square[BENCH_SCENES_MAX], fit_sum *fits)
 {
     t.level = level;
@@ -135,7 +135,7 @@ static bool measure_level(int level, double square[BENCH_SCENES_MAX], fit_sum *f
     if (!run(&settings, fits))
         return false;
     for (int v = 0; v < t.view_count; v++) {
-        const double rmse = fit_rmse(&fits[v], 1, FIT_ALL);
+        const double rmse = fit_rmse(&fits[v], 1);
         square[v] = rmse * rmse;
     }
     return true;
@@ -152,7 +152,7 @@ static bool measure_classic(fit_sum *fits)
         fit_merge(&all, &fits[v]);
     const double exponent = fit_exponent(&all);
     for (int v = 0; v < t.view_count; v++) {
-        const double rmse = fit_rmse(&fits[v], exponent, FIT_ALL);
+        const double rmse = fit_rmse(&fits[v], exponent);
         t.classic[v] = rmse * rmse;
     }
     return true;
@@ -160,7 +160,7 @@ static bool measure_classic(fit_sum *fits)
 
 enum { ALL = 2 };
 
-/* RMSE over the scenes with these numbers modulo 2, or ALL, as a ratio to classic's. */
+/* RMSE over the scenes of one parity, or ALL, as a ratio to classic's. */
 static double ratio(const double square[BENCH_SCENES_MAX], int parity)
 {
     double sum = 0, classic = 0;
@@ -235,18 +235,35 @@ static bool search(fit_sum *fits, int rounds)
     return true;
 }
 
+/* Drops the scenes for judging; -1, with the error set, where --pick asks for one of them. */
+static int keep_tuning_scenes(int count)
+{
+    int kept = 0;
+    for (int i = 0; i < count; i++) {
+        if (t.scenes[i].judging && t.options.pick) {
+            snprintf(t.error, sizeof t.error, "%s is kept for judging: nothing may be tuned on it", t.scenes[i].name);
+            return -1;
+        }
+        if (!t.scenes[i].judging)
+            t.scenes[kept++] = t.scenes[i];
+    }
+    if (kept == 0)
+        snprintf(t.error, sizeof t.error, "no scene has that name");
+    return kept;
+}
+
 static bool prepare(void)
 {
     t.context = context_create(&(context_options){.kind = (context_kind)t.options.context}, t.error, sizeof t.error);
     if (!t.context || !gl_load(context_load, t.context, t.error, sizeof t.error) ||
         !map_reader_create(&t.reader, t.options.size[0], t.options.size[1], t.error, sizeof t.error))
         return false;
-    const int count = bench_scenes_list(&t.options, t.scenes);
-    for (; t.view_count < count; t.view_count++)
+    const int count = keep_tuning_scenes(bench_scenes_list(&t.options, t.scenes));
+    for (; count > 0 && t.view_count < count; t.view_count++)
         if (!bench_view_create(&t.views[t.view_count], &t.scenes[t.view_count], &t.options, t.error, sizeof t.error))
             return false;
     t.picture = malloc((size_t)t.options.size[0] * (size_t)t.options.size[1] * sizeof *t.picture);
-    return t.picture != NULL;
+    return count > 0 && t.picture != NULL;
 }
 
 static bool tune(void)

@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: MIT
  *
- * Loads a scene, draws and traces it, sorts its pixels, and lets the scene go.
+ * Loads a scene, draws it, traces it, classifies its pixels, and frees the scene.
  */
 #include "views.h"
+
+#include "peers.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* How far a pixel is from an edge to count as near one: about the reach of the classic blur at half size, 5 texels. */
+/* Pixels within this distance of an edge count as near it: about the reach of the classic blur at half size, 5 texels.
+ */
 enum { EDGE_REACH = 10 };
 
 static double inverse(const bench_view *v, size_t i)
@@ -17,17 +20,16 @@ static double inverse(const bench_view *v, size_t i)
     return v->distance[i] > 0 ? 1 / (double)v->distance[i] : 0;
 }
 
-/* How far, in view distance, pixel b lies from the plane that goes on from `before` and a. The inverse of the distance
- * is linear over a plane. */
+/* View distance of pixel b from the plane through `before` and a. The inverse distance is linear over a plane. */
 static double off_plane(const bench_view *v, size_t before, size_t a, size_t b)
 {
     const double expected = 2 * inverse(v, a) - inverse(v, before);
     return fabs(inverse(v, b) - expected) * (double)v->distance[a] * (double)v->distance[b];
 }
 
-/* Between neighbours a and b, with the pixels before and after them: sky on one side; or normals more than 37 degrees
- * apart, as the bilateral blur of the classic defaults has it; or a jump of more than 0.4 of the radius, which is that
- * blur's too, but from the plane that either side goes on in. */
+/* Whether there is an edge between neighbours a and b: sky on one side; normals more than 37 degrees apart; or a jump
+ * of more than 0.4 of the radius from the plane of either side. The thresholds are those of the classic bilateral blur.
+ */
 static bool is_edge(const bench_view *v, size_t before, size_t a, size_t b, size_t after)
 {
     if (!(v->distance[a] > 0) || !(v->distance[b] > 0))
@@ -62,7 +64,7 @@ static void position(const bench_view *v, int x, int y, double out[3])
     out[2] = -distance;
 }
 
-/* By the pixels to the right and above, which must belong to the same surface. */
+/* The pixels to the right and above must belong to the same surface. */
 static bool is_tilted(const bench_view *v, int x, int y)
 {
     const float *n = &v->normals[3 * ((size_t)y * (size_t)v->gbuffer.view.width + (size_t)x)];
@@ -143,6 +145,52 @@ static uint32_t count_triangles(const scene *s)
     return triangles;
 }
 
+/* Gives each triangle vertices of its own, with its own normal. False when memory is short. */
+static bool flatten(scene *s)
+{
+    scene_vertex *own = malloc(((size_t)s->index_count + 1) * sizeof *own);
+    if (!own)
+        return false;
+    for (uint32_t i = 0; i < s->index_count; i++) {
+        own[i] = s->vertices[s->indices[i]];
+        s->indices[i] = i;
+    }
+    for (uint32_t i = 0; i + 2 < s->index_count; i += 3) {
+        double u[3], w[3], n[3], length = 0;
+        for (int k = 0; k < 3; k++) {
+            u[k] = (double)own[i + 1].position[k] - (double)own[i].position[k];
+            w[k] = (double)own[i + 2].position[k] - (double)own[i].position[k];
+        }
+        for (int k = 0; k < 3; k++) {
+            n[k] = u[(k + 1) % 3] * w[(k + 2) % 3] - u[(k + 2) % 3] * w[(k + 1) % 3];
+            length += n[k] * n[k];
+        }
+        for (uint32_t c = i; length > 0 && c < i + 3; c++)
+            for (int k = 0; k < 3; k++)
+                own[c].normal[k] = (float)(n[k] / sqrt(length));
+    }
+    free(s->vertices);
+    s->vertices = own;
+    s->vertex_count = s->index_count;
+    return true;
+}
+
+/* Both truths; the flat one last, because it changes the scene. */
+static bool trace(bench_view *v, scene *s, const scene_view *view, const options *o, char *error, size_t error_size)
+{
+    const truth_request request = {
+        .name = v->name, .cache = o->cache, .radius = v->radius, .rays = o->rays, .seed = o->seed};
+    if (!truth_get(&request, s, view, &v->truth, error, error_size))
+        return false;
+    if (!o->flat)
+        return true;
+    if (!flatten(s)) {
+        snprintf(error, error_size, "out of memory");
+        return false;
+    }
+    return truth_get(&request, s, view, &v->flat, error, error_size);
+}
+
 bool bench_view_create(bench_view *v, const bench_scene *b, const options *o, char *error, size_t error_size)
 {
     *v = (bench_view){.radius = 0};
@@ -152,16 +200,18 @@ bool bench_view_create(bench_view *v, const bench_scene *b, const options *o, ch
     if (!s)
         return false;
     v->triangles = count_triangles(s);
-    const truth_request request = {
-        .name = v->name, .cache = o->cache, .radius = v->radius, .rays = o->rays, .seed = o->seed};
     bool made = gbuffer_draw(&v->gbuffer, s, &view, 0, error, error_size) &&
                 gbuffer_draw(&v->beyond, s, &view, gbuffer_margin(view.width), error, error_size) &&
-                truth_get(&request, s, &view, &v->truth, error, error_size);
+                trace(v, s, &view, o, error, error_size);
     scene_destroy(s);
     if (!made)
         return false;
     gbuffer_read(&v->gbuffer, &v->distance, &v->normals);
-    made = v->distance && classify(v);
+    if (v->distance)
+        v->median_distance = peers_distance(v->distance, (size_t)view.width * (size_t)view.height);
+    made = v->distance && classify(v) &&
+           perception_create(&v->perception, v->truth.accessibility, v->classes, view.width, view.height) &&
+           grain_create(&v->grain, v->truth.accessibility, v->classes, view.width, view.height);
     if (!made)
         snprintf(error, error_size, "out of memory");
     return made;
@@ -172,6 +222,9 @@ void bench_view_destroy(bench_view *v)
     gbuffer_destroy(&v->gbuffer);
     gbuffer_destroy(&v->beyond);
     truth_destroy(&v->truth);
+    truth_destroy(&v->flat);
+    perception_destroy(&v->perception);
+    grain_destroy(&v->grain);
     free(v->distance);
     free(v->normals);
     free(v->classes);

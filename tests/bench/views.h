@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * A view, measured: what the effect is given, what the truth is, and which pixels count.
+ * A view to measure: the effect's inputs, the truth, and the pixels that count.
  */
 #ifndef GLSSAO_BENCH_VIEWS_H
 #define GLSSAO_BENCH_VIEWS_H
@@ -8,20 +8,26 @@
 #include "gbuffer.h"
 #include "measure.h"
 #include "options.h"
+#include "perception.h"
 #include "scenes.h"
+#include "structure.h"
 #include "truth.h"
 
 typedef struct bench_view {
     char name[64];
     float radius;            /* scene units */
+    float median_distance;   /* of what is seen, scene units */
     gbuffer gbuffer, beyond; /* the view proper; the same with a margin and a second layer */
     bench_truth truth;
+    bench_truth flat; /* about the triangles' own normals, as depth alone shows them; where options.flat */
+    perception perception;
+    grain_places grain;
     float *distance;     /* 0: nothing there */
     float *normals;      /* three a pixel, view space */
     uint8_t *classes;    /* pixel_class; a pixel counts where both the tracer and OpenGL see a surface */
     double coverage;     /* share of the picture */
     double edge_share;   /* of the pixels that count */
-    double tilted_share; /* of the smooth ones: normals more than 45 degrees off the surface, which no one can trust */
+    double tilted_share; /* of the smooth ones: shading normals more than 45 degrees off the surface */
     uint32_t triangles;
 } bench_view;
 

@@ -34,6 +34,6 @@ done
 while IFS=: read -r source target; do
     count=$((count + 1))
     [ -e "$target" ] || complain "$source" "$target" "no such page"
-done < <(grep -roE '\bdocs/[a-z0-9_/-]+\.md' docs examples tests third_party --exclude='*.md')
+done < <(grep -roE '\bdocs/[a-z0-9_/-]+\.md' docs examples glsl lib tests third_party --exclude='*.md')
 echo "${#pages[@]} pages, $count links, $dead dead"
 [ "$dead" = 0 ] && [ "$count" -gt 50 ]

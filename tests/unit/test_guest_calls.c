@@ -83,6 +83,22 @@ static void APIENTRY get_level(GLenum target, GLint level, GLenum name, GLint *o
     gl.GetTexLevelParameteriv(target, level, name, out);
 }
 
+static GLenum APIENTRY check_framebuffer(GLenum target)
+{
+    note(GL_FRAMEBUFFER_COMPLETE);
+    return gl.CheckFramebufferStatus(target);
+}
+
+static PFNGLGETTEXPARAMETERIVPROC real_get_texture_parameter; /* not in the tests' table of functions */
+
+static void APIENTRY get_texture_parameter(GLenum target, GLenum name, GLint *out)
+{
+    note(name);
+    real_get_texture_parameter(target, name, out);
+}
+
+static void *watched_user; /* of load, for loaders without an argument */
+
 /* ---- timers ---- */
 
 /* A GPU that never gets round to a timestamp. */
@@ -124,6 +140,8 @@ static void *load(const char *name, void *user)
     if (strcmp(name, function) == 0)                                                                                   \
         memcpy(&address, &(type[1]){wrapper}, sizeof address);
     void *address = fixture_load(name, user);
+    if (strcmp(name, "glGetTexParameteriv") == 0)
+        memcpy(&real_get_texture_parameter, &address, sizeof address);
     WRAP(PFNGLGETINTEGERVPROC, "glGetIntegerv", get_integer)
     WRAP(PFNGLGETFLOATVPROC, "glGetFloatv", get_float)
     WRAP(PFNGLGETBOOLEANVPROC, "glGetBooleanv", get_boolean)
@@ -134,6 +152,8 @@ static void *load(const char *name, void *user)
     WRAP(PFNGLISENABLEDIPROC, "glIsEnabledi", is_enabled_i)
     WRAP(PFNGLISTEXTUREPROC, "glIsTexture", is_texture)
     WRAP(PFNGLGETTEXLEVELPARAMETERIVPROC, "glGetTexLevelParameteriv", get_level)
+    WRAP(PFNGLCHECKFRAMEBUFFERSTATUSPROC, "glCheckFramebufferStatus", check_framebuffer)
+    WRAP(PFNGLGETTEXPARAMETERIVPROC, "glGetTexParameteriv", get_texture_parameter)
     WRAP(PFNGLQUERYCOUNTERPROC, "glQueryCounter", query_counter)
     WRAP(PFNGLGETQUERYOBJECTIVPROC, "glGetQueryObjectiv", get_query)
     WRAP(PFNGLGETQUERYOBJECTUI64VPROC, "glGetQueryObjectui64v", get_query_64)
@@ -152,6 +172,20 @@ static guest open_watched(void **state)
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
     assert_int_equal(glssao_compute(g.effect, &g.frame, &settings), GLSSAO_OK);
     return g;
+}
+
+/* A bound framebuffer to apply to. */
+static GLuint bind_target(GLuint *out_texture)
+{
+    GLuint framebuffer;
+    gl.GenTextures(1, out_texture);
+    gl.BindTexture(GL_TEXTURE_2D, *out_texture);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, GUEST_W, GUEST_H, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    gl.GenFramebuffers(1, &framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *out_texture, 0);
+    return framebuffer;
 }
 
 /* glssao_apply draws once, with one texture, into one framebuffer: it changes nothing of these. */
@@ -176,13 +210,7 @@ static void apply_asks_only_for_what_it_changes(void **state)
     };
     guest g = open_watched(state);
     GLuint texture, framebuffer;
-    gl.GenTextures(1, &texture);
-    gl.BindTexture(GL_TEXTURE_2D, texture);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, GUEST_W, GUEST_H, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
-    gl.BindTexture(GL_TEXTURE_2D, 0);
-    gl.GenFramebuffers(1, &framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    framebuffer = bind_target(&texture);
     queries.count = 0;
     assert_int_equal(glssao_apply(g.effect, framebuffer), GLSSAO_OK);
     const int count = queries.count;
@@ -199,6 +227,53 @@ static void apply_asks_only_for_what_it_changes(void **state)
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     gl.DeleteFramebuffers(1, &framebuffer);
     gl.DeleteTextures(1, &texture);
+    guest_close(&g);
+}
+
+/* With config.host_restores_state, the second frame of the same textures asks OpenGL nothing, draws the same picture,
+ * and get_proc finds the functions. */
+static glssao_proc get_proc(const char *name)
+{
+    glssao_proc function;
+    void *const address = load(name, watched_user);
+    memcpy(&function, &address, sizeof function);
+    return function;
+}
+
+static void hosts_that_restore_state_are_asked_nothing(void **state)
+{
+    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
+    float *const wanted = guest_picture(&g, &g.frame, &settings);
+    glssao_destroy(g.effect);
+    glssao_config config = fixture_config(g.f, GUEST_W, GUEST_H);
+    watched_user = config.load_user;
+    config.load = NULL;
+    config.get_proc = get_proc;
+    config.host_restores_state = true;
+    g.effect = NULL;
+    assert_int_equal(glssao_create(&config, &g.effect), GLSSAO_OK);
+    GLuint depth = fixture_depth_texture(GL_DEPTH_COMPONENT24, GUEST_W, GUEST_H, NULL), texture;
+    const GLuint framebuffer = bind_target(&texture);
+    for (int i = 0; i < 3; ++i) {
+        queries.count = 0;
+        assert_int_equal(glssao_begin_normals(g.effect, depth), GLSSAO_OK);
+        assert_int_equal(glssao_end_normals(g.effect), GLSSAO_OK);
+        assert_int_equal(glssao_compute(g.effect, &g.frame, &settings), GLSSAO_OK);
+        assert_int_equal(glssao_apply(g.effect, framebuffer), GLSSAO_OK);
+        assert_true(i == 0 || queries.count == 0);
+    }
+    float *const got = guest_picture(&g, &g.frame, &settings);
+    guest_same_picture(got, wanted, "a host that restores its state");
+    assert_int_equal(glssao_resize(g.effect, GUEST_W / 2, GUEST_H), GLSSAO_OK);
+    fixture_clear_log(g.f);
+    guest_refused(&g, glssao_compute(g.effect, &g.frame, &settings), "frame.depth_texture", "another size");
+    gl.UseProgram(0); /* as such a host does */
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    gl.DeleteFramebuffers(1, &framebuffer);
+    gl.DeleteTextures(2, (const GLuint[2]){depth, texture});
+    free(got);
+    free(wanted);
     guest_close(&g);
 }
 
@@ -309,6 +384,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         GL_TEST(apply_asks_only_for_what_it_changes),
         GL_TEST(timers_never_make_the_cpu_wait),
+        GL_TEST(hosts_that_restore_state_are_asked_nothing),
         GL_TEST(a_debug_context_has_nothing_to_say),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);

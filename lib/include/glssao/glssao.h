@@ -242,8 +242,8 @@ typedef enum glssao_pass { /* in the order of the frame */
     GLSSAO_PASS_COUNT
 } glssao_pass;
 
-typedef struct glssao_planned_pass { /* one pass of a frame to come; texts are static */
-    const char *name;
+typedef struct glssao_planned_pass { /* one pass of a frame to come */
+    const char *name;    /* static text, as is `reason` */
     const char *reason;  /* why it runs or is skipped, in words */
     bool run;            /* false: skipped */
     int draw_calls;      /* and dispatches; 0 where it is skipped */

@@ -91,7 +91,7 @@ static const char *tiles_refusal(const glssao__choice *c, const glssao__request 
     const int most = can->max_size - 2 * TILE_SIDE;
     if (can->max_point_size < 8.0f * TILE_SIDE || c->size[0] > most || c->size[1] > most)
         return "the driver draws no points or viewports that large";
-    /* Measured, docs/decisions.md: a GPU finishes open pixels as fast as the passes that find them. */
+    /* Measured, docs/decisions/0050: a GPU finishes open pixels as fast as the passes that find them. */
     if (q->settings->tiles == GLSSAO_TILES_AUTO && !can->is_software)
         return "a GPU finishes open pixels as fast as it would sort tiles";
     if (q->settings->tiles == GLSSAO_TILES_AUTO && columns * rows < LEAST_TILES)
@@ -147,6 +147,16 @@ static void choose_passes(glssao__choice *c, const glssao__request *q)
         c->plan.passes[i].compute = c->plan.passes[i].run && c->compute && can_be_dispatched(c, (glssao_pass)i);
 }
 
+/* All of a multisample or larger texture is copied before the passes can read it, and what holds logarithmic depth. */
+static void choose_copies(glssao__choice *c, const glssao_frame *frame)
+{
+    const bool all = frame->multisample || frame->viewport[2] != 0 || frame->viewport[3] != 0;
+    glssao__host_names(frame, c->host_names);
+    for (int i = 0; i < HOST_TEXTURES; ++i)
+        c->copies[i] =
+            c->host_names[i] != 0 && (all || (frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC && i != HOST_NORMAL));
+}
+
 /* Where depth and normals are read from, and how they are stored there. */
 static void choose_inputs(glssao__choice *c, const glssao__request *q)
 {
@@ -173,13 +183,10 @@ static void choose_reach(glssao__choice *c, const glssao_settings *settings)
 void glssao__choose(glssao__choice *c, const glssao__request *q)
 {
     const glssao_settings *settings = q->settings;
-    gl_uint copies[HOST_TEXTURES];
-    glssao__host_copies(q->frame, copies);
     memset(c, 0, sizeof *c);
     for (int i = 0; i < 2; ++i)
         c->size[i] = q->size[i];
-    for (int i = 0; i < HOST_TEXTURES; ++i)
-        c->copies[i] = copies[i] != 0;
+    choose_copies(c, q->frame);
     glssao__choose_estimate_size(settings, q->size, c->estimate);
     c->factor = settings->half_resolution ? 2 : 1;
     c->margin = q->frame->margin;

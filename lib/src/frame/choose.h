@@ -25,6 +25,7 @@ typedef struct glssao__choice {
     int inner_rounds;                /* rounds of the blur within the dispatch that upsamples */
     int reach;                       /* texels of the estimate beyond a pixel that later passes read */
     int tile_rings;                  /* the same in tiles, rounded up */
+    gl_uint host_names[4];           /* as in glssao__schedule */
     bool copies[4];                  /* which of the host's textures are copied, in the order of HOST_DEPTH and so on */
     enum glssao__map depth, normals; /* where the passes after the copying read them */
     glssao__variant inputs;          /* how these are stored, and what all variants have in common */

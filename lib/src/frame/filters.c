@@ -20,7 +20,6 @@ static void add_separable_blur(glssao__builder *b)
         step->is_horizontal = i % 2 == 1;
         glssao__build_set(step, MACRO_FILTER, filters[b->settings->blur]);
         glssao__build_finish(b, step);
-        glssao__build_set(step, MACRO_UNROLLED, 1);
         if (!bilateral) { /* it reads neither normals nor depth */
             glssao__build_set(step, MACRO_NORMALS, 0);
             glssao__build_set(step, MACRO_DEPTH, 0);

@@ -98,10 +98,10 @@ static void set_estimate(const glssao__builder *b, glssao__step *step)
     glssao__build_set(step, MACRO_LAYERS, b->frame->back_texture != 0);
     glssao__build_set(step, MACRO_NO_ANGLE_WEIGHT, b->settings->no_angle_weight);
     glssao__build_finish(b, step);
-    /* Loops keep the program small enough for a GPU's caches; in fragment shaders they pay from two slices on. */
-    glssao__build_set(step, MACRO_UNROLLED,
-                      b->c.is_horizon && step->kind == STEP_DRAW &&
-                          !(step->variant.values[MACRO_BRANCHES] && slices == 2));
+    /* Loops over slices keep the program small enough for a GPU's caches; in fragment shaders they pay from two on. */
+    glssao__build_set(step, MACRO_LOOPS,
+                      b->c.is_horizon &&
+                          (step->kind == STEP_DISPATCH || (step->variant.values[MACRO_BRANCHES] && slices == 2)));
 }
 
 static void add_estimate(glssao__builder *b)
@@ -220,6 +220,7 @@ void glssao__schedule_make(glssao__schedule *out, const glssao__request *q)
     glssao__builder b = {.s = out, .frame = q->frame, .settings = q->settings, .estimates = q->estimates};
     memset(out, 0, sizeof *out);
     glssao__choose(&b.c, q);
+    memcpy(out->host_names, b.c.host_names, sizeof out->host_names);
     out->plan = b.c.plan;
     out->may_use_compute = b.c.compute && q->can.path == GLSSAO_PATH_AUTO;
     out->has_tiles = b.c.has_tiles;

@@ -51,7 +51,7 @@ static const struct shader {
                             shader_normal_map_glsl, shader_paired_glsl, shader_hemisphere_frag}},
     [SHADER_HORIZON] = {"horizon",
                         BIT(NORMALS) | BIT(STEPS) | BIT(SLICES) | BIT(OUTPUT) | BIT(LAYERS) | BIT(COMPUTE) |
-                            BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(UNROLLED),
+                            BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(LOOPS),
                         {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                          shader_paired_glsl, shader_horizon_frag, shader_entry_glsl}},
     [SHADER_RESOLVE] = {"resolve",
@@ -60,7 +60,7 @@ static const struct shader {
                          shader_paired_glsl, shader_resolve_frag}},
     [SHADER_PROBE] = {"probe", 0, {shader_pixel_glsl, shader_depth_glsl, shader_probe_frag}},
     [SHADER_BLUR] = {"blur",
-                     BIT(NORMALS) | BIT(DEPTH) | BIT(FILTER) | BIT(OUTPUT) | BIT(COMPUTE) | BIT(UNROLLED),
+                     BIT(NORMALS) | BIT(DEPTH) | BIT(FILTER) | BIT(OUTPUT) | BIT(COMPUTE),
                      {shader_pixel_glsl, shader_depth_glsl, shader_normal_map_glsl, shader_paired_glsl,
                       shader_blur_frag, shader_entry_glsl}},
     [SHADER_PLANAR_BLUR] = {"planar-blur",
@@ -95,7 +95,7 @@ static const struct shader {
 };
 
 /* Invocations of a work group, and the rows of a tile that they share (glsl/passes/planar_tile.comp). Found by
- * experiment, docs/decisions.md. */
+ * experiment, docs/decisions/0052. */
 static const struct group {
     int x, y, rows;
 } row_group = {32, 8, 0}, horizon_group = {8, 16, 0}, tile_group = {32, 14, 28};
@@ -216,7 +216,7 @@ char *glssao__shader_source(enum glssao__shader shader, const glssao__variant *v
     append_define(&t, "GROUP_ROWS", group->rows);
     append(&t, shader_values_glsl);
     append(&t, shader_tuned_glsl);
-    append(&t, "#define UNROLL\nlayout(std140) uniform cbSsao {\n");
+    append(&t, "#define UNROLL_IF_SHORT\nlayout(std140) uniform cbSsao {\n");
     append(&t, shader_cb_ssao_glsl);
     append(&t, "};\nlayout(std140) uniform cbFrame {\n");
     append(&t, shader_cb_frame_glsl);
@@ -229,9 +229,7 @@ char *glssao__shader_source(enum glssao__shader shader, const glssao__variant *v
     for (int i = 0; i < FILES && shaders[shader].files[i]; ++i)
         append(&t, shaders[shader].files[i]);
     char *const source = finish(&t);
-    if (!source || !variant->values[MACRO_UNROLLED])
-        return source;
-    char *const unrolled = glssao__unroll(source);
+    char *const unrolled = source ? glssao__unroll(source, !variant->values[MACRO_LOOPS]) : NULL;
     free(source);
     return unrolled;
 }

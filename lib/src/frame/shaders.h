@@ -40,7 +40,7 @@ enum glssao__shader {
     X(DEPTH, 2)           /* how it stores depth: window depth, view distance, view distance in alpha */               \
     X(PERSPECTIVE, 1)     /* the projection is known not to be orthographic */                                         \
     X(BRANCHES, 1)        /* branches that spare a GPU work are taken */                                               \
-    X(UNROLLED, 1)        /* loops marked UNROLL are written out when the source is assembled */                       \
+    X(LOOPS, 1)           /* loops marked UNROLL_IF_SHORT stay loops, which keeps a GPU's program small */             \
     X(OUTPUT, 2)          /* accessibility, paired value, sum of estimates */                                          \
     X(SLICES, 2)          /* horizon: slices of a pixel */                                                             \
     X(STEPS, 16)          /* horizon: samples on each side of a slice */                                               \

@@ -123,6 +123,8 @@ typedef struct glssao__schedule {
     int count;
     enum glssao__barrier last_barrier;   /* after the last step */
     glssao__target_spec maps[MAP_COUNT]; /* those that must be there; format 0: not used */
+    gl_uint
+        host_names[4]; /* of the textures that the frame reads, 0 for others, in the order of HOST_DEPTH and so on */
     int estimate_size[2];
     enum glssao__map result;  /* holds the result afterwards */
     enum glssao__map other;   /* the other of the maps that the passes draw into by turns */

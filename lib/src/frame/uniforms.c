@@ -127,7 +127,7 @@ static void fill_ssao(glssao_constants *c, const glssao__uniforms_source *source
 }
 
 /* Sine of the angle up to which a surface counts as a plane. Horizon's estimate of such a plane is 1 within a step of
- * R16 (docs/economy.md); the hemisphere technique's epsilon hides more. */
+ * R16 (glsl/tiles/proof.md); the hemisphere technique's epsilon hides more. */
 static const float FLAT = 1.5e-3f;
 
 /* For the passes in glsl/tiles/. */
@@ -171,19 +171,19 @@ static void fill_frame(glssao__frame_block *c, const glssao__uniforms_source *so
         c->gEstimateSize[i] = (float)source->estimate_size[i];
         c->gFullTexel[i] = 1.0f / (float)source->size[i];
     }
+    fill_tiles(c, settings, source->tile_rings);
     glssao__projection_depth_step(frame, projection, &source->precision, c->gDepthStep);
     if (frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC) {
         const double constant = glssao__projection_log_constant(frame);
         c->gLogDepth[0] = (float)log2(constant * (double)frame->log_depth_far + 1.0);
         c->gLogDepth[1] = (float)(1.0 / constant);
     }
-    fill_tiles(c, settings, source->tile_rings);
 }
 
 void glssao__uniforms_fill(glssao__uniforms *u, const glssao__uniforms_source *source)
 {
-    fill_ssao(&u->ssao, source);
-    fill_frame(&u->frame, source);
     if (source->settings->technique == GLSSAO_HEMISPHERE)
         glssao__uniforms_kernel(&u->hemisphere, source->seed, source->settings->sample_count);
+    fill_ssao(&u->ssao, source);
+    fill_frame(&u->frame, source);
 }

@@ -19,7 +19,8 @@ typedef struct loop {
     const char *after;    /* ... to behind the one that closes it */
 } loop;
 
-static const char marker[] = "UNROLL for (int ";
+/* In the order in which they are looked for. */
+static const char *const markers[] = {"UNROLL for (int ", "UNROLL_IF_SHORT for (int "};
 
 static const char *read_name(const char *at, char out[NAME_LENGTH])
 {
@@ -69,10 +70,24 @@ static const char *behind_block(const char *at)
     return at;
 }
 
-/* Reads the loop whose marker lies at `at`. */
+/* The next loop to write out, or `end`; *out_head is where its marker ends. */
+static const char *find_loop(const char *at, const char *end, bool is_short, const char **out_head)
+{
+    const char *next = end;
+    for (int i = 0; i < 1 + is_short; ++i) {
+        const char *found = strstr(at, markers[i]);
+        if (!found || found >= next)
+            continue;
+        next = found;
+        *out_head = found + strlen(markers[i]);
+    }
+    return next;
+}
+
+/* Reads the loop from behind its marker on. */
 static bool read_loop(const char *source, const char *at, loop *out)
 {
-    at = read_name(at + sizeof marker - 1, out->counter);
+    at = read_name(at, out->counter);
     if (strncmp(at, " = ", 3) != 0)
         return false;
     at = read_bound(source, at + 3, &out->first);
@@ -89,13 +104,13 @@ static bool read_loop(const char *source, const char *at, loop *out)
 
 /* Copies the text up to `end` to `out`, NULL: only counts; returns its length. Loops within loops are written out too.
  */
-static size_t copy(const char *source, const char *at, const char *end, char *out)
+static size_t copy(const char *source, const char *at, const char *end, bool is_short, char *out)
 {
     size_t length = 0;
     while (at < end) {
-        const char *next = strstr(at, marker);
+        const char *head, *next = find_loop(at, end, is_short, &head);
         loop l;
-        if (!next || next >= end || !read_loop(source, next, &l))
+        if (next < end && !read_loop(source, head, &l))
             next = end;
         if (out)
             memcpy(out + length, at, (size_t)(next - at));
@@ -104,12 +119,12 @@ static size_t copy(const char *source, const char *at, const char *end, char *ou
         if (next == end)
             break;
         for (int i = l.first; i != l.end; i += l.step) {
-            char head[NAME_LENGTH + 32];
-            const int head_length = snprintf(head, sizeof head, "{ const int %s = %d; ", l.counter, i);
+            char opening[NAME_LENGTH + 32];
+            const int opening_length = snprintf(opening, sizeof opening, "{ const int %s = %d; ", l.counter, i);
             if (out)
-                memcpy(out + length, head, (size_t)head_length);
-            length += (size_t)head_length;
-            length += copy(source, l.body, l.after, out ? out + length : NULL);
+                memcpy(out + length, opening, (size_t)opening_length);
+            length += (size_t)opening_length;
+            length += copy(source, l.body, l.after, is_short, out ? out + length : NULL);
             if (out)
                 memcpy(out + length, " }\n", 3);
             length += 3;
@@ -119,14 +134,14 @@ static size_t copy(const char *source, const char *at, const char *end, char *ou
     return length;
 }
 
-char *glssao__unroll(const char *source)
+char *glssao__unroll(const char *source, bool is_short)
 {
     const char *const end = source + strlen(source);
-    const size_t length = copy(source, source, end, NULL);
+    const size_t length = copy(source, source, end, is_short, NULL);
     char *out = malloc(length + 1);
     if (!out)
         return NULL;
-    copy(source, source, end, out);
+    copy(source, source, end, is_short, out);
     out[length] = '\0';
     return out;
 }

@@ -114,7 +114,8 @@ static const struct transfer {
     {GL_BLUE_BIAS, 0, true},          {GL_ALPHA_SCALE, 1, true},         {GL_ALPHA_BIAS, 0, true},
 };
 enum { TRANSFER_COUNT = sizeof transfers / sizeof *transfers };
-_Static_assert(TRANSFER_COUNT <= STATE_TRANSFERS, "glssao__state has no room for all transfer parameters");
+_Static_assert(sizeof transfers / sizeof *transfers <= STATE_TRANSFERS,
+               "glssao__state has no room for all transfer parameters");
 
 static void put_transfer(const glssao__gl *gl, int i, float value)
 {

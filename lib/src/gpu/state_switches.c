@@ -27,7 +27,7 @@ static const struct toggle {
     {GL_DEPTH_BOUNDS_TEST_EXT, DEPTH_BOUNDS},
 };
 enum { TOGGLE_COUNT = sizeof toggles / sizeof *toggles };
-_Static_assert(TOGGLE_COUNT <= STATE_TOGGLES, "glssao__state has no room for all toggles");
+_Static_assert(sizeof toggles / sizeof *toggles <= STATE_TOGGLES, "glssao__state has no room for all toggles");
 
 static bool has_toggle(const glssao__gl *gl, int i)
 {

@@ -15,15 +15,6 @@ void glssao__host_names(const glssao_frame *frame, gl_uint out_names[HOST_TEXTUR
     out_names[HOST_SECOND] = frame->second_texture;
 }
 
-void glssao__host_copies(const glssao_frame *frame, gl_uint out_names[HOST_TEXTURES])
-{
-    const bool all = frame->multisample || frame->viewport[2] != 0 || frame->viewport[3] != 0;
-    glssao__host_names(frame, out_names);
-    for (int i = 0; i < HOST_TEXTURES; ++i)
-        if (!all && (frame->depth_kind != GLSSAO_DEPTH_LOGARITHMIC || i == HOST_NORMAL))
-            out_names[i] = 0;
-}
-
 /* Parameters that change what a shader reads without a sampler object having a say. */
 static const struct parameter {
     gl_enum name;

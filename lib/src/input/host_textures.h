@@ -42,10 +42,6 @@ typedef struct glssao__host_inputs {
 /* The frame's texture names, 0 where one is not read. */
 void glssao__host_names(const glssao_frame *frame, gl_uint out_names[HOST_TEXTURES]);
 
-/* Those that must be copied before the passes can read them, 0 for the others: all of a multisample or larger texture,
- * and those that hold logarithmic depth. */
-void glssao__host_copies(const glssao_frame *frame, gl_uint out_names[HOST_TEXTURES]);
-
 /* Refuses textures that are not what the frame says, and sets parameters that would change what is read. `size`: full
  * size in pixels. `unit`: a saved texture unit. `known`: NULL, or what to remember and to consult before OpenGL. After
  * GLSSAO_OK, glssao__host_textures_restore is due. */

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: MIT
+"""The figures that pages compute, on tables made up for the purpose, and the filling of a page."""
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import blocks
+import data
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+NOTES = "# made up\n# time_scene=a\tsize=8x8\ttime_size=8x8\trays=1\tsoftware=1\tglssao=0\tcpu=x\tcores=1\tcontext=y\n"
+
+
+def write(folder, name, columns, rows):
+    with open(os.path.join(folder, name + ".tsv"), "w", encoding="utf-8") as f:
+        f.write(NOTES + "\t".join(columns) + "\n")
+        f.writelines("\t".join(map(str, row)) + "\n" for row in rows)
+
+
+def make(folder, rmse, ms):
+    """rmse: {configuration: [a value a scene]}; ms: {configuration: time on the first scene}."""
+    columns = ["configuration", "technique", "level", "inputs", "scene", "rmse", "ssim", "specks", "median_ms"]
+    rows = [[c, "peer" if c == "other" else "horizon", 1, "normals", "abcdefgh"[i], value, 1 - value, i, ms[c] if i == 0 else ""]
+            for c, values in rmse.items() for i, value in enumerate(values)]
+    write(folder, "accuracy", columns, rows)
+    count = len(next(iter(rmse.values())))
+    write(folder, "scenes", ["scene", "use"], [["abcdefgh"[i], "tuning"] for i in range(count)])
+    return data.Accuracy(folder)
+
+
+class Figures(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = self.temporary.name
+        self.addCleanup(self.temporary.cleanup)
+
+    def test_scenes_count_the_same(self):
+        a = make(self.folder, {"horizon-low": [0.3, 0.4]}, {"horizon-low": 1})
+        self.assertAlmostEqual(a.figure("horizon-low", "rmse"), math.sqrt((0.09 + 0.16) / 2))
+        self.assertAlmostEqual(a.figure("horizon-low", "ssim"), 0.65)
+        self.assertEqual(a.figure("horizon-low", "specks"), 1)
+
+    def test_scenes_of_equal_error_have_no_interval(self):
+        a = make(self.folder, {"horizon-low": [0.1] * 8}, {"horizon-low": 1})
+        low, high = a.rmse_interval("horizon-low")
+        self.assertAlmostEqual(low, 0.1)
+        self.assertAlmostEqual(high, 0.1)
+
+    def test_interval_of_a_mean_is_as_wide_as_its_standard_error(self):
+        values = [i / 7 for i in range(8)]
+        low, high = data.interval(lambda draw: sum(values[i] for i in draw) / 8, 8)
+        mean = sum(values) / 8
+        error = math.sqrt(sum((v - mean) ** 2 for v in values) / 8 / 8)
+        self.assertAlmostEqual(low, mean - 1.96 * error, delta=0.2 * error)
+        self.assertAlmostEqual(high, mean + 1.96 * error, delta=0.2 * error)
+
+    def test_differences_are_paired(self):
+        scenes = [0.01, 0.4, 0.05, 0.2, 0.3, 0.02, 0.1, 0.15]
+        a = make(self.folder, {"horizon-low": scenes, "horizon-high": [0.9 * s for s in scenes]}, {"horizon-low": 1, "horizon-high": 2})
+        share, (low, high) = a.change("horizon-high", "horizon-low")
+        self.assertAlmostEqual(share, -0.1)
+        self.assertAlmostEqual(low, -0.1)
+        self.assertAlmostEqual(high, -0.1)
+
+    def test_front_has_what_is_not_beaten_in_both(self):
+        rmse = {"horizon-low": [0.3], "horizon-medium": [0.2], "horizon-high": [0.25], "horizon-ultra": [0.1]}
+        ms = {"horizon-low": 1, "horizon-medium": 2, "horizon-high": 3, "horizon-ultra": 4}
+        a = make(self.folder, rmse, ms)
+        self.assertEqual(a.front(list(rmse)), ["horizon-low", "horizon-medium", "horizon-ultra"])
+        self.assertEqual(a.front(list(rmse), "ssim"), ["horizon-low", "horizon-medium", "horizon-ultra"])
+
+    def test_peers_that_beat_a_level_are_listed(self):
+        a = make(self.folder, {"horizon-low": [0.1, 0.4], "other": [0.2, 0.3]}, {"horizon-low": 5, "other": 4})
+        rows = [row[2:4] for row in blocks.beaten_rows(a)]
+        self.assertEqual(rows, [("rmse", "b"), ("ssim", "b"), ("median_ms", "a")])
+
+    def test_blocks_are_filled_and_others_kept(self):
+        docs, machine = os.path.join(self.folder, "docs"), os.path.join(self.folder, "data", "here")
+        os.makedirs(docs)
+        os.makedirs(machine)
+        write(machine, "economy-first", ["kept", "ms"], [["nothing", 12.34]])
+        page = os.path.join(docs, "page.md")
+        with open(page, "w", encoding="utf-8") as f:
+            f.write("Before\n<!-- economy_first here -->\nold\n<!-- end -->\n<!-- levels there -->\nkept\n<!-- end -->\nAfter\n")
+        subprocess.run([sys.executable, os.path.join(HERE, "make.py"), os.path.join(self.folder, "data"), docs], check=True,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        with open(page, encoding="utf-8") as f:
+            text = f.read()
+        self.assertIn("| nothing | 12.3 |", text)
+        self.assertNotIn("old", text)
+        self.assertTrue(text.endswith("<!-- levels there -->\nkept\n<!-- end -->\nAfter\n"))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The tables of glssao-bench, in the output folder. Each call returns false, with one line in `error`, where a file
+ * could not be written.
+ */
+#ifndef GLSSAO_BENCH_REPORT_H
+#define GLSSAO_BENCH_REPORT_H
+
+#include "results.h"
+
+/* accuracy.tsv: one row for each configuration and scene. */
+bool report_accuracy(const results *r, char *error, size_t error_size);
+/* scenes.tsv: one row a scene. */
+bool report_scenes(const results *r, char *error, size_t error_size);
+/* split.tsv: one row for each split configuration, scene and step; oracle.tsv: for each scene and thickness. */
+bool report_split(const results *r, char *error, size_t error_size);
+
+#endif

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Tables of tab-separated values, one row a line. The first line is the command that made them, the second the machine
+ * and what all rows share, the third the names of the columns. A cell that was not measured is empty.
+ */
+#ifndef GLSSAO_BENCH_TABLE_H
+#define GLSSAO_BENCH_TABLE_H
+
+#include "context.h"
+#include "options.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+typedef struct table {
+    FILE *file;
+    char path[1024];
+    bool row_begun;
+} table;
+
+/* Starts NAME.tsv in the output folder. `columns` are separated by spaces. False, with one line in `error`. */
+bool table_begin(table *t, const options *o, const context *c, const char *name, const char *columns, char *error,
+                 size_t error_size);
+void table_text(table *t, const char *value);
+void table_number(table *t, double value); /* not finite: an empty cell */
+void table_end_row(table *t);
+/* Closes it; false, with one line in `error`, where it could not be written in full. */
+bool table_end(table *t, char *error, size_t error_size);
+
+#endif

@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Recordings of peers: the passes are drawn in order, and errors name the fault.
+ */
+#define _XOPEN_SOURCE 700 /* mkdtemp */
+#include "replay.h"
+
+#include "fixture.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { WIDTH = 8, HEIGHT = 4 };
+
+static char folder[] = "/tmp/glssao-replay-XXXXXX";
+static char error[1024];
+
+static void write_file(const char *name, const void *data, size_t size)
+{
+    char path[256];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *f = fopen(path, "wb");
+    assert_non_null(f);
+    assert_int_equal(fwrite(data, 1, size, f), size);
+    assert_int_equal(fclose(f), 0);
+}
+
+static void write_text(const char *name, const char *text)
+{
+    write_file(name, text, strlen(text));
+}
+
+/* A pass writes a wave of the texture's left texel; a second one halves it and adds a number. */
+static const char recording[] = "texture 2 1 r8 0 1 a.raw\n"
+                                "texture 8 4 rgba16f 0 0 -\n"
+                                "texture 8 4 r32f 0 0 -\n"
+                                "program a.vert first.frag\n"
+                                "program a.vert second.frag\n"
+                                "clear 1 0 0 0 0\n"
+                                "pass 0 0 0 4 4 1\n"
+                                "sampler u_from 0\n"
+                                "uniform u_parts 0.25 0.5\n"
+                                "pass 1 0 0 8 4 2\n"
+                                "sampler u_from 1\n"
+                                "sampler u_white white\n"
+                                "uniform u_unknown 1\n"
+                                "uniform u_add 0.125\n"
+                                "output 2\n";
+
+static int make_folder_of_files(void **state)
+{
+    static const unsigned char texels[2] = {255, 0};
+    assert_non_null(mkdtemp(folder));
+    write_file("a.raw", texels, sizeof texels);
+    write_file("short.raw", texels, 1);
+    write_text("a.vert", "#version 330\nin vec3 position;\nin vec2 uv;\nout vec2 v_uv;\n"
+                         "void main() { v_uv = uv; gl_Position = vec4(position, 1.0); }\n");
+    write_text("first.frag",
+               "#version 330\nuniform sampler2D u_from;\nuniform float u_parts[2];\nin vec2 v_uv;\nout vec4 o;\n"
+               "void main() { o = vec4(texture(u_from, vec2(0.25, 0.5)).r * (u_parts[0] + u_parts[1])); }\n");
+    write_text("second.frag",
+               "#version 330\nuniform sampler2D u_from, u_white;\nuniform float u_add;\nin vec2 v_uv;\nout vec4 o;\n"
+               "void main() { o = 0.5 * texture(u_from, v_uv) * texture(u_white, v_uv) + u_add; }\n");
+    write_text("bad.frag", "#version 330\nnonsense\n");
+    return fixture_setup(state);
+}
+
+static int remove_folder(void **state)
+{
+    static const char *const names[] = {"a.raw",       "short.raw", "a.vert",  "first.frag",
+                                        "second.frag", "bad.frag",  "key.peer"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        char path[256];
+        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
+        remove(path);
+    }
+    rmdir(folder);
+    return fixture_teardown(state);
+}
+
+static replay *load(replayer *r, const char *text)
+{
+    write_text("key.peer", text);
+    return replay_load(r, folder, "key", error, sizeof error);
+}
+
+static void passes_are_drawn_in_order(void **state)
+{
+    fixture *f = *state;
+    const float one[4] = {1, 1, 1, 1};
+    float out[WIDTH * HEIGHT];
+    replayer *r = replayer_create(f->context);
+    replay *p = load(r, recording);
+    if (!p)
+        fail_msg("%s", error);
+    replay_inputs in = {{0}};
+    gl.GenTextures(1, &in.textures[REPLAY_WHITE]);
+    gl.BindTexture(GL_TEXTURE_2D, in.textures[REPLAY_WHITE]);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 1, 1, 0, GL_RGBA, GL_FLOAT, one);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    replay_draw(r, p, &in);
+    assert_true(replay_read(p, WIDTH, HEIGHT, out, error, sizeof error));
+    for (int i = 0; i < WIDTH * HEIGHT; i++) /* the first pass covers the left half and clears the rest to 0 */
+        assert_true(fabsf(out[i] - (i % WIDTH < 4 ? 0.5f * 0.75f + 0.125f : 0.125f)) < 1e-3f);
+    assert_false(replay_read(p, WIDTH, WIDTH, out, error, sizeof error));
+    assert_non_null(strstr(error, "8x4"));
+    replay_inputs_destroy(&in);
+    replay_destroy(p);
+    replayer_destroy(r);
+}
+
+static void wrong_recordings_are_named(void **state)
+{
+    static const struct {
+        const char *text, *said;
+    } wrong[] = {
+        {"nonsense\n", "not understood: nonsense"},
+        {"texture 2 1 rgb9 0 0 -\n", "not understood: texture 2 1 rgb9"},
+        {"texture 0 1 r8 0 0 -\n", "not understood: texture 0 1"},
+        {"texture 2 1 r8 0 0 short.raw\n", "1 bytes are too few for 2x1 texels of r8"},
+        {"texture 2 1 r8 0 0 none.raw\n", "none.raw: No such file"},
+        {"program a.vert bad.frag\n", "bad.frag: "},
+        {"texture 2 1 r8 0 0 -\npass 0 0 0 1 1 0\n", "not understood: pass 0"},
+        {"texture 2 1 r8 0 0 -\nprogram a.vert first.frag\npass 0 0 0 1 1 7\n", "not understood: pass 0 0 0 1 1 7"},
+        {"output 3\n", "not understood: output 3"}};
+    fixture *f = *state;
+    replayer *r = replayer_create(f->context);
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        assert_null(load(r, wrong[i].text));
+        if (!strstr(error, wrong[i].said))
+            fail_msg("%s: it says \"%s\"", wrong[i].said, error);
+    }
+    replayer_destroy(r);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(passes_are_drawn_in_order, fixture_no_gl_error),
+        cmocka_unit_test_teardown(wrong_recordings_are_named, fixture_no_gl_error),
+    };
+    return cmocka_run_group_tests(tests, make_folder_of_files, remove_folder);
+}

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Height maps: the foot of a cliff, and holes.
+ */
+#include "occlude_fixture.h"
+
+#include <math.h>
+
+/* A cliff in a height map, of height 6. Far more of it than the radius is in the picture. */
+static double worst_at_cliff(float radius, bool solid, float out[COUNT])
+{
+    const float spacing = 0.5f, cliff = 6.0f;
+    float heights[COUNT], depth[COUNT];
+    for (int i = 0; i < COUNT; ++i)
+        heights[i] = 800.0f + (i % WIDTH < WIDTH / 2 ? cliff : 0.0f);
+    occlude_input input = {.width = WIDTH, .height = HEIGHT, .depth = depth, .estimates = 64, .solid = solid};
+    assert_true(occlude_look_down(heights, WIDTH, HEIGHT, spacing, depth, input.projection, error, sizeof error));
+    const glssao_settings settings = settings_of(radius);
+    compute(&input, &settings, out);
+    const analytic_shape block = {ANALYTIC_BOX, {-100.0, 0.0, 3.0}, {100.0, 100.0, 3.0}};
+    double worst = 0.0;
+    for (int x = WIDTH / 2; x < WIDTH; ++x) {
+        const double foot[3] = {(x + 0.5 - WIDTH / 2.0) * (double)spacing, 0.0, 0.0}, up[3] = {0.0, 0.0, 1.0};
+        const double wanted = analytic_accessibility(&block, 1, foot, up, (double)radius, 4096);
+        worst = fmax(worst, fabs((double)out[HEIGHT / 2 * WIDTH + x] - wanted));
+    }
+    return worst;
+}
+
+static void test_cliff_of_a_height_map_agrees_with_traced_rays(void **state)
+{
+    (void)state;
+    float out[COUNT];
+    assert_true(worst_at_cliff(6.0f, false, out) > 0.04); /* a slab of guessed thickness lets light through below */
+    assert_true(worst_at_cliff(6.0f, true, out) < 0.025);
+    for (int x = 0; x < WIDTH / 2 - 1; ++x)
+        assert_true(out[HEIGHT / 2 * WIDTH + x] > 0.995f); /* the top */
+
+    /* Near the foot of a cliff of height h the radius cuts nothing off, and the form factor of an endless strip holds:
+     * (1 - d / sqrt(d^2 + h^2)) / 2 of the directions are blocked at distance d, weighted by their cosine. */
+    assert_true(worst_at_cliff(12.0f, true, out) < 0.03);
+    for (int x = WIDTH / 2; x < WIDTH / 2 + 4; ++x) {
+        const double d = (x + 0.5 - WIDTH / 2.0) * 0.5;
+        const double wanted = 1.0 - 0.5 * (1.0 - d / sqrt(d * d + 36.0));
+        assert_true(fabs((double)out[HEIGHT / 2 * WIDTH + x] - wanted) < 0.03);
+    }
+}
+
+static void test_holes_and_flat_height_maps(void **state)
+{
+    (void)state;
+    float heights[] = {NAN, 7.0f, INFINITY, 7.0f}, depth[4], out[4];
+    occlude_input input = {.width = 2, .height = 2, .depth = depth};
+    assert_true(occlude_look_down(heights, 2, 2, 0.25f, depth, input.projection, error, sizeof error));
+    const float wanted[] = {0.0f, 0.25f, 0.0f, 0.25f};
+    assert_memory_equal(depth, wanted, sizeof wanted);
+    const glssao_settings settings = settings_of(1.0f);
+    compute(&input, &settings, out);
+    for (int i = 0; i < 4; ++i)
+        assert_true(out[i] > 0.99f);
+
+    heights[1] = heights[3] = -INFINITY;
+    assert_false(occlude_look_down(heights, 2, 2, 0.25f, depth, input.projection, error, sizeof error));
+    assert_string_equal(error, "no height is a finite number");
+    assert_false(occlude_look_down(heights, 2, 2, NAN, depth, input.projection, error, sizeof error));
+    assert_string_equal(error, "spacing = nan: want a positive number");
+    assert_false(occlude_look_down(heights, 0, 2, 1.0f, depth, input.projection, error, sizeof error));
+    assert_string_equal(error, "the height map is 0 x 2: want 1 x 1 or more");
+}
+
+int main(void)
+{
+#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
+    const struct CMUnitTest tests[] = {
+        TEST(test_cliff_of_a_height_map_agrees_with_traced_rays),
+        TEST(test_holes_and_flat_height_maps),
+    };
+#undef TEST
+    return cmocka_run_group_tests(tests, occlude_setup, occlude_teardown);
+}

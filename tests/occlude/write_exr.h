@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: MIT */
+#ifndef GLSSAO_TESTS_WRITE_EXR_H
+#define GLSSAO_TESTS_WRITE_EXR_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* `count` channels of those names, interleaved in `values`, rows from the top. */
+void write_exr(const char *path, int width, int height, const char *const *names, int count, float *values);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
