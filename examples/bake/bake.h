@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * glssao-bake, part by part: the file's vertices as they stand in the world, rays, values at vertices, the file again.
+ * The parts of glssao-bake: reading the file's vertices, casting rays, computing values at vertices, writing the file.
  */
 #ifndef GLSSAO_EXAMPLES_BAKE_H
 #define GLSSAO_EXAMPLES_BAKE_H
@@ -15,7 +15,7 @@ extern "C" {
 typedef enum bake_method {
     BAKE_TRIANGLES = 0, /* rays from each triangle's centroid; a vertex gets the mean of its triangles */
     BAKE_VERTICES,      /* rays from the vertices */
-    BAKE_FIT            /* rays from many points of each triangle; vertices get what interpolates to them best */
+    BAKE_FIT            /* rays from many points of each triangle; the vertices' values are fitted to them */
 } bake_method;
 
 typedef struct bake_options {
@@ -26,9 +26,16 @@ typedef struct bake_options {
     float offset;      /* scene units, below 0: chosen by the scene's size */
     float floor_value; /* accessibility below it is raised to it */
     bool cosine, accessibility_only;
+    scene_load_options file;           /* how to load the input, except the memory limit: */
+    int memory_mib;                    /* 0: half of the machine's */
+    bool in_place; /* the output may be the input */
+    bool vertices, fit, help, version; /* as given */
     uint32_t seed;
     int threads;
 } bake_options;
+
+/* The options for the loader. */
+scene_load_options bake_load_options(const bake_options *o);
 
 /* options.c: as in glssao-render. BAKE_DONE: help or version was printed. BAKE_WRONG: one line in `error`. */
 typedef enum bake_result { BAKE_RUN, BAKE_DONE, BAKE_WRONG } bake_result;
@@ -45,7 +52,8 @@ typedef struct bake_part {
     float (*colors)[4];  /* COLOR_0; NULL: white */
     uint32_t *indices;
     bool double_sided;
-    float (*world_from_mesh)[16]; /* of each instance */
+    double center[3];              /* positions are relative to it */
+    double (*world_from_mesh)[16]; /* of each instance, in the file's coordinates */
     size_t instance_count;
     float *accessibility; /* of each vertex: the result */
 } bake_part;
@@ -54,12 +62,14 @@ typedef struct bake_part {
  */
 typedef struct bake_model {
     gltf_document document;
+    scene_warnings warnings;
     bake_part *parts;
     size_t part_count;
+    double origin[3]; /* in the file's coordinates, of the space that rays are cast in; set by bake_cast */
 } bake_model;
 
 /* False, with the fault set; bake_model_close is due in either case. */
-bool bake_model_open(bake_model *m, const char *path, scene_fault *fault);
+bool bake_model_open(bake_model *m, const bake_options *o, scene_fault *fault);
 void bake_model_close(bake_model *m);
 
 /* bake_points.c: where rays start. Of a part, for one of its instances, in the world. */
@@ -72,8 +82,8 @@ typedef struct bake_points {
 } bake_points;
 
 /* Points for the method; `total_area` and `total_triangles` of all parts say how densely BAKE_FIT samples. */
-bool bake_points_make(bake_points *p, const bake_part *part, size_t instance, bake_method method,
-                      double triangles_per_area, scene_fault *fault);
+bool bake_points_make(bake_points *p, const bake_part *part, size_t instance, const double origin[3],
+                      bake_method method, double triangles_per_area, scene_fault *fault);
 void bake_points_free(bake_points *p);
 /* The area of a part's triangles in its first instance. */
 double bake_part_area(const bake_part *part);
@@ -89,8 +99,8 @@ typedef struct bake_stats {
 } bake_stats;
 bool bake_cast(bake_model *m, const bake_options *o, bake_stats *out, scene_fault *fault);
 
-/* bake_write.cpp: the file as it was, as a GLB, with the parts' accessibility as COLOR_0: multiplied with what is
- * there, or alone. A mesh that more than one node shows becomes one mesh a node. */
+/* bake_write.cpp: writes the file as a GLB with the parts' accessibility in COLOR_0, multiplied by the colours there or
+ * alone. A mesh that several nodes share becomes one mesh for each node. */
 bool bake_write(const bake_model *m, const bake_options *o, scene_fault *fault);
 
 #ifdef __cplusplus

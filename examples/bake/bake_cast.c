@@ -5,8 +5,8 @@
  */
 #include "bake.h"
 
+#include "progress.h"
 #include "trace.h"
-#include "trace_progress.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,7 +18,8 @@ typedef struct caster {
     const bake_options *options;
     const trace_scene *scene;
     scene_fault *fault;
-    trace_progress bar;
+    const double *origin;
+    progress bar;
     double triangles_per_area;
     size_t steps, steps_done; /* an instance of a triangle each */
     size_t step;              /* of the part being cast */
@@ -30,7 +31,7 @@ typedef struct caster {
 static void report(double done, void *user)
 {
     caster *c = user;
-    trace_progress_report(((double)c->steps_done + done * (double)c->step) / (double)c->steps, &c->bar);
+    progress_share(((double)c->steps_done + done * (double)c->step) / (double)c->steps, &c->bar);
 }
 
 static bool cast_points(caster *c, const bake_points *p, float *out)
@@ -54,8 +55,8 @@ static bool cast_points(caster *c, const bake_points *p, float *out)
     return true;
 }
 
-/* One instance's values; what is seen from both sides counts by its more accessible one, since the other may be the
- * inside of something closed. */
+/* The values of one instance. A double-sided surface takes the more accessible side, since the other may be the inside
+ * of a closed object. */
 static bool cast_instance(caster *c, const bake_part *part, bake_points *p, float *values, float *scratch)
 {
     if (!cast_points(c, p, values)) {
@@ -87,7 +88,7 @@ static bool cast_part(caster *c, bake_part *part)
     c->step = part->index_count / 3;
     for (size_t i = 0; ok && i < part->instance_count; i++) {
         bake_points_free(&points);
-        ok = bake_points_make(&points, part, i, method, c->triangles_per_area, c->fault);
+        ok = bake_points_make(&points, part, i, c->origin, method, c->triangles_per_area, c->fault);
         if (ok && !memory) { /* as many points in every instance */
             memory = calloc(3 * points.count + 1, sizeof *memory);
             ok = memory || scene_fail_memory(c->fault);
@@ -124,14 +125,22 @@ static float choose_offset(const scene *s)
 
 bool bake_cast(bake_model *m, const bake_options *o, bake_stats *out, scene_fault *fault)
 {
-    char error[ERROR_LENGTH];
-    scene *s = scene_load(o->input, error, sizeof error);
-    trace_scene *t = s ? trace_scene_create(s, error, sizeof error) : NULL;
+    const scene_load_options file = bake_load_options(o);
+    scene *s = scene_load_with(o->input, &file, fault->text, fault->size);
+    for (size_t i = 0; s && i < s->warning_count; i++) {
+        fprintf(stderr, "%s: warning: %s\n", o->input, s->warnings[i]);
+    }
+    trace_scene *t = s ? trace_scene_create(s, fault->text, fault->size) : NULL;
     if (!t) {
         scene_destroy(s);
-        return scene_fail(fault, "%s", error);
+        fault->set = true; /* both name the file themselves */
+        return false;
     }
-    caster c = {.options = o, .scene = t, .fault = fault, .bar = trace_progress_start("casting")};
+    caster c = {.options = o, .scene = t, .fault = fault, .bar = progress_start("casting")};
+    c.origin = m->origin;
+    for (int i = 0; i < 3; i++) {
+        m->origin[i] = s->origin[i];
+    }
     c.offset = o->offset >= 0 ? o->offset : choose_offset(s);
     double area = 0, triangles = 0;
     for (size_t i = 0; i < m->part_count; i++) {
@@ -144,7 +153,7 @@ bool bake_cast(bake_model *m, const bake_options *o, bake_stats *out, scene_faul
     for (size_t i = 0; ok && i < m->part_count; i++) {
         ok = cast_part(&c, &m->parts[i]);
     }
-    trace_progress_end(&c.bar);
+    progress_clear();
     trace_scene_destroy(t);
     scene_destroy(s);
     *out = c.stats;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Reads a file's vertices node by node, posed as the renderer draws them, but with the file's own numbering, so that
+ * Reads a file's vertices node by node, in the pose that the renderer draws, with the file's own numbering, so that
  * the results can be written back.
  */
 #include "bake.h"
@@ -11,7 +11,7 @@
 #include <string.h>
 
 typedef struct reader {
-    gltf_loader loader;
+    gltf_loader loader; /* first: visitors get a pointer to it */
     bake_model *model;
     size_t room; /* allocated parts */
 } reader;
@@ -34,13 +34,13 @@ static bake_part *find_part(bake_model *m, const gltf_mesh *mesh, size_t node, c
     return NULL;
 }
 
-static float (*read_places(reader *r, size_t node, size_t *out_count))[16]
+static double (*read_places(reader *r, size_t node, size_t *out_count))[16]
 {
     const gltf_node *n = &r->loader.document->nodes[node];
     if (n->instanced && n->skin < 0) {
         return gltf_read_instances(&r->loader, node, out_count);
     }
-    float(*place)[16] = calloc(1, sizeof *place);
+    double(*place)[16] = calloc(1, sizeof *place);
     *out_count = 1;
     if (!place) {
         scene_fail_memory(r->loader.fault);
@@ -110,6 +110,7 @@ static bool take_vertices(reader *r, bake_part *part, size_t node)
     part->node = node;
     part->vertex_count = v->count;
     part->positions = v->positions;
+    memcpy(part->center, v->center, sizeof part->center);
     part->normals = v->normals;
     part->colors = v->colors;
     v->positions = NULL;
@@ -127,7 +128,7 @@ static bool read_primitive(reader *r, size_t node, const gltf_mesh *mesh, size_t
         return true;
     }
     gltf_free_vertices(&r->loader.recent); /* its arrays go to the part: nothing is read twice */
-    if (!gltf_read_vertices(&r->loader, p, node, (int[2]){0, 1})) {
+    if (!gltf_read_vertices(&r->loader, p, node, &(gltf_uv_slots){.count = 0})) {
         return false;
     }
     bake_part *part = find_part(r->model, mesh, node, p);
@@ -147,61 +148,48 @@ static bool read_primitive(reader *r, size_t node, const gltf_mesh *mesh, size_t
     return add_primitive_number(part, number, r->loader.fault);
 }
 
-static bool read_branch(reader *r, size_t node)
+static bool read_branch(gltf_loader *l, size_t node)
 {
-    const gltf_document *d = r->loader.document;
+    reader *r = (reader *)l; /* its first member */
+    const gltf_document *d = l->document;
     const gltf_node *n = &d->nodes[node];
+    if (l->drawn[node] || n->hidden) {
+        return true;
+    }
+    l->drawn[node] = true;
     for (size_t i = 0; n->mesh >= 0 && i < d->meshes[n->mesh].primitive_count; i++) {
         if (!read_primitive(r, node, &d->meshes[n->mesh], i)) {
             return false;
         }
     }
     for (size_t i = 0; i < n->child_count; i++) {
-        if (!read_branch(r, (size_t)n->children[i])) {
+        if (!read_branch(l, (size_t)n->children[i])) {
             return false;
         }
     }
     return true;
 }
 
-/* The nodes of the scene that is shown; without scenes, all roots. */
-static bool read_shown(reader *r)
+scene_load_options bake_load_options(const bake_options *o)
 {
-    const gltf_document *d = r->loader.document;
-    if (d->scene_count) {
-        const gltf_scene *shown = &d->scenes[d->default_scene < 0 ? 0 : d->default_scene];
-        for (size_t i = 0; i < shown->node_count; i++) {
-            if (!read_branch(r, (size_t)shown->nodes[i])) {
-                return false;
-            }
-        }
-        return true;
-    }
-    bool *child = calloc(d->node_count + 1, sizeof *child);
-    bool ok = child || scene_fail_memory(r->loader.fault);
-    for (size_t n = 0; ok && n < d->node_count; n++) {
-        for (size_t i = 0; i < d->nodes[n].child_count; i++) {
-            child[d->nodes[n].children[i]] = true;
-        }
-    }
-    for (size_t n = 0; ok && n < d->node_count; n++) {
-        ok = child[n] || read_branch(r, n);
-    }
-    free(child);
-    return ok;
+    scene_load_options file = o->file;
+    file.memory_bytes = (uint64_t)o->memory_mib << 20;
+    return file;
 }
 
-bool bake_model_open(bake_model *m, const char *path, scene_fault *fault)
+bool bake_model_open(bake_model *m, const bake_options *o, scene_fault *fault)
 {
-    *m = (bake_model){0};
-    if (!gltf_document_open(&m->document, path, fault)) {
+    const scene_load_options file = bake_load_options(o);
+    *m = (bake_model){.warnings = {.strict = file.strict}};
+    if (!gltf_document_open(&m->document, o->input, &file, &m->warnings, fault)) {
         return false;
     }
     reader r = {.loader = {.document = &m->document, .fault = fault}, .model = m};
     if (!gltf_check(&m->document, fault)) {
         return false;
     }
-    const bool ok = gltf_loader_begin(&r.loader) && gltf_place_nodes(&r.loader) && read_shown(&r);
+    const bool ok =
+        gltf_loader_begin(&r.loader) && gltf_place_nodes(&r.loader) && gltf_visit_shown(&r.loader, read_branch);
     gltf_loader_end(&r.loader);
     return ok;
 }
@@ -219,6 +207,7 @@ void bake_model_close(bake_model *m)
         free(p->accessibility);
     }
     free(m->parts);
+    scene_warnings_free(&m->warnings);
     if (m->document.owner) {
         gltf_document_close(&m->document);
     }

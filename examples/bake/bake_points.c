@@ -11,12 +11,16 @@ typedef struct vector {
     double x[3];
 } vector;
 
-static vector to_world(const float m[16], const float p[3])
+/* In the file's coordinates. */
+static vector to_world(const double m[16], const bake_part *part, uint32_t vertex)
 {
+    double p[3];
+    for (int k = 0; k < 3; k++) {
+        p[k] = (double)part->positions[vertex][k] + part->center[k];
+    }
     vector out;
     for (int r = 0; r < 3; r++) {
-        out.x[r] = (double)m[r] * (double)p[0] + (double)m[4 + r] * (double)p[1] + (double)m[8 + r] * (double)p[2] +
-                   (double)m[12 + r];
+        out.x[r] = m[r] * p[0] + m[4 + r] * p[1] + m[8 + r] * p[2] + m[12 + r];
     }
     return out;
 }
@@ -37,12 +41,12 @@ static vector minus(vector a, vector b)
     return (vector){{a.x[0] - b.x[0], a.x[1] - b.x[1], a.x[2] - b.x[2]}};
 }
 
-static vector column(const float m[16], int c)
+static vector column(const double m[16], int c)
 {
-    return (vector){{(double)m[4 * c], (double)m[4 * c + 1], (double)m[4 * c + 2]}};
+    return (vector){{m[4 * c], m[4 * c + 1], m[4 * c + 2]}};
 }
 
-static double mirror_sign(const float m[16])
+static double mirror_sign(const double m[16])
 {
     return dot(column(m, 0), cross(column(m, 1), column(m, 2))) < 0 ? -1 : 1;
 }
@@ -57,10 +61,10 @@ static void store_unit(vector v, float out[3])
 }
 
 /* Twice the triangle's area, along its front's normal. */
-static vector face_vector(const bake_part *part, const float m[16], uint32_t triangle, vector corners[3])
+static vector face_vector(const bake_part *part, const double m[16], uint32_t triangle, vector corners[3])
 {
     for (uint32_t k = 0; k < 3; k++) {
-        corners[k] = to_world(m, part->positions[part->indices[3 * triangle + k]]);
+        corners[k] = to_world(m, part, part->indices[3 * triangle + k]);
     }
     const vector face = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
     const double sign = mirror_sign(m);
@@ -108,7 +112,7 @@ void bake_points_free(bake_points *p)
 }
 
 /* The inverse transpose, up to a positive factor. */
-static vector normal_to_world(const float m[16], const float n[3])
+static vector normal_to_world(const double m[16], const float n[3])
 {
     const double sign = mirror_sign(m);
     vector out = {{0, 0, 0}};
@@ -121,8 +125,10 @@ static vector normal_to_world(const float m[16], const float n[3])
     return out;
 }
 
-/* At vertices: their own normals; where the file has none, or none with a direction, the sum of their faces'. */
-static bool make_vertices(bake_points *p, const bake_part *part, const float m[16], scene_fault *fault)
+/* Rays from vertices start along the vertex normal. If the file has none, or it has no direction, the sum of the
+ * adjacent faces' normals takes its place. */
+static bool make_vertices(bake_points *p, const bake_part *part, const double m[16], const double origin[3],
+                          scene_fault *fault)
 {
     vector *sums = calloc((size_t)part->vertex_count + 1, sizeof *sums);
     if (!sums || !make_room(p, part->vertex_count, false, fault)) {
@@ -139,11 +145,11 @@ static bool make_vertices(bake_points *p, const bake_part *part, const float m[1
         }
     }
     for (uint32_t i = 0; i < part->vertex_count; i++) {
-        const vector at = to_world(m, part->positions[i]);
+        const vector at = to_world(m, part, i);
         const vector given = part->normals ? normal_to_world(m, part->normals[i]) : (vector){{0, 0, 0}};
         store_unit(dot(given, given) > 0 ? given : sums[i], p->normals[i]);
         for (int k = 0; k < 3; k++) {
-            p->positions[i][k] = (float)at.x[k];
+            p->positions[i][k] = (float)(at.x[k] - origin[k]);
         }
     }
     free(sums);
@@ -170,12 +176,12 @@ static void place_point(uint32_t i, uint32_t n, float weights[3])
     weights[2] = n == 1 ? 1 / 3.0f : (float)v;
 }
 
-bool bake_points_make(bake_points *p, const bake_part *part, size_t instance, bake_method method,
-                      double triangles_per_area, scene_fault *fault)
+bool bake_points_make(bake_points *p, const bake_part *part, size_t instance, const double origin[3],
+                      bake_method method, double triangles_per_area, scene_fault *fault)
 {
-    const float *m = part->world_from_mesh[instance];
+    const double *m = part->world_from_mesh[instance];
     if (method == BAKE_VERTICES) {
-        return make_vertices(p, part, m, fault);
+        return make_vertices(p, part, m, origin, fault);
     }
     const uint32_t triangles = part->index_count / 3;
     uint32_t *counts = malloc((size_t)(triangles + 1) * sizeof *counts);
@@ -196,9 +202,9 @@ bool bake_points_make(bake_points *p, const bake_part *part, size_t instance, ba
         for (uint32_t i = 0; i < counts[t]; i++, at++) {
             place_point(i, counts[t], p->weights[at]);
             for (int k = 0; k < 3; k++) {
-                p->positions[at][k] =
-                    (float)((double)p->weights[at][0] * corners[0].x[k] + (double)p->weights[at][1] * corners[1].x[k] +
-                            (double)p->weights[at][2] * corners[2].x[k]);
+                p->positions[at][k] = (float)((double)p->weights[at][0] * (corners[0].x[k] - origin[k]) +
+                                              (double)p->weights[at][1] * (corners[1].x[k] - origin[k]) +
+                                              (double)p->weights[at][2] * (corners[2].x[k] - origin[k]));
             }
             store_unit(face, p->normals[at]);
             p->triangles[at] = t;

@@ -12,7 +12,7 @@
  * changes by a tenth, and no picture visibly. */
 static const double smoothness = 0.02;
 
-/* Every vertex gets the mean of its triangles' values, 1 where it has none. */
+/* Every vertex gets the mean of its triangles' values; 1 without triangles. */
 static bool spread_mean(bake_part *part, const bake_points *points, const float *values, scene_fault *fault)
 {
     struct {
@@ -36,7 +36,7 @@ static bool spread_mean(bake_part *part, const bake_points *points, const float 
     return true;
 }
 
-/* The normal equations of a part, never stored: applied point by point. */
+/* The normal equations of a part. The matrix is not stored, but applied point by point. */
 typedef struct equations {
     const bake_part *part;
     const bake_points *points;

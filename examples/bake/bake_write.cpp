@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Writes the file back as a GLB. Its JSON is edited, not made anew, so that whatever it says stays as it was written:
-// names, extras, extensions nobody here knows. All buffers and images become one BIN chunk. No exception leaves this
-// file.
+// Writes the file back as a GLB. Its JSON is edited, so that names, extras and unknown extensions stay as they were.
+// All buffers and images become one BIN chunk. No exception leaves this file.
 #include "bake.h"
+#include "whole_file.h"
 
 #include "gltf_file.h"
 
@@ -47,35 +47,86 @@ size_t append(output *out, const void *data, size_t size, int target)
     return views.size() - 1;
 }
 
-// Points an object's buffer into the one that all are put into.
-void move_into_bin(json *view, const std::vector<size_t> &offsets)
-{
-    const size_t buffer = view->value("buffer", size_t{0});
-    if (!view->contains("buffer") || buffer >= offsets.size())
-        return;
-    (*view)["byteOffset"] = view->value("byteOffset", size_t{0}) + offsets[buffer];
-    (*view)["buffer"] = 0;
-}
-
+// All buffers become one; of a file that was packed, the unpacked ones.
 void merge_buffers(const gltf_document &document, output *out)
 {
+    std::vector<bool> used(document.buffer_count, false);
+    for (size_t i = 0; i < document.buffer_view_count; ++i)
+        used[static_cast<size_t>(document.buffer_views[i].buffer)] = true;
     std::vector<size_t> offsets;
     for (size_t i = 0; i < document.buffer_count; ++i) {
         offsets.push_back(align(&out->bin));
-        out->bin.append(reinterpret_cast<const char *>(document.buffers[i].data), document.buffers[i].size);
+        if (used[i])
+            out->bin.append(reinterpret_cast<const char *>(document.buffers[i].data), document.buffers[i].size);
     }
-    if (!out->root.contains("bufferViews"))
+    json &views = out->root["bufferViews"];
+    for (size_t i = 0; i < document.buffer_view_count; ++i) {
+        const gltf_buffer_view &from = document.buffer_views[i];
+        if (i == views.size())
+            views.push_back(json::object());
+        json &view = views[i];
+        view["buffer"] = 0;
+        view["byteOffset"] = offsets[static_cast<size_t>(from.buffer)] + from.offset;
+        view["byteLength"] = from.length;
+        if (from.stride)
+            view["byteStride"] = from.stride;
+    }
+    if (views.empty())
+        out->root.erase("bufferViews");
+}
+
+// Erases an extension from an object, and the list of extensions with its last.
+void erase_extension(json *object, const char *name)
+{
+    if (!object->is_object() || !object->contains("extensions"))
         return;
-    for (json &view : out->root["bufferViews"]) {
-        move_into_bin(&view, offsets);
-        if (view.contains("extensions")) // a compressed copy's bytes lie in a buffer, too
-            for (auto &extension : view["extensions"].items())
-                if (extension.value().is_object())
-                    move_into_bin(&extension.value(), offsets);
+    json &extensions = (*object)["extensions"];
+    extensions.erase(name);
+    if (extensions.empty())
+        object->erase("extensions");
+}
+
+void erase_name(json *root, const char *list, const char *name)
+{
+    if (!root->contains(list))
+        return;
+    json &names = (*root)[list];
+    names.erase(std::remove(names.begin(), names.end(), json(name)), names.end());
+    if (names.empty())
+        root->erase(list);
+}
+
+// Nothing of the file is packed any more: a viewer that knows the extension would take vertices in another order, or
+// bytes that are gone.
+void erase_packing(const gltf_document &document, json *root)
+{
+    static const char *const packings[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
+                                           "KHR_meshopt_compression"};
+    for (const char *packing : packings) {
+        for (const char *list : {"bufferViews", "buffers"})
+            if (root->contains(list))
+                for (json &entry : (*root)[list])
+                    erase_extension(&entry, packing);
+        if (root->contains("meshes"))
+            for (json &mesh : (*root)["meshes"])
+                for (json &primitive : mesh["primitives"])
+                    erase_extension(&primitive, packing);
+        erase_name(root, "extensionsUsed", packing);
+        erase_name(root, "extensionsRequired", packing);
+    }
+    for (size_t i = 0; i < document.accessor_count; ++i) {
+        const gltf_accessor &from = document.accessors[i];
+        json &to = (*root)["accessors"][i];
+        if (from.buffer_view < 0 || to.value("bufferView", -1) == from.buffer_view)
+            continue;
+        to["bufferView"] = from.buffer_view;
+        to["count"] = from.count;
+        to["componentType"] = from.component_type;
+        to.erase("byteOffset");
     }
 }
 
-// What an image's first bytes tell; NULL where they don't.
+// The media type by the image's first bytes; NULL if unknown.
 const char *mime_type(const gltf_image &image)
 {
     const std::string begin(reinterpret_cast<const char *>(image.encoded), std::min<size_t>(image.encoded_size, 4));
@@ -131,13 +182,6 @@ size_t add_colors(const bake_part &part, bool accessibility_only, output *out)
 void set_color(json *primitive, size_t accessor)
 {
     (*primitive)["attributes"]["COLOR_0"] = accessor;
-    // A viewer that knows Draco would take its vertices, in another order, instead of those that were read here.
-    if (primitive->contains("extensions")) {
-        json &extensions = (*primitive)["extensions"];
-        extensions.erase("KHR_draco_mesh_compression");
-        if (extensions.empty())
-            primitive->erase("extensions");
-    }
 }
 
 // The mesh that a node is to have: the one it had, for the first of the nodes, or a copy. A node that is not shown
@@ -199,18 +243,20 @@ bool write_glb(const std::string &text, const std::string &bin, const char *path
     head += "JSON";
     put_u32(&second, bin.size());
     second.append("BIN\0", 4);
-    FILE *file = std::fopen(path, "wb");
-    if (!file)
-        return scene_fail(fault, "it can't be opened for writing");
+    whole_file whole;
+    char error[1024] = "";
+    if (!whole_file_open(&whole, path, error, sizeof error)) {
+        fault->file = nullptr; // the error names it
+        return scene_fail(fault, "%s", error);
+    }
+    FILE *file = whole.file;
     bool ok = std::fwrite(head.data(), 1, head.size(), file) == head.size() &&
               std::fwrite(text.data(), 1, text.size(), file) == text.size();
     if (!bin.empty())
         ok = ok && std::fwrite(second.data(), 1, second.size(), file) == second.size() &&
              std::fwrite(bin.data(), 1, bin.size(), file) == bin.size();
-    if (std::fclose(file) != 0 || !ok) {
-        std::remove(path);
+    if (!whole_file_close(&whole, ok, error, sizeof error))
         return scene_fail(fault, "it could not be written in full");
-    }
     return true;
 }
 
@@ -220,6 +266,7 @@ bool write(const bake_model &model, const bake_options &options, const gltf_file
     const char *text = reinterpret_cast<const char *>(file.data) + file.json_begin;
     out.root = json::parse(text, text + file.json_size);
     merge_buffers(model.document, &out);
+    erase_packing(model.document, &out.root);
     embed_images(model.document, &out);
     mesh_copies copies(model, &out);
     for (size_t i = 0; i < model.part_count; ++i) {
@@ -247,7 +294,8 @@ bool write(const bake_model &model, const bake_options &options, const gltf_file
 extern "C" bool bake_write(const bake_model *m, const bake_options *o, scene_fault *fault)
 {
     gltf_file file;
-    if (!gltf_file_open(&file, o->input, fault))
+    memory_budget budget = memory_budget_begin(0);
+    if (!gltf_file_open(&file, o->input, &budget, fault))
         return false;
     scene_fault output_fault = *fault;
     output_fault.file = o->output;

@@ -3,6 +3,8 @@
  * glssao-bake: ambient accessibility into vertex colours, by ray casting.
  */
 #include "bake.h"
+#include "inputs.h"
+#include "stop.h"
 
 #include <stdio.h>
 
@@ -32,16 +34,24 @@ int main(int argc, char **argv)
     case BAKE_RUN:
         break;
     }
+    stop_at_once();
     scene_fault fault = {.file = options.input, .text = error, .size = sizeof error};
     bake_model model;
     bake_stats stats;
-    const bool done = bake_model_open(&model, options.input, &fault) && bake_cast(&model, &options, &stats, &fault) &&
-                      bake_write(&model, &options, &fault);
+    inputs read = {0};
+    inputs_record(&read);
+    const bool opened = bake_model_open(&model, &options, &fault);
+    inputs_record(NULL);
+    if (options.in_place)
+        inputs_forget(&read, options.input);
+    const bool done = opened && inputs_spare(&read, NULL, options.output, FAULT(error)) &&
+                      bake_cast(&model, &options, &stats, &fault) && bake_write(&model, &options, &fault);
     if (done) {
         print_summary(&model, &stats);
     } else {
         fprintf(stderr, "glssao-bake: %s\n", error);
     }
     bake_model_close(&model);
+    inputs_free(&read);
     return done ? EXIT_DONE : EXIT_NOT_BAKED;
 }

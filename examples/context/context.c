@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Chooses among the ways to get an offscreen context, and keeps two rules that each way alone can't: one context is
- * current on a thread, whatever kind it is of, and the message of a failure tells about every way tried.
+ * Tries the ways to get an offscreen context. It also keeps two rules that no backend can keep alone: only one context
+ * is current on a thread, whatever its kind, and the message of a failure names every way that was tried.
  */
 #include "backend.h"
 
@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What is current on this thread. EGL and OSMesa each know only their own, but Mesa's two libraries share one
- * dispatch table for a thread (libglapi), so one kind has to be released before the other is made current. */
+/* The context that is current on this thread. EGL and OSMesa know only their own contexts, but in Mesa both use one
+ * dispatch table for each thread (libglapi). So one kind must be released before the other is made current. */
 static _Thread_local context *current;
 
 typedef enum context_way { WAY_HARDWARE, WAY_SURFACELESS, WAY_OSMESA, WAY_SOFTWARE, WAY_COUNT } context_way;
@@ -40,9 +40,8 @@ static context *try_way(context_way w, const context_options *options, char *err
 
 static void release_current(void)
 {
-    if (current) {
+    if (current)
         current->release(current);
-    }
     current = NULL;
 }
 
@@ -57,9 +56,8 @@ context *context_create(const context_options *options, char *error, size_t erro
     char reasons[WAY_COUNT][256];
     bool tried[WAY_COUNT] = {false};
     for (int w = 0; w < WAY_COUNT; w++) {
-        if ((wanted.kind == CONTEXT_EGL && w == WAY_OSMESA) || (wanted.kind == CONTEXT_OSMESA && w != WAY_OSMESA)) {
+        if ((wanted.kind == CONTEXT_EGL && w == WAY_OSMESA) || (wanted.kind == CONTEXT_OSMESA && w != WAY_OSMESA))
             continue;
-        }
         release_current();
         tried[w] = true;
         context *c = try_way((context_way)w, &wanted, reasons[w], sizeof reasons[w]);
@@ -69,9 +67,8 @@ context *context_create(const context_options *options, char *error, size_t erro
         }
     }
 
-    if (error_size == 0) {
+    if (error_size == 0)
         return NULL;
-    }
     int length = snprintf(error, error_size, "no OpenGL %d.%d %s context:", wanted.major, wanted.minor,
                           wanted.compatibility ? "compatibility" : "core");
     const char *separator = "";
@@ -87,26 +84,21 @@ context *context_create(const context_options *options, char *error, size_t erro
 
 void context_destroy(context *c)
 {
-    if (!c) {
+    if (!c)
         return;
-    }
-    if (current == c) {
+    if (current == c)
         release_current();
-    }
     c->destroy(c);
 }
 
 bool context_make_current(context *c)
 {
-    if (current == c) {
+    if (current == c)
         return true;
-    }
-    if (current && current->make_current != c->make_current) {
+    if (current && current->make_current != c->make_current)
         release_current();
-    }
-    if (!c->make_current(c)) {
+    if (!c->make_current(c))
         return false;
-    }
     current = c;
     return true;
 }
@@ -130,11 +122,9 @@ void *context_load(const char *name, void *user)
 static bool renderer_is_software(const char *renderer)
 {
     static const char *const names[] = {"llvmpipe", "softpipe", "swrast", "Software Rasterizer", "SwiftShader", "SWR"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        if (strstr(renderer, names[i])) {
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (strstr(renderer, names[i]))
             return true;
-        }
-    }
     return false;
 }
 
@@ -150,13 +140,13 @@ bool context__describe(context *c, const char *way, const context_options *optio
     const char *renderer = (const char *)get_string(GL_RENDERER);
     const char *version = (const char *)get_string(GL_VERSION);
     if (!renderer || !version) {
-        snprintf(error, error_size, "glGetString tells neither renderer nor version");
+        snprintf(error, error_size, "glGetString returns no renderer or version");
         return false;
     }
     int major = 0, minor = 0;
     if (sscanf(version, "%d.%d", &major, &minor) != 2 || major < options->major ||
         (major == options->major && minor < options->minor)) {
-        snprintf(error, error_size, "%s offers OpenGL %s only", renderer, version);
+        snprintf(error, error_size, "%s only supports OpenGL %s", renderer, version);
         return false;
     }
     c->software = renderer_is_software(renderer);

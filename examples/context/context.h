@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * Offscreen OpenGL contexts for machines without a display: EGL's device platform, EGL surfaceless (Mesa), and
- * OSMesa, behind one interface. No window system is involved. Libraries are opened at run time, so a machine that
- * lacks one of them still works with the others.
+ * Offscreen OpenGL contexts for machines without a display: EGL's device platform, EGL surfaceless (Mesa) and OSMesa
+ * behind one interface. No window system is involved. Libraries are opened at run time, so that a machine can lack some
+ * of them.
  */
 #ifndef GLSSAO_EXAMPLES_CONTEXT_H
 #define GLSSAO_EXAMPLES_CONTEXT_H
@@ -20,27 +20,26 @@ typedef enum context_kind {
 
 typedef struct context_options {
     context_kind kind;
-    int major, minor;   /* version asked for; 0, 0 means 3.3 */
+    int major, minor;   /* requested version; 0, 0 means 3.3 */
     bool compatibility; /* false: core profile */
-    context *share;     /* textures, buffers and programs are shared with this one; NULL: with none */
+    context *share;     /* share textures, buffers and programs with this context; NULL: share nothing */
 } context_options;
 
-/* Makes a context and makes it current on this thread. NULL on failure, with one line in `error` that says what
- * was tried and why each way failed. */
+/* Makes a context and makes it current on this thread. NULL on failure, with one line in `error` that names each way
+ * that was tried and why it failed. */
 context *context_create(const context_options *options, char *error, size_t error_size);
 
-/* Releases and deletes it; it must not be current on another thread. NULL is fine. */
+/* Releases and deletes a context that is not current on another thread. NULL is allowed. */
 void context_destroy(context *c);
 
-/* Makes it current on the calling thread, in place of whatever context of this interface was. It must not be
- * current on another thread. */
+/* Makes it current on the calling thread and replaces any other context of this interface. It must not be current on
+ * another thread. */
 bool context_make_current(context *c);
 
-/* What was taken, for a person: "EGL surfaceless: llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa
- * ...". */
+/* A description for people: "EGL surfaceless: llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa ...". */
 const char *context_description(const context *c);
 
-/* True where the renderer is a software rasteriser (llvmpipe, softpipe, swrast, SwiftShader). */
+/* True for a software rasteriser (llvmpipe, softpipe, swrast, SwiftShader). */
 bool context_is_software(const context *c);
 
 /* A glssao_load_fn; `user` is the context. */

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * Contexts of EGL without a window system: one device of EGL's device platform, or Mesa's surfaceless platform.
+ * EGL contexts without a window system, on a device of EGL's device platform or on Mesa's surfaceless platform.
  *
- * The library is never closed and a display never terminated. All contexts of the process on one device share one
- * display, which EGL does not count the users of, so terminating it would end other contexts; and drivers leave
- * thread-local data and exit handlers behind that point into their libraries.
+ * The library is never closed and a display is never terminated. All contexts on one device share one display. EGL does
+ * not count its users, so terminating it would end other contexts. Drivers also leave thread-local data and exit
+ * handlers that point into their libraries.
  */
 #define EGL_NO_X11 /* eglplatform.h: no X11 headers */
 #define MESA_EGL_NO_X11_HEADERS
@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* X(type suffix of PFNEGL...PROC, name without egl): what every EGL 1.4 exports. */
+/* X(type suffix of PFNEGL...PROC, name without egl): functions that every EGL 1.4 exports. */
 #define EGL_FUNCTIONS(X)                                                                                               \
     X(BINDAPI, BindAPI)                                                                                                \
     X(CHOOSECONFIG, ChooseConfig)                                                                                      \
@@ -42,8 +42,8 @@ typedef struct egl_context {
     struct egl_functions egl;
     EGLDisplay display;
     EGLContext handle;
-    EGLSurface surface; /* EGL_NO_SURFACE where contexts can be current without one */
-    void *gl_library;   /* holds the core functions where eglGetProcAddress finds extensions alone; else NULL */
+    EGLSurface surface; /* EGL_NO_SURFACE if contexts can be current without a surface */
+    void *gl_library;   /* has the core functions if eglGetProcAddress only finds extensions; else NULL */
 } egl_context;
 
 enum { MAX_DEVICES = 64 };
@@ -51,11 +51,9 @@ enum { MAX_DEVICES = 64 };
 static bool has_extension(const char *list, const char *name)
 {
     size_t length = strlen(name);
-    for (const char *at = list; at && (at = strstr(at, name)); at += length) {
-        if ((at == list || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0')) {
+    for (const char *at = list; at && (at = strstr(at, name)); at += length)
+        if ((at == list || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0'))
             return true;
-        }
-    }
     return false;
 }
 
@@ -63,7 +61,7 @@ static const char *error_name(EGLint code)
 {
     switch (code) {
     case EGL_SUCCESS:
-        return "no error told";
+        return "no error reported";
     case EGL_NOT_INITIALIZED:
         return "EGL_NOT_INITIALIZED";
     case EGL_BAD_ACCESS:
@@ -92,7 +90,7 @@ static bool make_current(context *c)
 static void release(context *c)
 {
     egl_context *e = (egl_context *)c;
-    e->egl.BindAPI(EGL_OPENGL_API); /* a thread's: says which API's context is released */
+    e->egl.BindAPI(EGL_OPENGL_API); /* chooses, for this thread, the API whose context is released */
     e->egl.MakeCurrent(e->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
 
@@ -110,12 +108,10 @@ static void *load(context *c, const char *name)
 static void destroy(context *c)
 {
     egl_context *e = (egl_context *)c;
-    if (e->surface != EGL_NO_SURFACE) {
+    if (e->surface != EGL_NO_SURFACE)
         e->egl.DestroySurface(e->display, e->surface);
-    }
-    if (e->handle != EGL_NO_CONTEXT) {
+    if (e->handle != EGL_NO_CONTEXT)
         e->egl.DestroyContext(e->display, e->handle);
-    }
     free(e);
 }
 
@@ -136,7 +132,7 @@ static bool open_library(struct egl_functions *egl, char *error, size_t error_si
     return true;
 }
 
-/* False, with the reason, where contexts of that version and profile can't even be asked for. */
+/* False, with the reason, if EGL cannot ask for contexts of that version and profile. */
 static bool create_context(egl_context *e, bool egl_1_5, const char *extensions, const context_options *options,
                            char *error, size_t error_size)
 {
@@ -148,7 +144,7 @@ static bool create_context(egl_context *e, bool egl_1_5, const char *extensions,
         snprintf(error, error_size, "no desktop OpenGL (%s)", error_name(e->egl.GetError()));
         return false;
     }
-    /* Pbuffers always: the default, windows, is what these platforms lack. */
+    /* Asks for pbuffers: these platforms have no windows, which are the default. */
     const EGLint config_attributes[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
                                         EGL_NONE};
     EGLConfig config;
@@ -187,7 +183,7 @@ static bool create_context(egl_context *e, bool egl_1_5, const char *extensions,
     return true;
 }
 
-/* A current context of that display, or NULL. */
+/* Makes a context of that display current. NULL on failure. */
 static context *create_on_display(const struct egl_functions *egl, EGLDisplay display, const char *way,
                                   const context_options *options, char *error, size_t error_size)
 {
@@ -217,22 +213,20 @@ static context *create_on_display(const struct egl_functions *egl, EGLDisplay di
     if (!egl_1_5 && !has_extension(extensions, "EGL_KHR_get_all_proc_addresses") &&
         !has_extension(egl->QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS), "EGL_KHR_client_get_all_proc_addresses")) {
         e->gl_library = dlopen("libOpenGL.so.0", RTLD_NOW | RTLD_LOCAL);
-        if (!e->gl_library) {
+        if (!e->gl_library)
             e->gl_library = dlopen("libGL.so.1", RTLD_NOW | RTLD_LOCAL);
-        }
     }
-    if (!make_current(&e->base)) {
+    if (!make_current(&e->base))
         snprintf(error, error_size, "eglMakeCurrent failed (%s)", error_name(egl->GetError()));
-    } else if (context__describe(&e->base, way, options, error, error_size)) {
+    else if (context__describe(&e->base, way, options, error, error_size))
         return &e->base;
-    } else {
+    else
         release(&e->base);
-    }
     destroy(&e->base);
     return NULL;
 }
 
-/* The first device of the kind asked for that gives a context. */
+/* Returns a context of the first device of the wanted kind that gives one. */
 static context *create_on_device(const struct egl_functions *egl, PFNEGLGETPLATFORMDISPLAYEXTPROC get_display,
                                  bool software, const context_options *options, char *error, size_t error_size)
 {
@@ -247,9 +241,8 @@ static context *create_on_device(const struct egl_functions *egl, PFNEGLGETPLATF
     }
     snprintf(error, error_size, "none of the devices that EGL lists (%d) is one", (int)count);
     for (EGLint i = 0; i < count; i++) {
-        if (has_extension(query_device_string(devices[i], EGL_EXTENSIONS), "EGL_MESA_device_software") != software) {
+        if (has_extension(query_device_string(devices[i], EGL_EXTENSIONS), "EGL_MESA_device_software") != software)
             continue;
-        }
         EGLDisplay display = get_display(EGL_PLATFORM_DEVICE_EXT, devices[i], NULL);
         context *c = create_on_display(egl, display, "EGL device", options, error, error_size);
         if (c && !software && c->software) {
@@ -258,9 +251,8 @@ static context *create_on_device(const struct egl_functions *egl, PFNEGLGETPLATF
             destroy(c);
             c = NULL;
         }
-        if (c) {
+        if (c)
             return c;
-        }
     }
     return NULL;
 }
@@ -268,17 +260,15 @@ static context *create_on_device(const struct egl_functions *egl, PFNEGLGETPLATF
 context *context__egl_create(egl_way way, const context_options *options, char *error, size_t error_size)
 {
     struct egl_functions egl;
-    if (!open_library(&egl, error, error_size)) {
+    if (!open_library(&egl, error, error_size))
         return NULL;
-    }
-    /* NULL before EGL 1.5 where EGL_EXT_client_extensions is missing too. */
+    /* NULL before EGL 1.5 without EGL_EXT_client_extensions. */
     const char *extensions = egl.QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     PFNEGLGETPLATFORMDISPLAYEXTPROC get_display = NULL;
-    if (has_extension(extensions, "EGL_EXT_platform_base")) {
+    if (has_extension(extensions, "EGL_EXT_platform_base"))
         get_display = (PFNEGLGETPLATFORMDISPLAYEXTPROC)egl.GetProcAddress("eglGetPlatformDisplayEXT");
-    }
     if (!get_display) {
-        egl.GetError(); /* the query above may have left one */
+        egl.GetError(); /* clears an error that the query may have left */
         snprintf(error, error_size, "libEGL has no EGL_EXT_platform_base");
         return NULL;
     }

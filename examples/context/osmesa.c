@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Contexts of OSMesa, Mesa's own offscreen interface, which needs neither EGL nor a device. It left Mesa in 25.1, so
- * the library is opened at run time and the little of its interface that is used is declared here.
+ * Contexts of OSMesa, Mesa's own offscreen interface. It needs no EGL and no device. Mesa dropped it in 25.1, so the
+ * library is opened at run time, and the few functions that are used are declared here.
  */
 #include "backend.h"
 
@@ -28,7 +28,8 @@ typedef struct osmesa_context {
     unsigned char (*make_current)(void *handle, void *buffer, unsigned type, int width, int height);
     void *(*get_proc_address)(const char *name);
     void *handle;
-    unsigned char buffer[4]; /* OSMesa wants a picture to be made current: one pixel. Drawing goes to framebuffers */
+    unsigned char
+        buffer[4]; /* OSMesa needs a picture to make a context current: one pixel. Drawing goes to framebuffers */
 } osmesa_context;
 
 static bool make_current(context *c)
@@ -51,21 +52,19 @@ static void *load(context *c, const char *name)
 static void destroy(context *c)
 {
     osmesa_context *o = (osmesa_context *)c;
-    if (o->handle) {
+    if (o->handle)
         o->destroy(o->handle);
-    }
     free(o);
 }
 
-/* Never closed again: Mesa leaves thread-local data and exit handlers behind that point into the library. */
+/* The library is never closed: Mesa leaves thread-local data and exit handlers that point into it. */
 static void *open_library(void)
 {
     static const char *const names[] = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         void *library = dlopen(names[i], RTLD_NOW | RTLD_LOCAL);
-        if (library) {
+        if (library)
             return library;
-        }
     }
     return NULL;
 }
@@ -105,17 +104,16 @@ context *context__osmesa_create(const context_options *options, char *error, siz
     const osmesa_context *share = (const osmesa_context *)options->share;
     const bool alike = !share || share->base.make_current == make_current;
     o->handle = alike ? o->create(attributes, share ? share->handle : NULL) : NULL;
-    if (!alike) {
+    if (!alike)
         snprintf(error, error_size, "the context to share with is not OSMesa's");
-    } else if (!o->handle) {
+    else if (!o->handle)
         snprintf(error, error_size, "OSMesaCreateContextAttribs refuses this version");
-    } else if (!make_current(&o->base)) {
+    else if (!make_current(&o->base))
         snprintf(error, error_size, "OSMesaMakeCurrent failed");
-    } else if (context__describe(&o->base, "OSMesa", options, error, error_size)) {
+    else if (context__describe(&o->base, "OSMesa", options, error, error_size))
         return &o->base;
-    } else {
+    else
         release(&o->base);
-    }
     destroy(&o->base);
     return NULL;
 }

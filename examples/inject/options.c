@@ -4,6 +4,7 @@
  */
 #define _POSIX_C_SOURCE 200809L
 #include "inject.h"
+#include "words.h"
 
 #include <glssao/glssao.h>
 #include <locale.h>
@@ -72,14 +73,12 @@ static bool flag(const char *name)
 
 static void read_environment(void)
 {
-    static const char *const levels[] = {"low", "medium", "high", "ultra"};
     options = (inject_options){
         .fov = number("GLSSAO_INJECT_FOV", 1.0f, 179.0f),
         .near_plane = number("GLSSAO_INJECT_NEAR", 0.0f, 1e12f),
         .far_plane = number("GLSSAO_INJECT_FAR", 0.0f, 1e12f),
         .radius = number("GLSSAO_INJECT_RADIUS", 0.0f, 1e11f),
         .power = number("GLSSAO_INJECT_POWER", 0.0f, 64.0f),
-        .quality = GLSSAO_HIGH,
         .off = flag("GLSSAO_INJECT_OFF"),
         .map = flag("GLSSAO_INJECT_MAP"),
         .picture = getenv("GLSSAO_INJECT_PICTURE"),
@@ -89,14 +88,10 @@ static void read_environment(void)
     if (options.picture_frame == 0)
         options.picture_frame = 100;
     const char *quality = getenv("GLSSAO_INJECT_QUALITY");
-    bool known = !quality || !*quality;
-    for (int i = 0; !known && i < 4; ++i)
-        if (strcmp(quality, levels[i]) == 0) {
-            options.quality = i;
-            known = true;
-        }
-    if (!known)
-        inject_say("GLSSAO_INJECT_QUALITY=%s is not low, medium, high or ultra and is not used", quality);
+    const int level = quality && *quality ? words_find(QUALITY_WORDS, quality) : GLSSAO_HIGH;
+    if (level < 0)
+        inject_say("GLSSAO_INJECT_QUALITY=%s is none of " QUALITY_WORDS " and is not used", quality);
+    options.quality = level < 0 ? GLSSAO_HIGH : level;
     const bool planes = options.near_plane > 0.0f && options.far_plane > options.near_plane;
     if ((options.fov > 0.0f) != planes) {
         inject_say("a projection needs all of GLSSAO_INJECT_FOV, GLSSAO_INJECT_NEAR above 0 and GLSSAO_INJECT_FAR "

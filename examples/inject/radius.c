@@ -3,18 +3,13 @@
  * Reads depth back and finds a radius that suits what is in view.
  */
 #include "inject.h"
+#include "statistics.h"
 
 #include <GL/glcorearb.h>
 #include <math.h>
 #include <stdlib.h>
 
 enum { SAMPLES = 4096 };
-
-static int compare_floats(const void *a, const void *b)
-{
-    const float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
 
 /* Reads the depth texture back, independent of the program's pixel pack state. The caller frees. */
 static float *read_depth(GLuint texture, int width, int height)
@@ -51,19 +46,18 @@ float inject_fitting_radius(unsigned texture, int width, int height, const injec
     const float *p = projection->matrix;
     const bool is_perspective = p[11] != 0.0f;
     float *depth = read_depth(texture, width, height);
-    size_t count = 0, all = (size_t)width * (size_t)height;
-    const size_t step = all > SAMPLES ? all / SAMPLES : 1;
+    double distances[2 * SAMPLES];
+    int count = 0;
+    const size_t all = (size_t)width * (size_t)height, step = all > SAMPLES ? all / SAMPLES : 1;
     for (size_t i = 0; depth && i < all; i += step) {
         const float ndc = projection->zero_to_one ? depth[i] : 2.0f * depth[i] - 1.0f;
         const float distance = is_perspective ? p[14] / (ndc + p[10]) : (p[14] - ndc) / p[10];
         if (depth[i] > 0.0f && depth[i] < 1.0f && isfinite(distance) && distance > 0.0f) /* 0: never cleared */
-            depth[count++] = distance;
+            distances[count++] = (double)distance;
     }
     float radius = 0.0f;
-    if (count > all / step / 200) {
-        qsort(depth, count, sizeof *depth, compare_floats);
-        radius = (is_perspective ? depth[count / 2] : 1.0f) * 2.0f / p[5] / 12.0f;
-    }
+    if ((size_t)count > all / step / 200)
+        radius = (is_perspective ? (float)statistics_percentile(distances, count, 50) : 1.0f) * 2.0f / p[5] / 12.0f;
     free(depth);
     return radius;
 }

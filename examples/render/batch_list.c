@@ -1,35 +1,39 @@
 /* SPDX-License-Identifier: MIT
  *
- * From the list's text to its jobs.
+ * Splits the text of a list into jobs.
  */
 #define _POSIX_C_SOURCE 200809L /* strdup */
 #include "batch_list.h"
 
+#include "read_file.h"
+
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+enum { MOST_LIST_BYTES = 1 << 30 };
 
 static bool is_blank(char c)
 {
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-/* Splits a line into words, in place: blanks separate; '...', "..." and \ quote as in a shell; # before a word starts a
- * comment. `words` has room for half as many as the line has characters, and one more. -1, with the fault, where a
- * quote has no end. */
+/* Splits a line into words, in place. Blanks separate words; '...', "..." and \ quote as in a shell; # before a word
+ * starts a comment. `words` has room for half as many words as the line has characters, plus one. -1, with the fault,
+ * if a quote does not end. */
 static int split_line(char *line, char **words, const char **out_fault)
 {
     const char *in = line;
-    char *out = line; /* never overtakes `in` */
+    char *out = line; /* is never ahead of `in` */
     int count = 0;
     for (;;) {
-        while (is_blank(*in)) {
+        while (is_blank(*in))
             in++;
-        }
-        if (*in == '\0' || *in == '#') {
+        if (*in == '\0' || *in == '#')
             return count;
-        }
         words[count++] = out;
         while (*in && !is_blank(*in)) {
             const char quote = *in == '\'' || *in == '"' ? *in : '\0';
@@ -55,69 +59,44 @@ static int split_line(char *line, char **words, const char **out_fault)
         const bool is_last = *in == '\0';
         in += !is_last;
         *out++ = '\0';
-        if (is_last) {
+        if (is_last)
             return count;
-        }
     }
 }
 
-/* Of malloc, with a 0 behind it; NULL, with errno, on failure. */
-static char *read_text(const char *path, size_t *out_size)
+/* Reads standard input, a FIFO or a regular file. NULL, with the reason, on failure. */
+static char *read_text(const char *path, size_t *out_size, const char **out_reason)
 {
-    FILE *file = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
-    char *text = NULL;
-    size_t size = 0, room = 0;
-    bool done = !file;
-    while (!done) {
-        if (room - size < 2) {
-            room = room ? 2 * room : 65536;
-            char *grown = realloc(text, room);
-            if (!grown) {
-                errno = ENOMEM;
-                break;
-            }
-            text = grown;
-        }
-        const size_t got = fread(text + size, 1, room - size - 1, file);
-        size += got;
-        done = got == 0;
-    }
-    const int code = errno;
-    const bool whole = file && done && !ferror(file);
-    if (file && file != stdin) {
-        fclose(file);
-    }
-    if (!whole) {
-        free(text);
-        errno = code;
+    const bool is_standard = strcmp(path, "-") == 0;
+    const int file = is_standard ? STDIN_FILENO : open(path, O_RDONLY | O_CLOEXEC);
+    if (file < 0) {
+        *out_reason = strerror(errno);
         return NULL;
     }
-    text[size] = '\0';
-    *out_size = size;
+    char *text = (char *)read_stream(file, MOST_LIST_BYTES, out_size, out_reason);
+    if (!is_standard)
+        close(file);
     return text;
 }
 
-/* False where memory is short. */
+/* False if memory is short. */
 static bool add_job(batch_list *list, const options *defaults, int number, char *line)
 {
     char error[8192];
-    const char *fault = NULL;
+    const char *reason = NULL;
     batch_job job = {.line = number};
     char **words = malloc((strlen(line) / 2 + 3) * sizeof *words);
-    if (!words) {
+    if (!words)
         return false;
-    }
-    words[0] = line; /* where a program's name would stand */
-    const int count = split_line(line, words + 1, &fault);
-    if (count < 0) {
-        job.error = strdup(fault);
-    } else if (count > 0 && !options_parse_job(defaults, count + 1, words, &job.options, error, sizeof error)) {
+    words[0] = line; /* in the place of the program's name */
+    const int count = split_line(line, words + 1, &reason);
+    if (count < 0)
+        job.error = strdup(reason);
+    else if (count > 0 && !options_parse_job(defaults, count + 1, words, &job.options, FAULT(error)))
         job.error = strdup(error);
-    }
     free(words);
-    if (count == 0) {
+    if (count == 0)
         return true;
-    }
     if (list->count % 64 == 0) {
         batch_job *grown = realloc(list->jobs, (list->count + 64) * sizeof *grown);
         if (!grown) {
@@ -130,19 +109,17 @@ static bool add_job(batch_list *list, const options *defaults, int number, char 
     return true;
 }
 
-bool batch_list_read(batch_list *list, const options *defaults, char *error, size_t error_size)
+bool batch_list_read(batch_list *list, const options *defaults, fault *why)
 {
     size_t size = 0;
     *list = (batch_list){.count = 0};
-    errno = 0;
-    list->text = read_text(defaults->batch, &size);
+    const char *reason;
+    list->text = read_text(defaults->batch, &size, &reason);
     if (!list->text) {
-        snprintf(error, error_size, "%s: %s", defaults->batch, strerror(errno));
-        return false;
+        return fault_set(why, "%s: %s", defaults->batch, reason);
     }
     if (strlen(list->text) != size) {
-        snprintf(error, error_size, "%s: holds a byte of 0: it is no text", defaults->batch);
-        return false;
+        return fault_set(why, "%s: contains a zero byte, so it is not text", defaults->batch);
     }
     int number = 1;
     bool room = true;
@@ -154,17 +131,15 @@ bool batch_list_read(batch_list *list, const options *defaults, char *error, siz
         line = next;
     }
     if (!room || !batch_find_clashes(list)) {
-        snprintf(error, error_size, "%s: out of memory", defaults->batch);
-        return false;
+        return fault_set(why, "%s: out of memory", defaults->batch);
     }
     return true;
 }
 
 void batch_list_free(batch_list *list)
 {
-    for (size_t i = 0; i < list->count; i++) {
+    for (size_t i = 0; i < list->count; i++)
         free(list->jobs[i].error);
-    }
     free(list->jobs);
     free(list->text);
     *list = (batch_list){.count = 0};

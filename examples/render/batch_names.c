@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Which jobs of a list write the same file, however they name it. Judged on the whole list, whatever the shard, so that
- * all shards agree on who fails.
+ * Finds jobs of a list that write the same file, under any name. It looks at the whole list, whatever the shard, so
+ * that all shards agree on the job that fails.
  */
 #define _XOPEN_SOURCE 700 /* realpath, strdup */
 #include "batch_list.h"
@@ -14,7 +14,7 @@
 #include <sys/stat.h>
 
 typedef struct written {
-    char *name; /* without links and dots, as far as they exist */
+    char *name; /* without links and dots, if the file or its folder exists */
     size_t job;
 } written;
 
@@ -24,32 +24,27 @@ typedef struct written_list {
     size_t job;
 } written_list;
 
-/* Of malloc; NULL where memory is short. */
+/* The caller frees it. NULL if memory is short. */
 static char *plain_name(const char *path)
 {
     char *name = realpath(path, NULL);
-    if (name) {
+    if (name)
         return name;
-    }
     const char *slash = strrchr(path, '/');
     char *folder = slash ? strdup(path) : strdup(".");
-    if (!folder) {
+    if (!folder)
         return NULL;
-    }
-    if (slash) {
+    if (slash)
         folder[slash == path ? 1 : slash - path] = '\0';
-    }
     char *real = realpath(folder, NULL);
     free(folder);
-    if (!real) {
-        return strdup(path); /* it can't be written: the job will say so */
-    }
+    if (!real)
+        return strdup(path); /* the file cannot be written, and the job will say so */
     const char *file = slash ? slash + 1 : path;
     const size_t size = strlen(real) + strlen(file) + 2;
     name = malloc(size);
-    if (name) {
+    if (name)
         snprintf(name, size, "%s/%s", real, file);
-    }
     free(real);
     return name;
 }
@@ -58,22 +53,19 @@ static bool add_file(const char *path, void *user)
 {
     written_list *list = user;
     struct stat status;
-    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
-        return true; /* any number may write to a device */
-    }
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
+        return true; /* several jobs may write to the same device */
     if (list->count == list->room) {
         const size_t room = list->room ? 2 * list->room : 256;
         written *grown = realloc(list->files, room * sizeof *grown);
-        if (!grown) {
+        if (!grown)
             return false;
-        }
         list->files = grown;
         list->room = room;
     }
     written w = {plain_name(path), list->job};
-    if (w.name) {
+    if (w.name)
         list->files[list->count++] = w;
-    }
     return w.name;
 }
 
@@ -96,7 +88,7 @@ static bool mark(batch_list *list, const written_list *files)
         batch_job *job = &list->jobs[b->job];
         if (!job->error) {
             char error[4352];
-            snprintf(error, sizeof error, "%.4096s: line %d writes it too", b->name, list->jobs[a->job].line);
+            snprintf(error, sizeof error, "%.4096s: line %d also writes this file", b->name, list->jobs[a->job].line);
             job->error = strdup(error);
             room = room && job->error;
         }
@@ -118,9 +110,8 @@ bool batch_find_clashes(batch_list *list)
         qsort(files.files, files.count, sizeof *files.files, compare);
         room = mark(list, &files);
     }
-    for (size_t i = 0; i < files.count; i++) {
+    for (size_t i = 0; i < files.count; i++)
         free(files.files[i].name);
-    }
     free(files.files);
     return room;
 }

@@ -15,11 +15,11 @@ void map_view_free(pipeline *p)
     p->scratch = p->scratch_framebuffer = 0;
 }
 
-/* View distance has no map; it is drawn at full size first. */
+/* There is no map of view distance, so draw it at full size first. */
 static GLuint draw_distance(pipeline *p, const scene_view *view)
 {
     const float *m = view->clip_from_view;
-    const float far_plane = (m[14] - m[15]) / (m[10] - m[11]); /* where ndc z is 1 */
+    const float far_plane = (m[14] - m[15]) / (m[10] - m[11]); /* the view distance with NDC z = 1 */
     if (!p->scratch) {
         gl.GenTextures(1, &p->scratch);
         gl.BindTexture(GL_TEXTURE_2D, p->scratch);
@@ -67,7 +67,7 @@ void map_view_draw(pipeline *p, const scene_view *view, options_map map, scene_r
         scene_draw_map_in(p->renderer, texture, place, map == OPTIONS_MAP_AO || map == OPTIONS_MAP_SHADOW || tiles,
                           signed_values ? 0.5f
                           : tiles       ? 16
-                                        : 1, /* so that estimated ones are black, the others white */
+                                        : 1, /* estimated tiles become black, skipped ones white */
                           signed_values ? 0.5f : 0);
     }
 }

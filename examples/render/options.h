@@ -6,53 +6,54 @@
 #define GLSSAO_EXAMPLES_OPTIONS_H
 
 #include "context.h"
+#include "fault.h"
+#include "option.h"
+#include "scene.h"
 
 #include <glssao/glssao.h>
 
-typedef struct options_number {
-    bool given;
-    float value;
-} options_number;
-
-typedef struct options_vector {
-    bool given;
-    float value[3];
-} options_vector;
-
 typedef struct options {
-    const char *scene_path;                            /* NULL: the built-in scene */
-    const char *scene_name;                            /* of the built-in scene; NULL where a file is given */
-    const char *set;                                   /* setting_table.h; NULL: nothing */
-    const char *output, *ao, *normals, *depth, *stats; /* NULL: not wanted */
+    const char *scene_path;                            /* NULL: a built-in scene */
+    const char *scene_name;                            /* the built-in scene; NULL if a file is given */
+    scene_load_options file;                           /* how to load the file; its time and memory are set by: */
+    int memory_mib;                                    /* 0: half of the machine's memory */
+    const char *set;                                   /* text of --set, see setting_table.h; NULL: nothing */
+    const char *output, *ao, *normals, *depth, *stats; /* NULL: not written */
     int width, height;
     int quality, technique, context, path; /* glssao_quality, glssao_technique, context_kind, glssao_path */
-    options_number radius, power, fov_deg, near_plane, far_plane, error, budget_ms, time_s;
-    options_vector eye, target, up;
-    int sample_count;  /* 0: the quality's own */
-    int blur_rounds;   /* -1: the quality's own */
+    option_number radius, power, fov_deg, near_plane, far_plane, error, budget_ms, time_s;
+    option_vector eye, target, up;
+    int sample_count;  /* 0: the default of the quality */
+    int blur_rounds;   /* -1: the default of the quality */
     int margin;        /* pixels on each side */
     int layers;        /* 1 or 2; 0: not given */
-    int camera;        /* the scene's N-th, counted from 1; 0: not given */
+    int camera;        /* of the file, counted from 1; 0: not given; -1: none */
+    const char *view;  /* direction to see the scene from; NULL: not given */
     int frames, bench; /* 0: not given */
     uint32_t seed;
     bool no_shadows, mapped_normals, specular_occlusion, multi_bounce;
     int shadow_size; /* texels; 0: not given */
     int debug_map;   /* options_map; OPTIONS_MAP_NONE: not given */
-    bool plan, no_ao, help, version;
-    const char *environment;      /* picture of the surroundings; NULL: the built-in light */
-    const char *program_cache;    /* folder of linked programs; NULL: none */
-    const char *batch;            /* list file, "-": standard input; NULL: one picture, or turntable */
-    int shard_index, shard_count; /* of the batch; count 0: not given */
-    int cache_mib;                /* bound on scenes kept for later jobs */
+    bool orthographic, plan, no_ao, help, version;
+    const char *background;       /* text of --background; NULL: the sky */
+    int samples_per_pixel;        /* 0: the default for the context */
+    const char *environment;      /* picture that lights the scene; NULL: the built-in light */
+    const char *program_cache;    /* folder for linked programs; NULL: none */
+    const char *batch;            /* list file, "-": standard input; NULL: one picture or turntable */
+    int shard_index, shard_count; /* of a batch; count 0: not given */
+    option_number timeout_s;      /* limit for one job */
+    bool isolate;                 /* batch: each job in a process of its own */
+    int cache_mib;                /* memory for scenes that later jobs may need */
 } options;
 
-/* Who takes options; what each takes differs. */
+/* Where options come from. Each place accepts different ones. */
 typedef enum options_program { OPTIONS_RENDER, OPTIONS_JOB, OPTIONS_VIEWER } options_program;
 
-/* Of options.technique, behind the library's own. */
+/* A value of options.technique after those of glssao_technique. */
 enum { OPTIONS_RAYTRACE = GLSSAO_HORIZON + 1 };
 
-/* Of options.debug_map; the shadow map only where one is drawn. */
+#define OPTIONS_MAP_WORDS "none|ao|normals|depth|random|shadow|tiles"
+/* Values of options.debug_map. The shadow map exists only if the scene has one. */
 typedef enum options_map {
     OPTIONS_MAP_NONE = 0,
     OPTIONS_MAP_AO,
@@ -63,17 +64,21 @@ typedef enum options_map {
     OPTIONS_MAP_TILES
 } options_map;
 
+/* Parses --background. False for the sky (also for NULL); otherwise true, with a linear colour and its alpha, which is
+ * 0 for "none". */
+bool options_parse_background(const char *text, float out_rgba[4]);
+
 typedef enum options_result { OPTIONS_RUN, OPTIONS_DONE, OPTIONS_WRONG } options_result;
 
-/* OPTIONS_DONE: help or version was asked for and printed to stdout. OPTIONS_WRONG: one line in `error` names the
- * option and the value. The strings live as long as argv. */
-options_result options_parse(int argc, char **argv, options *out, char *error, size_t error_size);
+/* OPTIONS_DONE: help or version was printed to stdout. OPTIONS_WRONG: one line in `why` names the option and the value.
+ * The strings live as long as argv. */
+options_result options_parse(int argc, char **argv, options *out, fault *why);
 
-/* One line of a batch, argv[0] left out, over `defaults`, the command line's: a scene on the line takes the place of
- * theirs. False, with one line in `error`. */
-bool options_parse_job(const options *defaults, int argc, char **argv, options *out, char *error, size_t error_size);
+/* Parses a line of a batch, from argv[1] on. Options that the line does not set come from `defaults`, the command line;
+ * a scene on the line replaces theirs. False, with one line in `why`, if the line is wrong. */
+bool options_parse_job(const options *defaults, int argc, char **argv, options *out, fault *why);
 
-/* The same command line for glssao-view, which needs no output and takes none of the options that are about files. */
-options_result options_parse_for_viewer(int argc, char **argv, options *out, char *error, size_t error_size);
+/* The same for glssao-view, which needs no output and refuses options that only concern files. */
+options_result options_parse_for_viewer(int argc, char **argv, options *out, fault *why);
 
 #endif

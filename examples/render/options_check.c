@@ -1,22 +1,26 @@
 /* SPDX-License-Identifier: MIT
  *
- * What no value alone tells: options that need or exclude each other, and the text of --set.
+ * Checks that involve several options: options that need or cannot be used together, and the text of --set.
  */
-#include "option_table.h"
+#include "options_internal.h"
 
+#include "picture.h"
 #include "setting_table.h"
 #include "trace.h"
+#include "viewpoint.h"
+#include "words.h"
 
-#include <stdio.h>
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-static bool same_file(const options *o, char *error, size_t error_size)
+static bool same_file(const options *o, fault *why)
 {
     const char *const files[] = {o->output, o->ao, o->normals, o->depth, o->stats};
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         for (size_t k = 0; k < i; k++) {
             if (files[i] && files[k] && strcmp(files[i], files[k]) == 0) {
-                snprintf(error, error_size, "%s is named for two outputs", files[i]);
+                fault_set(why, "%s is named for two outputs", files[i]);
                 return true;
             }
         }
@@ -29,115 +33,164 @@ static bool is_horizon_count(int n)
     return n == 12 || n == 16 || n == 24 || n == 32 || n == 48 || n == 64;
 }
 
-/* Those of --set, which was checked, else --samples. */
-static bool check_samples(const options *o, char *error, size_t error_size)
+/* Checks the number of samples from --set, which is valid, or from --samples. */
+static bool check_samples(const options *o, fault *why)
 {
-    char fault[256];
     glssao_settings settings = {.sample_count = o->sample_count};
-    if (o->set) {
-        setting_apply(o->set, &settings, fault, sizeof fault);
-    }
+    if (o->set)
+        setting_apply(o->set, &settings, &(fault){0});
     const int count = settings.sample_count, most = o->technique == GLSSAO_CLASSIC ? 14 : 64;
-    if (count == 0 || o->technique == OPTIONS_RAYTRACE) {
+    if (count == 0 || o->technique == OPTIONS_RAYTRACE)
         return true;
-    }
     if (o->technique == GLSSAO_HORIZON && !is_horizon_count(count)) {
-        snprintf(error, error_size, "--samples \"%d\": horizon takes 12, 16, 24, 32, 48 or 64", count);
-        return false;
+        return fault_set(why, "--samples \"%d\": horizon takes 12, 16, 24, 32, 48 or 64", count);
     }
     if (count > most) {
-        snprintf(error, error_size, "--samples \"%d\": this technique takes at most %d", count, most);
-        return false;
+        return fault_set(why, "--samples \"%d\": this technique takes at most %d", count, most);
     }
     return true;
 }
 
-/* What no value alone tells: options that need or exclude each other. */
-static bool check_together(const options *o, bool is_viewer, char *error, size_t error_size)
+bool options_parse_background(const char *text, float out_rgba[4])
+{
+    const bool is_color =
+        text && text[0] == '#' && strlen(text) == 7 && strspn(text + 1, "0123456789abcdefABCDEF") == 6;
+    memset(out_rgba, 0, 4 * sizeof *out_rgba);
+    for (int i = 0; is_color && i < 3; i++) { /* IEC 61966-2-1, sRGB */
+        const char digits[3] = {text[1 + 2 * i], text[2 + 2 * i], 0};
+        const float encoded = (float)strtol(digits, NULL, 16) / 255;
+        out_rgba[i] = encoded <= 0.04045f ? encoded / 12.92f : powf((encoded + 0.055f) / 1.055f, 2.4f);
+    }
+    out_rgba[3] = is_color ? 1 : 0;
+    return is_color || (text && strcmp(text, "none") == 0);
+}
+
+/* Whether the name of a file ends in `end`. */
+static bool ends_in(const char *path, const char *end)
+{
+    const size_t length = strlen(path), end_length = strlen(end);
+    return length > end_length && strcmp(path + length - end_length, end) == 0;
+}
+
+static bool check_picture(const options *o, options_program program, fault *why)
+{
+    float color[4];
+    if (o->background && strcmp(o->background, "sky") != 0 && !options_parse_background(o->background, color))
+        return fault_set(why, "--background \"%s\": must be sky, none or #RRGGBB", o->background);
+    if (!o->output)
+        return true;
+    const bool is_transparent = o->background && strcmp(o->background, "none") == 0;
+    if (is_transparent && (ends_in(o->output, ".jpg") || ends_in(o->output, ".jpeg")))
+        return fault_set(why, "--background none: a JPEG (%s) has no transparency; .png and .webp have", o->output);
+    if (ends_in(o->output, ".webp") && !picture_has_webp())
+        return fault_set(why, "--output %s: this program was built without libwebp", o->output);
+    if (strcmp(o->output, "-") == 0 && (program != OPTIONS_RENDER || o->frames || o->plan || o->bench))
+        return fault_set(why, "--output -: standard output takes one picture, and nothing else");
+    return true;
+}
+
+/* Options that need or cannot be used together. */
+static bool check_together(const options *o, bool is_viewer, fault *why)
 {
     const bool file_wanted =
         o->output || o->ao || o->normals || o->depth || o->stats || o->bench || o->plan || is_viewer;
     const bool traced = o->technique == OPTIONS_RAYTRACE;
-    if (traced && !GLSSAO_HAS_EMBREE) {
-        snprintf(error, error_size, "--technique raytrace: this glssao-render was built without Embree");
-    } else if (traced && o->bench) {
-        snprintf(error, error_size, "--technique raytrace and --bench %d exclude each other; --stats has rays a second",
-                 o->bench);
-    } else if (traced && o->blur_rounds >= 0) {
-        snprintf(error, error_size, "--blur-rounds %d: traced accessibility is not blurred", o->blur_rounds);
-    } else if ((o->error.given || o->budget_ms.given) && o->technique != GLSSAO_HORIZON) {
-        snprintf(error, error_size, "--%s %g: only the horizon technique adds up estimates",
-                 o->error.given ? "error" : "budget", (double)(o->error.given ? o->error.value : o->budget_ms.value));
-    } else if ((o->error.given || o->budget_ms.given) && (o->no_ao || o->bench)) {
-        snprintf(error, error_size, "--%s and %s exclude each other", o->error.given ? "error" : "budget",
-                 o->no_ao ? "--no-ao" : "--bench");
-    } else if (o->margin % 2) {
-        snprintf(error, error_size, "--margin \"%d\": must be an even whole number", o->margin);
-    } else if (traced && (o->margin || o->layers)) {
-        snprintf(error, error_size, "--technique raytrace and --%s exclude each other: rays see the whole scene",
-                 o->margin ? "margin" : "layers");
-    } else if (o->layers == 2 && o->technique != GLSSAO_HORIZON) {
-        snprintf(error, error_size, "--layers 2: only the horizon technique reads a second layer");
-    } else if (o->scene_path && o->scene_name) {
-        snprintf(error, error_size, "--scene %s and the file %s exclude each other", o->scene_name, o->scene_path);
-    } else if (o->scene_name && option_find_word("columns|cornell|steps|plane", o->scene_name) < 0) {
-        snprintf(error, error_size, "--scene \"%s\": must be one of columns|cornell|steps|plane", o->scene_name);
-    } else if (o->time_s.given && !o->scene_path) {
-        snprintf(error, error_size, "--time %g: a built-in scene has no animation", (double)o->time_s.value);
-    } else if (o->no_ao && o->ao) {
-        snprintf(error, error_size, "--no-ao and --ao %s exclude each other", o->ao);
-    } else if (o->no_shadows && (o->shadow_size || o->debug_map == OPTIONS_MAP_SHADOW)) {
-        snprintf(error, error_size, "--no-shadows excludes --shadow-size and --debug-map shadow");
-    } else if ((o->debug_map == OPTIONS_MAP_AO || o->debug_map == OPTIONS_MAP_TILES) && o->no_ao) {
-        snprintf(error, error_size, "--no-ao and --debug-map %s exclude each other",
-                 o->debug_map == OPTIONS_MAP_AO ? "ao" : "tiles");
-    } else if (o->debug_map && !o->output && !is_viewer) {
-        snprintf(error, error_size, "--debug-map: needs a picture, -o FILE.png");
-    } else if (o->frames && o->bench) {
-        snprintf(error, error_size, "--frames %d and --bench %d exclude each other", o->frames, o->bench);
-    } else if (o->near_plane.given && o->far_plane.given && o->near_plane.value >= o->far_plane.value) {
-        snprintf(error, error_size, "--near %g must be less than --far %g", (double)o->near_plane.value,
-                 (double)o->far_plane.value);
-    } else if (o->eye.given && o->target.given && memcmp(&o->eye, &o->target, sizeof o->eye) == 0) {
-        snprintf(error, error_size, "--eye and --target are the same point");
-    } else if (is_viewer && traced) {
-        snprintf(error, error_size, "--technique raytrace: the viewer shows it as the difference to it (key T)");
-    } else if (!file_wanted) {
-        snprintf(
-            error, error_size,
-            "nothing to do: give -o FILE.png, --ao, --normals, --depth, --stats, --bench or --plan (-h lists all)");
-    } else if (o->frames && !o->output && !o->ao && !o->normals && !o->depth) {
-        snprintf(error, error_size, "--frames %d: needs an output such as -o FILE.png", o->frames);
-    } else {
-        return !same_file(o, error, error_size);
-    }
-    return false;
+    float angles[2];
+    if (traced && !GLSSAO_HAS_EMBREE)
+        return fault_set(why, "--technique raytrace: this glssao-render was built without Embree");
+    if (traced && o->bench)
+        return fault_set(why,
+                         "--technique raytrace and --bench %d cannot be used together; --stats reports rays per second",
+                         o->bench);
+    if (traced && o->blur_rounds >= 0)
+        return fault_set(why, "--blur-rounds %d: ray-traced accessibility is not blurred", o->blur_rounds);
+    if ((o->error.given || o->budget_ms.given) && o->technique != GLSSAO_HORIZON)
+        return fault_set(why, "--%s %g: only the horizon technique accumulates estimates",
+                         o->error.given ? "error" : "budget",
+                         (double)(o->error.given ? o->error.value : o->budget_ms.value));
+    if ((o->error.given || o->budget_ms.given) && (o->no_ao || o->bench))
+        return fault_set(why, "--%s and %s cannot be used together", o->error.given ? "error" : "budget",
+                         o->no_ao ? "--no-ao" : "--bench");
+    if (o->margin % 2)
+        return fault_set(why, "--margin \"%d\": must be an even whole number", o->margin);
+    if (traced && (o->margin || o->layers))
+        return fault_set(why, "--technique raytrace and --%s cannot be used together: rays see the whole scene",
+                         o->margin ? "margin" : "layers");
+    if (o->layers == 2 && o->technique != GLSSAO_HORIZON)
+        return fault_set(why, "--layers 2: only the horizon technique reads a second layer");
+    if (o->scene_path && o->scene_name)
+        return fault_set(why, "--scene %s and the file %s cannot be used together", o->scene_name, o->scene_path);
+    if (o->scene_name && words_find(SCENE_WORDS, o->scene_name) < 0)
+        return fault_set(why, "--scene \"%s\": must be one of " SCENE_WORDS, o->scene_name);
+    if (o->time_s.given && !o->scene_path)
+        return fault_set(why, "--time %g: a built-in scene has no animation", (double)o->time_s.value);
+    if (!o->scene_path && (o->file.animation || o->file.scene || o->file.variant))
+        return fault_set(why, "--%s: a built-in scene has none",
+                         o->file.animation ? "animation"
+                         : o->file.scene   ? "gltf-scene"
+                                           : "variant");
+    if (o->file.animation && !o->time_s.given)
+        return fault_set(why, "--animation %d: needs --time SECONDS", o->file.animation);
+    if (o->no_ao && o->ao)
+        return fault_set(why, "--no-ao and --ao %s cannot be used together", o->ao);
+    if (o->no_shadows && (o->shadow_size || o->debug_map == OPTIONS_MAP_SHADOW))
+        return fault_set(why, "--no-shadows cannot be used with --shadow-size or --debug-map shadow");
+    if ((o->debug_map == OPTIONS_MAP_AO || o->debug_map == OPTIONS_MAP_TILES) && o->no_ao)
+        return fault_set(why, "--no-ao and --debug-map %s cannot be used together",
+                         o->debug_map == OPTIONS_MAP_AO ? "ao" : "tiles");
+    if (o->debug_map && !o->output && !is_viewer)
+        return fault_set(why, "--debug-map: needs a picture, -o FILE");
+    if (o->frames && o->bench)
+        return fault_set(why, "--frames %d and --bench %d cannot be used together", o->frames, o->bench);
+    if (o->near_plane.given && o->far_plane.given && o->near_plane.value >= o->far_plane.value)
+        return fault_set(why, "--near %g must be less than --far %g", (double)o->near_plane.value,
+                         (double)o->far_plane.value);
+    if (o->view && !viewpoint_parse_view(o->view, angles))
+        return fault_set(why,
+                         "--view \"%s\": must be two numbers of degrees AZIMUTH,ELEVATION, the second from -90 to 90, "
+                         "or one of " VIEW_WORDS,
+                         o->view);
+    if (o->view && (o->eye.given || o->target.given || o->camera > 0))
+        return fault_set(why, "--view and --%s cannot be used together",
+                         o->eye.given      ? "eye"
+                         : o->target.given ? "target"
+                                           : "camera");
+    if (o->eye.given && o->target.given && memcmp(&o->eye, &o->target, sizeof o->eye) == 0)
+        return fault_set(why, "--eye and --target are the same point");
+    if (is_viewer && traced)
+        return fault_set(why, "--technique raytrace: the viewer shows ray-traced accessibility with the keys T and Y");
+    if (!file_wanted)
+        return fault_set(
+            why, "nothing to do: give -o FILE, --ao, --normals, --depth, --stats, --bench or --plan (see --help)");
+    if (o->frames && !o->output && !o->ao && !o->normals && !o->depth)
+        return fault_set(why, "--frames %d: needs an output such as -o FILE", o->frames);
+    return !same_file(o, why);
 }
 
-/* The text of --set, tried on some settings. */
-static bool check_settings(const options *o, char *error, size_t error_size)
+/* Tries the text of --set on some settings. */
+static bool check_settings(const options *o, fault *why)
 {
-    char fault[256];
+    char text[256];
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
-    if (!o->set || setting_apply(o->set, &settings, fault, sizeof fault)) {
+    if (!o->set || setting_apply(o->set, &settings, FAULT(text)))
         return true;
-    }
-    snprintf(error, error_size, "--set %s", fault);
-    return false;
+    return fault_set(why, "--set %s", text);
 }
 
-bool options_check(const options *o, options_program program, char *error, size_t error_size)
+bool options_check(const options *o, options_program program, fault *why)
 {
-    if (program == OPTIONS_RENDER && o->batch) { /* the jobs are checked, each with what it has of these options */
-        if (o->bench) {
-            snprintf(error, error_size, "--batch and --bench %d exclude each other", o->bench);
-        }
-        return !o->bench && check_settings(o, error, error_size);
+    if (program == OPTIONS_RENDER && o->batch) { /* these options are checked again with each job */
+        if (o->bench)
+            fault_set(why, "--batch and --bench %d cannot be used together", o->bench);
+        return !o->bench && check_settings(o, why);
     }
+    if (o->isolate && program == OPTIONS_RENDER)
+        return fault_set(why, "--isolate: needs a list, --batch LIST");
+    if (program == OPTIONS_JOB && o->scene_path && strcmp(o->scene_path, "-") == 0)
+        return fault_set(why, "-: only a run with one job reads its scene from standard input");
     if (o->shard_count && program == OPTIONS_RENDER) {
-        snprintf(error, error_size, "--shard %d/%d: needs a list, --batch LIST", o->shard_index, o->shard_count);
-        return false;
+        return fault_set(why, "--shard %d/%d: needs a list, --batch LIST", o->shard_index, o->shard_count);
     }
-    return check_together(o, program == OPTIONS_VIEWER, error, error_size) && check_settings(o, error, error_size) &&
-           check_samples(o, error, error_size);
+    return check_together(o, program == OPTIONS_VIEWER, why) && check_picture(o, program, why) &&
+           check_settings(o, why) && check_samples(o, why);
 }

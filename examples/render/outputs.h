@@ -1,23 +1,30 @@
 /* SPDX-License-Identifier: MIT
  *
- * The files a run leaves: their names, whether they can be written, and having them read back.
+ * The files that a job writes: their names, whether they can be written, and passing them to the read-back.
  */
 #ifndef GLSSAO_EXAMPLES_OUTPUTS_H
 #define GLSSAO_EXAMPLES_OUTPUTS_H
 
+#include "fault.h"
+#include "inputs.h"
 #include "options.h"
 #include "pipeline.h"
 #include "readback.h"
 
-/* False, with one line that names the file, where one can't be written: known before the long work. */
-bool outputs_check(const options *o, char *error, size_t error_size);
+/* Checks early that all outputs can be written. False, with one line in `why` that names the file, if not. */
+bool outputs_check(const options *o, fault *why);
 
-/* Has what is wanted of the frame just drawn written. `number` is the turntable's frame, from 1; 0: not a turntable.
- * What becomes of it, the slip tells. */
+/* False, with one line in `why` that names both, if an output would overwrite a file that the job reads: a file of the
+ * scene, the environment or the list. */
+bool outputs_spare_inputs(const options *o, const inputs *scene, fault *why);
+
+/* Passes the outputs of the last frame to the read-back. `number` is the frame of a turntable, from 1; 0: no turntable.
+ * The slip tells the result. */
 bool outputs_take(const options *o, pipeline *p, const scene_view *view, int number, readback *r, writer_slip *slip,
-                  char *error, size_t error_size);
+                  fault *why);
 
-/* The files of a job, without those of --stats; a turntable's are numbered. False at the first that `visit` refuses. */
+/* Visits the files of a job, without that of --stats. A turntable has numbered files. Stops and returns false when
+ * `visit` does. */
 bool outputs_each(const options *o, bool (*visit)(const char *path, void *user), void *user);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The passes of one frame, and what they need beside targets.
+ * The passes of a frame, and everything they need except targets.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "pipeline.h"
@@ -9,60 +9,54 @@
 #include "map_view.h"
 #include "setting_table.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-/* The effect's lengths belong together: a radius other than the default's scales the others along. */
+/* A radius that differs from the default scales the other lengths of the effect by the same factor. */
 glssao_settings pipeline_settings(const options *o, const scene *s)
 {
     const bool traced = o->technique == OPTIONS_RAYTRACE;
     glssao_settings settings =
         glssao_default_settings(traced ? GLSSAO_CLASSIC : (glssao_technique)o->technique, (glssao_quality)o->quality);
-    if (traced) { /* of these, the tracer uses the radius, and its own: */
+    if (traced) { /* the tracer uses the radius and these two */
         settings.power = 1;
         settings.sample_count = 512;
     }
     float radius = settings.radius;
-    if (o->radius.given) {
+    if (o->radius.given)
         radius = o->radius.value;
-    } else if (o->scene_path) {
+    else if (o->scene_path)
         radius = camera_suggest_radius(s);
-    }
     setting_scale_radius(&settings, radius);
-    if (o->power.given) {
+    if (o->power.given)
         settings.power = o->power.value;
-    }
-    if (o->sample_count) {
+    if (o->sample_count)
         settings.sample_count = o->sample_count;
-    }
-    if (o->blur_rounds >= 0) {
+    if (o->blur_rounds >= 0)
         settings.blur_rounds = o->blur_rounds;
-    }
     if (o->set) {
-        char fault[256];
-        setting_apply(o->set, &settings, fault, sizeof fault); /* options_parse saw that it is right */
+        setting_apply(o->set, &settings, &(fault){0}); /* options_parse made sure that it is valid */
     }
     return settings;
 }
 
-/* The library's last error, for the line that reports a failure: its own names no job. Of the context's thread. */
+/* The last error that the library logged. It becomes part of the line that reports a failed job. */
 static char heard[200];
 
 static void hear(glssao_log_level level, const char *message, void *user)
 {
     glssao_log_to_stderr(level, message, user);
-    if (level == GLSSAO_LOG_ERROR) {
+    if (level == GLSSAO_LOG_ERROR)
         snprintf(heard, sizeof heard, "%.*s", (int)strcspn(message, "\n"), message);
-    }
 }
 
-bool pipeline_check(glssao_result result, const char *what, char *error, size_t error_size)
+bool pipeline_check(glssao_result result, const char *what, fault *why)
 {
     if (result != GLSSAO_OK) {
-        snprintf(error, error_size, "%s failed: %s%s%s", what, glssao_result_string(result), heard[0] ? ": " : "",
-                 heard);
+        fault_set(why, "%s failed: %s%s%s", what, glssao_result_string(result), heard[0] ? ": " : "", heard);
         heard[0] = '\0';
     }
     return result == GLSSAO_OK;
@@ -74,21 +68,18 @@ static bool is_folder(const char *path)
     return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
 }
 
-static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, const options *o, char *error,
-                           size_t error_size)
+static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, const options *o, fault *why)
 {
     p->effect = NULL;
-    if (!p->wants.normals) {
+    if (!p->wants.normals)
         return true;
-    }
     if (p->kept && (p->seed != o->seed || p->kept_timers != p->wants.timers || p->kept_path != (glssao_path)o->path)) {
         glssao_destroy(p->kept);
         p->kept = NULL;
     }
     if (!p->kept) {
         if (o->program_cache && !is_folder(o->program_cache)) {
-            snprintf(error, error_size, "--program-cache %s: there is no folder of that name", o->program_cache);
-            return false;
+            return fault_set(why, "--program-cache %s: no such folder", o->program_cache);
         }
         const glssao_config config = {.load = load,
                                       .load_user = load_user,
@@ -100,9 +91,8 @@ static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, co
                                       .path = (glssao_path)o->path,
                                       .program_cache = o->program_cache};
         const glssao_result result = glssao_create(&config, &p->kept);
-        if (!pipeline_check(result, "glssao_create", error, error_size)) {
+        if (!pipeline_check(result, "glssao_create", why))
             return false;
-        }
         p->kept_timers = p->wants.timers;
         p->kept_path = (glssao_path)o->path;
     }
@@ -118,36 +108,37 @@ static void drop_environment(pipeline *p)
     p->environment_path = NULL;
 }
 
-bool pipeline_surround(pipeline *p, const stage *st, const char *path, char *error, size_t error_size)
+bool pipeline_surround(pipeline *p, const stage *st, const char *path, fault *why)
 {
     if (!path) {
         drop_environment(p);
     } else if (!p->environment_path || strcmp(path, p->environment_path) != 0) {
-        scene_environment *loaded = scene_environment_load(path, error, error_size);
-        if (!loaded) {
+        scene_environment *loaded = scene_environment_load(path, why->text, why->size);
+        if (!loaded)
             return false;
-        }
         drop_environment(p);
         p->environment = loaded;
         p->environment_path = strdup(path);
     }
     p->lighting = st->lighting;
     scene_lighting_surround(&p->lighting, st->scene, p->environment);
+    p->lighting.plain = p->plain;
+    memcpy(p->lighting.background, p->background, sizeof p->background);
     return true;
 }
 
 bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_user, const options *o,
-                      pipeline_wants wants, char *error, size_t error_size)
+                      pipeline_wants wants, fault *why)
 {
     const int width = o->width + 2 * o->margin, height = o->height + 2 * o->margin;
     p->wants = wants;
     p->renderer = st->renderer;
-    if (!pipeline_surround(p, st, wants.picture ? o->environment : NULL, error, error_size)) {
+    p->plain = options_parse_background(o->background, p->background);
+    p->transparent = p->plain && p->background[3] == 0;
+    if (!pipeline_surround(p, st, wants.picture ? o->environment : NULL, why))
         return false;
-    }
-    if ((width != p->width || height != p->height) && !pipeline_change_size(p, width, height, error, error_size)) {
+    if ((width != p->width || height != p->height) && !pipeline_change_size(p, width, height, why))
         return false;
-    }
     p->margin = o->margin;
     p->settings = pipeline_settings(o, st->scene);
     p->goal = (progressive_goal){.error = (double)o->error.value, .budget_ms = (double)o->budget_ms.value};
@@ -160,26 +151,21 @@ bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_us
                                            .layers = wants.ao && o->layers == 2,
                                            .no_picture = !wants.picture};
     p->debug_map = (options_map)o->debug_map;
-    if (!scene_renderer_configure(p->renderer, &p->lighting, &p->draw_options, error, error_size)) {
+    if (!scene_renderer_configure(p->renderer, &p->lighting, &p->draw_options, why->text, why->size))
         return false;
-    }
-    if (wants.traced && (!stage_trace(st, error, error_size) ||
-                         !truth_open(&p->truth, st->traced, o->width, o->height, error, error_size))) {
+    if (wants.traced && (!stage_trace(st, why) || !truth_open(&p->truth, st->traced, o->width, o->height, why)))
         return false;
-    }
-    if (!prepare_effect(p, load, load_user, o, error, error_size)) {
+    if (!prepare_effect(p, load, load_user, o, why))
         return false;
-    }
     p->seed = o->seed;
-    return pipeline_make_targets(p, error, error_size);
+    return pipeline_make_targets(p, why);
 }
 
 bool pipeline_create(pipeline *p, const scene *s, glssao_load_fn load, void *load_user, const options *o,
-                     pipeline_wants wants, char *error, size_t error_size)
+                     pipeline_wants wants, fault *why)
 {
     *p = (pipeline){.margin = 0};
-    return stage_open(&p->own, s, NULL, error, error_size) &&
-           pipeline_prepare(p, &p->own, load, load_user, o, wants, error, error_size);
+    return stage_open(&p->own, s, NULL, why) && pipeline_prepare(p, &p->own, load, load_user, o, wants, why);
 }
 
 void pipeline_destroy(pipeline *p)
@@ -196,9 +182,8 @@ void pipeline_destroy(pipeline *p)
 
 bool pipeline_runs_occlusion(const pipeline *p, const scene_view *view)
 {
-    if (!p->wants.ao || p->wants.traced) {
+    if (!p->wants.ao || p->wants.traced)
         return false;
-    }
     const glssao_frame frame = pipeline_frame(p, view);
     return glssao_plan_frame(p->effect, &frame, &p->settings).passes[GLSSAO_PASS_ESTIMATE].run;
 }
@@ -208,16 +193,14 @@ bool pipeline_reads_normals(const pipeline *p, const scene_view *view)
     return p->effect && (p->wants.normal_map || pipeline_runs_occlusion(p, view));
 }
 
-static bool draw_prepass(pipeline *p, const scene_view *view, char *error, size_t error_size)
+static bool draw_prepass(pipeline *p, const scene_view *view, fault *why)
 {
     if (pipeline_reads_normals(p, view)) {
-        if (!pipeline_check(glssao_begin_normals(p->effect, p->depth), "glssao_begin_normals", error, error_size)) {
+        if (!pipeline_check(glssao_begin_normals(p->effect, p->depth), "glssao_begin_normals", why))
             return false;
-        }
         scene_draw_normals(p->renderer, view);
-        if (!pipeline_check(glssao_end_normals(p->effect), "glssao_end_normals", error, error_size)) {
+        if (!pipeline_check(glssao_end_normals(p->effect), "glssao_end_normals", why))
             return false;
-        }
         for (int i = 0; p->draw_options.layers && pipeline_runs_occlusion(p, view) && i < 2; i++) {
             gl.BindFramebuffer(GL_FRAMEBUFFER, p->layer_framebuffer);
             gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, p->layers[i], 0);
@@ -243,23 +226,27 @@ glssao_frame pipeline_frame(const pipeline *p, const scene_view *view)
     memcpy(frame.projection, view->clip_from_view, sizeof frame.projection);
     const scene_seen seen = scene_find_seen(p->renderer, view);
     frame.only_sky = seen.opaque == 0;
-    /* Accessibility scales nothing else; but a map that was asked for itself is made. */
+    /* The picture uses accessibility only for ambient light. A map that is written is always made. */
     frame.no_ambient_light =
         p->wants.picture && !p->wants.ao_map && (seen.lit == 0 || !scene_lighting_has_ambient(&p->lighting));
     return frame;
 }
 
-static bool find_accessibility(pipeline *p, const scene_view *view, char *error, size_t error_size)
+/* Finds accessibility for one of `count` samples of a pixel. The picture shows their mean. So each sample gets its
+ * share of the rays and of the time, and a larger sampling error. */
+static bool find_accessibility(pipeline *p, const scene_view *view, int index, int count, fault *why)
 {
     if (p->wants.traced) {
-        return truth_trace(&p->truth, view, &p->settings, p->seed, error, error_size);
+        glssao_settings share = p->settings;
+        share.sample_count = (share.sample_count + count - 1) / count;
+        return truth_trace(&p->truth, view, &share, p->seed + (uint32_t)index * 0x9e3779b9u, why);
     }
     const glssao_frame frame = pipeline_frame(p, view);
-    if (p->goal.error <= 0 && p->goal.budget_ms <= 0) {
-        return pipeline_check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", error, error_size);
-    }
-    const glssao_result result = progressive_run(p->effect, &frame, &p->settings, &p->goal, &p->reached);
-    return pipeline_check(result, "glssao_accumulate", error, error_size);
+    if (p->goal.error <= 0 && p->goal.budget_ms <= 0)
+        return pipeline_check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", why);
+    const progressive_goal share = {p->goal.error * sqrt(count), p->goal.budget_ms / count};
+    const glssao_result result = progressive_run(p->effect, &frame, &p->settings, &share, &p->reached);
+    return pipeline_check(result, "glssao_accumulate", why);
 }
 
 GLuint pipeline_ambient_map(const pipeline *p)
@@ -267,7 +254,7 @@ GLuint pipeline_ambient_map(const pipeline *p)
     return p->wants.traced ? p->truth.map : glssao_map(p->effect, GLSSAO_MAP_AMBIENT, NULL, NULL);
 }
 
-void pipeline_shade(pipeline *p, const scene_view *view, GLuint ambient_map, GLuint framebuffer)
+static void shade(pipeline *p, const scene_view *view, GLuint ambient_map, GLuint framebuffer)
 {
     scene_draw_shadow(p->renderer, &p->lighting);
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -278,27 +265,58 @@ void pipeline_shade(pipeline *p, const scene_view *view, GLuint ambient_map, GLu
     }
     scene_draw_main(p->renderer, view, &p->lighting, ambient_map);
     gl.Disable(GL_SCISSOR_TEST);
-    if (p->debug_map) {
-        map_view_draw(p, view, p->debug_map, map_view_inset(p, p->debug_map), framebuffer);
-    }
 }
 
-bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, char *error, size_t error_size)
+static void draw_debug_map(pipeline *p, const scene_view *view, GLuint framebuffer)
+{
+    if (p->debug_map)
+        map_view_draw(p, view, p->debug_map, map_view_inset(p, p->debug_map), framebuffer);
+}
+
+void pipeline_shade(pipeline *p, const scene_view *view, GLuint ambient_map, GLuint framebuffer)
+{
+    shade(p, view, ambient_map, framebuffer);
+    draw_debug_map(p, view, framebuffer);
+}
+
+/* Draws the pre-pass and finds accessibility. */
+static bool draw_maps(pipeline *p, const scene_view *view, int index, int count, stopwatch *times, fault *why)
 {
     if (p->wants.prepass) {
-        if (!draw_prepass(p, view, error, error_size)) {
+        if (!draw_prepass(p, view, why))
             return false;
-        }
         stopwatch_lap(times, PHASE_PREPASS);
     }
     if (p->wants.ao) {
-        if (!find_accessibility(p, view, error, error_size)) {
+        if (!find_accessibility(p, view, index, count, why))
             return false;
-        }
         stopwatch_lap(times, PHASE_AO);
     }
+    return true;
+}
+
+bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, fault *why)
+{
+    const int count = p->wants.samples;
+    const bool averages = p->wants.picture && (count > 1 || p->transparent);
+    for (int i = 0; averages && i < count; i++) {
+        const scene_view shifted = samples_view(view, i, count);
+        if (!draw_maps(p, &shifted, i, count, times, why))
+            return false;
+        shade(p, &shifted, p->wants.ao ? pipeline_ambient_map(p) : 0, p->samples.framebuffer);
+        samples_add(&p->samples, i == 0);
+        stopwatch_lap(times, PHASE_MAIN);
+    }
+    if (averages)
+        samples_resolve(&p->samples, count, p->color_framebuffer);
+    /* Maps belong to the centres of the pixels. */
+    const bool has_maps = averages && (count == 1 || !p->wants.maps);
+    if (!has_maps && !draw_maps(p, view, 0, 1, times, why))
+        return false;
+    if (p->wants.picture && !averages)
+        shade(p, view, p->wants.ao ? pipeline_ambient_map(p) : 0, p->color_framebuffer);
     if (p->wants.picture) {
-        pipeline_shade(p, view, p->wants.ao ? pipeline_ambient_map(p) : 0, p->color_framebuffer);
+        draw_debug_map(p, view, p->color_framebuffer);
         stopwatch_lap(times, PHASE_MAIN);
     }
     return true;

@@ -1,93 +1,102 @@
 /* SPDX-License-Identifier: MIT
  *
- * One frame of glssao-render: pre-pass, occlusion, main pass, and reading back what is wanted of them. Passes whose
- * result nobody wants have neither targets nor shaders. The context is current throughout.
+ * One frame: pre-pass, occlusion, main pass and read-back. Passes whose result is not used have no targets and no
+ * shaders. The context is current in all calls.
  */
 #ifndef GLSSAO_EXAMPLES_PIPELINE_H
 #define GLSSAO_EXAMPLES_PIPELINE_H
 
 #include "draw.h"
+#include "fault.h"
 #include "gl.h"
 #include "options.h"
 #include "pixel_kind.h"
 #include "progressive.h"
 #include "report.h"
+#include "samples.h"
 #include "scene.h"
 #include "stage.h"
 #include "truth.h"
 
-/* What the command line makes necessary. */
+/* What the command line calls for. */
 typedef struct pipeline_wants {
     bool picture;    /* the main pass */
-    bool ao_map;     /* accessibility for its own sake, not only for the picture */
-    bool ao;         /* accessibility: the occlusion passes, or */
-    bool traced;     /* rays */
-    bool prepass;    /* depth, and with it: */
-    bool timers;     /* times of the occlusion passes */
-    bool normals;    /* a normal map, for the occlusion passes where they run, or */
-    bool normal_map; /* for its own sake */
+    bool ao_map;     /* accessibility is read back or shown */
+    bool ao;         /* accessibility, from the occlusion passes or: */
+    bool traced;     /* from rays */
+    bool prepass;    /* depth */
+    bool maps;       /* a map is read back or shown in the picture's corner */
+    int samples;     /* for each pixel of the picture */
+    bool timers;     /* measure the occlusion passes */
+    bool normals;    /* a normal map, for the occlusion passes or to be read back */
+    bool normal_map; /* the normal map is read back or shown */
 } pipeline_wants;
 
 typedef struct pipeline {
     pipeline_wants wants;
-    int width, height;        /* of the targets, with the margin */
-    int margin;               /* pixels on each side that are drawn but not delivered */
-    stage own;                /* pipeline_create's */
-    scene_renderer *renderer; /* of the stage */
+    int width, height;        /* of the targets, including the margin */
+    int margin;               /* pixels on each side that are drawn but not written */
+    stage own;                /* only after pipeline_create */
+    scene_renderer *renderer; /* belongs to the stage */
     scene_lighting lighting;
-    scene_environment *environment; /* of the lighting; NULL: the built-in one */
+    scene_environment *environment; /* used by the lighting; NULL: the built-in one */
     char *environment_path;
-    glssao_effect *effect; /* NULL where neither occlusion passes nor normals are wanted; else: */
-    glssao_effect *kept;   /* of these, and of the targets' size */
+    glssao_effect *effect; /* the kept effect, or NULL if the job needs no occlusion passes and no normals */
+    glssao_effect *kept;   /* has these properties and the size of the targets */
     bool kept_timers;
     glssao_path kept_path;
     uint32_t seed;
-    truth truth; /* where traced */
+    truth truth; /* only if wants.traced */
     glssao_settings settings;
-    progressive_goal goal; /* zero: one frame as the settings say */
+    progressive_goal goal; /* all 0: one estimate with the settings */
     progressive_report reached;
     scene_draw_options draw_options;
     options_map debug_map;
+    bool plain;          /* a background replaces the sky */
+    bool transparent;    /* the background has alpha 0, and the picture straight alpha */
+    float background[4]; /* linear colour and alpha */
+    samples samples;     /* only with several samples or a transparent background */
     GLuint depth, depth_framebuffer, color, color_framebuffer;
-    GLuint layers[2], layer_framebuffer; /* back faces and second fronts, where draw_options.layers */
-    GLuint scratch, scratch_framebuffer; /* map_view.c's */
-    GLuint maps[PIXEL_KIND_COUNT], map_framebuffers[PIXEL_KIND_COUNT]; /* where maps are drawn to be read back */
+    GLuint layers[2], layer_framebuffer; /* back faces and second front faces, only if draw_options.layers */
+    GLuint scratch, scratch_framebuffer; /* owned by map_view.c */
+    GLuint maps[PIXEL_KIND_COUNT],
+        map_framebuffers[PIXEL_KIND_COUNT]; /* maps are drawn here before they are read back */
 } pipeline;
 
-/* False, with one line in `error`; pipeline_destroy is due in either case. */
+/* False, with one line in `why`, on failure. Call pipeline_destroy in either case. */
 bool pipeline_create(pipeline *p, const scene *s, glssao_load_fn load, void *load_user, const options *o,
-                     pipeline_wants wants, char *error, size_t error_size);
+                     pipeline_wants wants, fault *why);
 
-/* Makes it draw a stage, which must outlive that, as the options say, from zero or from whatever it drew before: what
- * fits of the effect, its shaders and the targets stays. False, with one line in `error`; only pipeline_destroy may
- * follow then. */
+/* Prepares the pipeline, which is zero or has drawn something else, to draw a stage with these options. The effect, its
+ * shaders and targets are kept where they fit. The stage must outlive its use. False, with one line in `why`, on
+ * failure; then only pipeline_destroy may follow. */
 bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_user, const options *o,
-                      pipeline_wants wants, char *error, size_t error_size);
+                      pipeline_wants wants, fault *why);
 
-/* Light from the picture in that file, or the built-in one (NULL); a picture that is there already is not read again.
- * scene_renderer_configure is due after it. False, with one line in `error`, on failure, where the light stays. */
-bool pipeline_surround(pipeline *p, const stage *st, const char *path, char *error, size_t error_size);
+/* Lights the scene with the picture at `path`, or with the built-in light (NULL). A picture that is in use is not read
+ * again. Call scene_renderer_configure afterwards. False, with one line in `why`, on failure; the light then stays. */
+bool pipeline_surround(pipeline *p, const stage *st, const char *path, fault *why);
 
 /* The settings that the command line asks for. */
 glssao_settings pipeline_settings(const options *o, const scene *s);
 
-/* Makes the targets anew; pipeline_destroy is due in either case. Not where rays are traced. */
-bool pipeline_resize(pipeline *p, int width, int height, char *error, size_t error_size);
+/* Makes the targets again for another size. Call pipeline_destroy in either case. Not for traced frames. */
+bool pipeline_resize(pipeline *p, int width, int height, fault *why);
 
-/* The accessibility map of the last frame. */
+/* Texture name of the accessibility map of the last frame. */
 GLuint pipeline_ambient_map(const pipeline *p);
 
-/* Leaves zero. */
+/* Frees everything and sets all members to 0. */
 void pipeline_destroy(pipeline *p);
 
-/* Draws all that is wanted, and ends the phases of `times` as it goes. `view` has the margin on it. */
-bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, char *error, size_t error_size);
+/* Draws everything that is wanted and records the phases in `times`. `view` includes the margin. */
+bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, fault *why);
 
-/* The picture of the frame last drawn once more, with another accessibility map (0: none), into another framebuffer of
- * the pipeline's size whose depth attachment is the pipeline's `depth`. */
+/* Draws the picture of the last frame again, with another accessibility map (0: none), into a framebuffer of the
+ * pipeline's size whose depth attachment is the pipeline's `depth`. */
 void pipeline_shade(pipeline *p, const scene_view *view, GLuint ambient_map, GLuint framebuffer);
 
-/* What can be read back of the frame last drawn, as: */
+/* What can be read back of the last frame, and the kinds of pixels. */
 typedef enum pipeline_output {
     PIPELINE_PICTURE,      /* PIXELS_RGBA8, sRGB */
     PIPELINE_AO,           /* PIXELS_GREY8 or PIXELS_FLOAT */
@@ -95,37 +104,37 @@ typedef enum pipeline_output {
     PIPELINE_VIEW_DISTANCE /* PIXELS_FLOAT */
 } pipeline_output;
 
-/* Bytes of an output without the margin. */
+/* Size of an output in bytes, without the margin. */
 size_t pipeline_output_size(const pipeline *p, pixel_kind kind);
 
-/* Calls glReadPixels for an output, bottom to top, without the margin and without padding: to `pixels`, or to that
- * offset in the buffer bound to GL_PIXEL_PACK_BUFFER. Reads what was traced from memory, and then needs `pixels`; see
- * pipeline_is_in_memory. False where GL has no framebuffer for it. */
+/* Calls glReadPixels for an output: rows bottom to top, without margin and padding. `pixels` is an address, or an
+ * offset if a buffer is bound to GL_PIXEL_PACK_BUFFER. An output that is in memory (pipeline_is_in_memory) needs an
+ * address. False if OpenGL offers no framebuffer for the output. */
 bool pipeline_read(pipeline *p, pipeline_output output, pixel_kind kind, const scene_view *view, void *pixels);
 bool pipeline_is_in_memory(const pipeline *p, pipeline_output output, pixel_kind kind);
 
-/* Accessibility, PIXELS_GREY8 or PIXELS_FLOAT, of malloc; NULL where memory is short. */
+/* Accessibility as PIXELS_GREY8 or PIXELS_FLOAT. The caller frees it. NULL if memory is short. */
 void *pipeline_read_ao(pipeline *p, pixel_kind kind);
 
-/* Prints what a frame runs and skips, as a table, to stdout. */
+/* Prints a table of the passes that a frame runs and skips to stdout. */
 void pipeline_print_plan(const pipeline *p, const scene_view *view);
 
-/* ---- Between the pipeline's own files: pipeline_targets.c, pipeline.c */
+/* ---- Used only by the pipeline's own files */
 
-/* False, with what failed and the library's last error in `error`, where the result is not GLSSAO_OK. */
-bool pipeline_check(glssao_result result, const char *what, char *error, size_t error_size);
-/* Frees the targets. False, with one line in `error`, where the context has no framebuffers of that size. */
-bool pipeline_change_size(pipeline *p, int width, int height, char *error, size_t error_size);
-/* Makes those that are wanted and not there. */
-bool pipeline_make_targets(pipeline *p, char *error, size_t error_size);
+/* False, with the failed call and the library's last error in `why`, if the result is not GLSSAO_OK. */
+bool pipeline_check(glssao_result result, const char *what, fault *why);
+/* Frees the targets. False, with one line in `why`, if the context has no framebuffers of that size. */
+bool pipeline_change_size(pipeline *p, int width, int height, fault *why);
+/* Makes the targets that are wanted and missing. */
+bool pipeline_make_targets(pipeline *p, fault *why);
 void pipeline_free_targets(pipeline *p);
-/* Where a map is drawn to be read back; 0 where GL has none. */
+/* The framebuffer for maps that are read back; 0 if OpenGL offers none. */
 GLuint pipeline_map_framebuffer(pipeline *p, pixel_kind kind);
-/* What the effect takes. */
+/* The frame as the effect takes it. */
 glssao_frame pipeline_frame(const pipeline *p, const scene_view *view);
-/* Whether the effect has anything to do in this view. */
+/* Whether the effect runs for this view. */
 bool pipeline_runs_occlusion(const pipeline *p, const scene_view *view);
-/* Whether anyone reads the normals of this view. */
+/* Whether any pass or output reads the normals of this view. */
 bool pipeline_reads_normals(const pipeline *p, const scene_view *view);
 
 #endif

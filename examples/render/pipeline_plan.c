@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * The table of --plan.
+ * Prints the table of --plan.
  */
 #include "pipeline.h"
 
 #include <stdio.h>
 
-/* How passes run that can run as compute shaders, too. */
+/* Whether passes run as compute or fragment shaders. */
 static void print_path(const glssao_plan *plan)
 {
     printf("%-12s %-25s %s\n", "path", plan->path == GLSSAO_PATH_COMPUTE ? "compute" : "fragment", plan->path_reason);
@@ -15,12 +15,10 @@ static void print_path(const glssao_plan *plan)
 static void print_row(const char *name, bool run, int draws, int width, int height, const char *reason)
 {
     char draw_text[16] = "-", size_text[32] = "-";
-    if (run && draws >= 0) {
+    if (run && draws >= 0)
         snprintf(draw_text, sizeof draw_text, "%d", draws);
-    }
-    if (run) {
+    if (run)
         snprintf(size_text, sizeof size_text, "%dx%d", width, height);
-    }
     printf("%-12s %-5s %5s  %-12s %s\n", name, run ? "run" : "skip", draw_text, size_text, reason);
 }
 

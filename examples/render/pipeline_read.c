@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Reading a frame back.
+ * Reads a frame back.
  */
 #include "pipeline.h"
 
@@ -11,6 +11,7 @@ static const struct {
     GLenum format, type;
     size_t size;
 } layouts[] = {[PIXELS_RGBA8] = {GL_RGBA, GL_UNSIGNED_BYTE, 4},
+               [PIXELS_RGBA8_STRAIGHT] = {GL_RGBA, GL_UNSIGNED_BYTE, 4},
                [PIXELS_GREY8] = {GL_RED, GL_UNSIGNED_BYTE, 1},
                [PIXELS_FLOAT] = {GL_RED, GL_FLOAT, 4}};
 
@@ -19,15 +20,14 @@ size_t pipeline_output_size(const pipeline *p, pixel_kind kind)
     return (size_t)(p->width - 2 * p->margin) * (size_t)(p->height - 2 * p->margin) * layouts[kind].size;
 }
 
-/* Draws an output that is in no framebuffer of its own over one; 0 where GL has none. */
+/* Draws an output that has no framebuffer into one. 0 if OpenGL offers none. */
 static GLuint draw_output(pipeline *p, pipeline_output output, pixel_kind kind, const scene_view *view)
 {
     const int m = p->margin;
     const scene_rectangle whole = {0, 0, p->width, p->height}, delivered = {m, m, p->width - 2 * m, p->height - 2 * m};
     const GLuint framebuffer = pipeline_map_framebuffer(p, kind);
-    if (!framebuffer) {
+    if (!framebuffer)
         return 0;
-    }
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl.Viewport(0, 0, p->width, p->height);
     if (output == PIPELINE_VIEW_DISTANCE) {
@@ -43,7 +43,8 @@ static GLuint draw_output(pipeline *p, pipeline_output output, pixel_kind kind, 
 
 bool pipeline_is_in_memory(const pipeline *p, pipeline_output output, pixel_kind kind)
 {
-    return output == PIPELINE_AO && p->wants.traced && kind == PIXELS_FLOAT; /* as traced, past any filter */
+    return output == PIPELINE_AO && p->wants.traced &&
+           kind == PIXELS_FLOAT; /* exactly as traced, without a texture filter */
 }
 
 bool pipeline_read(pipeline *p, pipeline_output output, pixel_kind kind, const scene_view *view, void *pixels)
@@ -53,9 +54,8 @@ bool pipeline_read(pipeline *p, pipeline_output output, pixel_kind kind, const s
         return true;
     }
     const GLuint framebuffer = output == PIPELINE_PICTURE ? p->color_framebuffer : draw_output(p, output, kind, view);
-    if (!framebuffer) {
+    if (!framebuffer)
         return false;
-    }
     gl.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
     gl.ReadPixels(p->margin, p->margin, p->width - 2 * p->margin, p->height - 2 * p->margin, layouts[kind].format,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The textures and framebuffers that a frame is drawn into, and its size.
+ * The textures and framebuffers of a frame.
  */
 #include "map_view.h"
 #include "pipeline.h"
@@ -13,12 +13,12 @@ static GLuint make_texture(GLenum internal_format, GLenum format, GLenum type, i
     gl.GenTextures(1, &texture);
     gl.BindTexture(GL_TEXTURE_2D, texture);
     gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)internal_format, width, height, 0, format, type, NULL);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* the default wants mipmaps */
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* the default filter needs mipmaps */
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return texture;
 }
 
-/* Leaves it bound. Either texture may be 0. */
+/* Leaves the framebuffer bound. Either texture may be 0. */
 static bool make_framebuffer(GLuint color, GLuint depth, GLuint *out)
 {
     gl.GenFramebuffers(1, out);
@@ -32,7 +32,7 @@ static bool make_framebuffer(GLuint color, GLuint depth, GLuint *out)
     return gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
 }
 
-static bool check_size(int width, int height, char *error, size_t error_size)
+static bool check_size(int width, int height, fault *why)
 {
     GLint max_size = 0;
     GLint max_viewport[2] = {0, 0};
@@ -41,9 +41,7 @@ static bool check_size(int width, int height, char *error, size_t error_size)
     const int max_width = max_size < max_viewport[0] ? max_size : max_viewport[0];
     const int max_height = max_size < max_viewport[1] ? max_size : max_viewport[1];
     if (width > max_width || height > max_height) {
-        snprintf(error, error_size, "--size %dx%d: this context draws up to %dx%d", width, height, max_width,
-                 max_height);
-        return false;
+        return fault_set(why, "--size %dx%d: this context draws up to %dx%d", width, height, max_width, max_height);
     }
     return true;
 }
@@ -60,36 +58,35 @@ void pipeline_free_targets(pipeline *p)
     gl.DeleteTextures(PIXEL_KIND_COUNT, p->maps);
     p->depth_framebuffer = p->color_framebuffer = p->layer_framebuffer = p->depth = p->color = 0;
     p->layers[0] = p->layers[1] = 0;
-    for (int i = 0; i < PIXEL_KIND_COUNT; i++) {
+    for (int i = 0; i < PIXEL_KIND_COUNT; i++)
         p->maps[i] = p->map_framebuffers[i] = 0;
-    }
     map_view_free(p);
+    samples_close(&p->samples);
 }
 
-bool pipeline_make_targets(pipeline *p, char *error, size_t error_size)
+bool pipeline_make_targets(pipeline *p, fault *why)
 {
     bool complete = true;
-    if (!p->depth) {
+    if (!p->depth)
         p->depth = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, p->width, p->height);
-    }
-    if (p->wants.prepass && !p->depth_framebuffer) {
+    if (p->wants.prepass && !p->depth_framebuffer)
         complete = make_framebuffer(0, p->depth, &p->depth_framebuffer);
-    }
     if (p->wants.picture && !p->color) {
         p->color = make_texture(GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, p->width, p->height);
         complete = make_framebuffer(p->color, p->depth, &p->color_framebuffer) && complete;
     }
     if (p->draw_options.layers && !p->layer_framebuffer) {
-        for (int i = 0; i < 2; i++) {
+        for (int i = 0; i < 2; i++)
             p->layers[i] = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, p->width, p->height);
-        }
         complete = make_framebuffer(0, p->layers[0], &p->layer_framebuffer) && complete;
     }
+    if (p->wants.picture && (p->wants.samples > 1 || p->transparent) &&
+        !samples_open(&p->samples, p->width, p->height, p->depth, why))
+        return false;
     const GLenum gl_error = gl.GetError();
     if (!complete || gl_error != GL_NO_ERROR) {
-        snprintf(error, error_size, "--size %dx%d: no framebuffer of that size (OpenGL error 0x%04x)", p->width,
-                 p->height, gl_error);
-        return false;
+        return fault_set(why, "--size %dx%d: no framebuffer of that size (OpenGL error 0x%04x)", p->width, p->height,
+                         gl_error);
     }
     return true;
 }
@@ -99,6 +96,7 @@ GLuint pipeline_map_framebuffer(pipeline *p, pixel_kind kind)
     static const struct {
         GLenum internal_format, format, type;
     } layouts[] = {[PIXELS_RGBA8] = {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE},
+                   [PIXELS_RGBA8_STRAIGHT] = {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE},
                    [PIXELS_GREY8] = {GL_R8, GL_RED, GL_UNSIGNED_BYTE},
                    [PIXELS_FLOAT] = {GL_R32F, GL_RED, GL_FLOAT}};
     if (!p->maps[kind]) {
@@ -113,22 +111,20 @@ GLuint pipeline_map_framebuffer(pipeline *p, pixel_kind kind)
     return p->map_framebuffers[kind];
 }
 
-bool pipeline_change_size(pipeline *p, int width, int height, char *error, size_t error_size)
+bool pipeline_change_size(pipeline *p, int width, int height, fault *why)
 {
-    if (!check_size(width, height, error, error_size)) {
+    if (!check_size(width, height, why))
         return false;
-    }
     const glssao_result result = p->kept ? glssao_resize(p->kept, width, height) : GLSSAO_OK;
-    if (!pipeline_check(result, "glssao_resize", error, error_size)) {
+    if (!pipeline_check(result, "glssao_resize", why))
         return false;
-    }
     pipeline_free_targets(p);
     p->width = width;
     p->height = height;
     return true;
 }
 
-bool pipeline_resize(pipeline *p, int width, int height, char *error, size_t error_size)
+bool pipeline_resize(pipeline *p, int width, int height, fault *why)
 {
-    return pipeline_change_size(p, width, height, error, error_size) && pipeline_make_targets(p, error, error_size);
+    return pipeline_change_size(p, width, height, why) && pipeline_make_targets(p, why);
 }

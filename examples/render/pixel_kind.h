@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * What the pixels of a picture are, between the context and the file.
+ * The format of pixels between the context and the file.
  */
 #ifndef GLSSAO_EXAMPLES_PIXEL_KIND_H
 #define GLSSAO_EXAMPLES_PIXEL_KIND_H
 
 typedef enum pixel_kind {
-    PIXELS_RGBA8, /* written as RGB: alpha means nothing here */
+    PIXELS_RGBA8,          /* written as RGB, without alpha */
+    PIXELS_RGBA8_STRAIGHT, /* written with straight alpha */
     PIXELS_GREY8,
     PIXELS_FLOAT,
     PIXEL_KIND_COUNT

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT
  *
- * The loop over glssao_accumulate. Each estimate is waited for, since its error and its time decide about the next.
+ * Calls glssao_accumulate in a loop. It waits for each estimate: its error and its time decide whether another follows.
  */
 #include "progressive.h"
 
 #include "clock.h"
 #include "gl.h"
+#include "stop.h"
 
 #include <stdio.h>
 
-enum { MOST_ESTIMATES = 4096 }; /* by then single pixels' sums hold what a float can tell apart */
+enum { MOST_ESTIMATES = 4096 }; /* the sums of the pixels then reach the precision of a float */
 
 static bool is_done(const progressive_report *r, const progressive_goal *goal)
 {
@@ -20,13 +21,14 @@ glssao_result progressive_run(glssao_effect *effect, const glssao_frame *frame, 
                               const progressive_goal *goal, progressive_report *out)
 {
     *out = (progressive_report){.sampling_error = -1};
-    gl.Finish(); /* what was drawn before is not this loop's time */
+    gl.Finish(); /* do not count what was drawn before */
     const double start = clock_wall_ms();
     double dearest_ms = 0;
     bool time_is_left = true;
-    glssao_restart_accumulation(effect); /* the scene may have turned under the same projection */
+    glssao_restart_accumulation(effect); /* the camera may have moved with the same projection */
     glssao_result result = GLSSAO_OK;
-    for (int i = 0; i < MOST_ESTIMATES && result == GLSSAO_OK && time_is_left && !is_done(out, goal); i++) {
+    for (int i = 0; i < MOST_ESTIMATES && result == GLSSAO_OK && time_is_left && !stop_signal() && !is_done(out, goal);
+         i++) {
         const double before = clock_wall_ms();
         result = glssao_accumulate(effect, frame, settings);
         gl.Finish();
@@ -35,28 +37,24 @@ glssao_result progressive_run(glssao_effect *effect, const glssao_frame *frame, 
         out->estimates = stats.estimates;
         out->sampling_error = stats.sampling_error;
         out->ms = now - start;
-        if (i > 0 && now - before > dearest_ms) { /* the first compiles shaders */
+        if (i > 0 && now - before > dearest_ms) /* the first estimate compiles shaders */
             dearest_ms = now - before;
-        }
         time_is_left = goal->budget_ms <= 0 || out->ms + dearest_ms <= goal->budget_ms;
     }
     out->reached = goal->error <= 0 || is_done(out, goal);
     return result;
 }
 
-void progressive_print(const progressive_report *r, const progressive_goal *goal)
+void progressive_print(FILE *out, const progressive_report *r, const progressive_goal *goal)
 {
-    printf("%d estimates in %.1f ms, sampling error ", r->estimates, r->ms);
-    if (r->sampling_error >= 0) {
-        printf("%.5f", r->sampling_error);
-    } else {
-        printf("not known of a single one");
-    }
-    if (goal->error > 0) {
-        printf(" (%s %g)", r->reached ? "at most" : "did not reach", goal->error);
-    }
-    if (goal->budget_ms > 0) {
-        printf(" (budget %g ms)", goal->budget_ms);
-    }
-    putchar('\n');
+    fprintf(out, "%d estimates in %.1f ms, sampling error ", r->estimates, r->ms);
+    if (r->sampling_error >= 0)
+        fprintf(out, "%.5f", r->sampling_error);
+    else
+        fprintf(out, "not known of a single one");
+    if (goal->error > 0)
+        fprintf(out, " (%s %g)", r->reached ? "at most" : "did not reach", goal->error);
+    if (goal->budget_ms > 0)
+        fprintf(out, " (budget %g ms)", goal->budget_ms);
+    fputc('\n', out);
 }

@@ -6,23 +6,24 @@
 #define GLSSAO_EXAMPLES_PROGRESSIVE_H
 
 #include <glssao/glssao.h>
+#include <stdio.h>
 
 typedef struct progressive_goal {
-    double error;     /* of accessibility, RMS; 0: none */
-    double budget_ms; /* 0: none */
+    double error;     /* of accessibility, RMS; 0: no limit */
+    double budget_ms; /* 0: no limit */
 } progressive_goal;
 
 typedef struct progressive_report {
     int estimates;
-    double sampling_error; /* negative: a single estimate has none */
-    double ms;             /* spent, waited for */
-    bool reached;          /* the goals that there are */
+    double sampling_error; /* negative: unknown, after a single estimate */
+    double ms;             /* time spent, including the GPU's */
+    bool reached;          /* all goals that were set */
 } progressive_report;
 
-/* At least one estimate; leaves the mean as the effect's result. The context is current. */
+/* Runs at least one estimate. The mean becomes the result of the effect. The context is current. */
 glssao_result progressive_run(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
                               const progressive_goal *goal, progressive_report *out);
-/* One line to stdout. */
-void progressive_print(const progressive_report *r, const progressive_goal *goal);
+/* Prints one line. */
+void progressive_print(FILE *out, const progressive_report *r, const progressive_goal *goal);
 
 #endif

@@ -1,29 +1,31 @@
 /* SPDX-License-Identifier: MIT
  *
- * Brings drawn frames to the writer without waiting for them: each goes into a pixel buffer object with a fence behind
- * it, and is fetched once the fence has been passed, while later frames are drawn. The context is current throughout.
+ * Reads frames back without waiting for the GPU. Each frame is copied into a pixel buffer object, followed by a fence.
+ * Once the fence is signalled, the pixels go to the writer, while later frames are drawn. The context is current in all
+ * calls.
  */
 #ifndef GLSSAO_EXAMPLES_READBACK_H
 #define GLSSAO_EXAMPLES_READBACK_H
 
+#include "fault.h"
 #include "pipeline.h"
 #include "writer.h"
 
 typedef struct readback readback;
 
-/* NULL where memory is short. The writer must outlive it. */
+/* NULL if memory is short. The writer must outlive it. */
 readback *readback_create(writer *w);
-/* Drains first; NULL is fine. */
+/* Drains it first. NULL is allowed. */
 void readback_destroy(readback *r);
 
-/* Has an output of the frame last drawn written to `path`; what becomes of it, the slip tells, which must live until it
- * is done. False, with one line in `error`, where it can't be read. */
+/* Reads an output of the last frame and writes it to `path`. The slip tells the result; it must live until then. False,
+ * with one line in `why`, if the output cannot be read. */
 bool readback_take(readback *r, pipeline *p, pipeline_output output, pixel_kind kind, const scene_view *view,
-                   const char *path, writer_slip *slip, char *error, size_t error_size);
+                   const char *path, writer_slip *slip, fault *why);
 
-/* Hands over what the GPU is done with. */
+/* Passes the frames that the GPU has finished to the writer. */
 void readback_poll(readback *r);
-/* Waits for the rest too. */
+/* Waits for the other frames too. */
 void readback_drain(readback *r);
 
 #endif

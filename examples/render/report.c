@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * Stopwatch, benchmark and the JSON of --stats.
+ * The stopwatch, the benchmark and the JSON of --stats.
  */
 #include "report.h"
 
 #include "clock.h"
 #include "gl.h"
+#include "statistics.h"
 #include "whole_file.h"
+#include "words.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -20,9 +22,8 @@ void stopwatch_start(stopwatch *w)
 
 void stopwatch_lap(stopwatch *w, phase p)
 {
-    if (w->finish) {
+    if (w->finish)
         gl.Finish();
-    }
     const double now = clock_wall_ms();
     w->ms[p] += now - w->last_ms;
     w->last_ms = now;
@@ -32,14 +33,12 @@ bool bench_create(bench *b, int frames)
 {
     *b = (bench){.frames = frames};
     double *values = calloc((size_t)frames * (2 + GLSSAO_PASS_COUNT), sizeof *values);
-    if (!values) {
+    if (!values)
         return false;
-    }
     b->frame_ms = values;
     b->cpu_ms = values + frames;
-    for (int i = 0; i < GLSSAO_PASS_COUNT; i++) {
+    for (int i = 0; i < GLSSAO_PASS_COUNT; i++)
         b->gpu_ms[i] = values + (ptrdiff_t)frames * (2 + i);
-    }
     return true;
 }
 
@@ -53,47 +52,25 @@ void bench_record(bench *b, double frame_ms, double cpu_ms, const glssao_stats *
 {
     b->frame_ms[b->recorded] = frame_ms;
     b->cpu_ms[b->recorded] = cpu_ms;
-    for (int i = 0; i < GLSSAO_PASS_COUNT; i++) {
+    for (int i = 0; i < GLSSAO_PASS_COUNT; i++)
         b->gpu_ms[i][b->recorded] = stats->passes[i].gpu_ms;
-    }
     b->recorded++;
 }
 
-static int compare(const void *a, const void *b)
+static void print_times(const char *name, double *values, int count)
 {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* The value that `percent` of the sorted ones do not exceed (nearest rank); negative where memory is short. */
-static double percentile(const double *values, int count, int percent)
-{
-    double *sorted = malloc((size_t)count * sizeof *sorted);
-    if (!sorted) {
-        return -1;
-    }
-    memcpy(sorted, values, (size_t)count * sizeof *sorted);
-    qsort(sorted, (size_t)count, sizeof *sorted, compare);
-    const double value = sorted[((long)count * percent + 99) / 100 - 1];
-    free(sorted);
-    return value;
-}
-
-static void print_times(const char *name, const double *values, int count)
-{
-    printf("%-20s median %8.3f ms   p95 %8.3f ms\n", name, percentile(values, count, 50),
-           percentile(values, count, 95));
+    printf("%-20s median %8.3f ms   p95 %8.3f ms\n", name, statistics_percentile(values, count, 50),
+           statistics_percentile(values, count, 95));
 }
 
 void bench_print(const bench *b, const glssao_stats *stats, bool cpu)
 {
     printf("%d frames\n", b->recorded);
     print_times("frame", b->frame_ms, b->recorded);
-    if (cpu) {
+    if (cpu)
         print_times("frame, CPU", b->cpu_ms, b->recorded);
-    }
     for (int i = 0; i < GLSSAO_PASS_COUNT; i++) {
-        if (stats->passes[i].draw_calls > 0 && percentile(b->gpu_ms[i], b->recorded, 50) >= 0) {
+        if (stats->passes[i].draw_calls > 0 && statistics_percentile(b->gpu_ms[i], b->recorded, 50) >= 0) {
             char name[64];
             snprintf(name, sizeof name, "%s, GPU", stats->passes[i].name);
             print_times(name, b->gpu_ms[i], b->recorded);
@@ -101,7 +78,7 @@ void bench_print(const bench *b, const glssao_stats *stats, bool cpu)
     }
 }
 
-/* Bytes of the UTF-8 sequence at `text`, 0: it is none. */
+/* Length of the UTF-8 sequence at `text` in bytes; 0: it is invalid. */
 static int utf8_length(const unsigned char *text)
 {
     const int length = text[0] < 0x80                      ? 1
@@ -109,11 +86,9 @@ static int utf8_length(const unsigned char *text)
                        : text[0] >= 0xe0 && text[0] < 0xf0 ? 3
                        : text[0] >= 0xf0 && text[0] < 0xf5 ? 4
                                                            : 0;
-    for (int i = 1; i < length; i++) {
-        if ((text[i] & 0xc0) != 0x80) {
+    for (int i = 1; i < length; i++)
+        if ((text[i] & 0xc0) != 0x80)
             return 0;
-        }
-    }
     return length;
 }
 
@@ -123,15 +98,14 @@ static void print_string(FILE *f, const char *text)
     fputc('"', f);
     while (*at) {
         const int length = utf8_length(at);
-        if (length == 0) {
+        if (length == 0)
             fputs("\\ufffd", f);
-        } else if (*at == '"' || *at == '\\') {
+        else if (*at == '"' || *at == '\\')
             fprintf(f, "\\%c", *at);
-        } else if (*at < 0x20) {
+        else if (*at < 0x20)
             fprintf(f, "\\u%04x", *at);
-        } else {
+        else
             fwrite(at, 1, (size_t)length, f);
-        }
         at += length ? length : 1;
     }
     fputc('"', f);
@@ -144,14 +118,13 @@ static void print_field(FILE *f, const char *name, const char *text)
     fputs(",\n", f);
 }
 
-/* `name`: null where it is negative, that is, not measured. */
+/* Prints null for a negative time, which was not measured. */
 static void print_ms(FILE *f, const char *name, double ms)
 {
-    if (ms < 0) {
+    if (ms < 0)
         fprintf(f, "\"%s\": null", name);
-    } else {
+    else
         fprintf(f, "\"%s\": %.3f", name, ms);
-    }
 }
 
 static void print_scene(FILE *f, const scene *s)
@@ -159,21 +132,23 @@ static void print_scene(FILE *f, const scene *s)
     uint64_t triangles = 0;
     for (uint32_t m = 0; m < s->mesh_count; m++) {
         for (uint32_t p = 0; p < s->meshes[m].primitive_count; p++) {
-            const uint64_t count = s->primitives[s->meshes[m].first_primitive + p].index_count / 3;
-            triangles += count * s->meshes[m].instance_count;
+            const scene_primitive *primitive = &s->primitives[s->meshes[m].first_primitive + p];
+            const uint64_t count = primitive->index_count / 3;
+            triangles += primitive->topology == SCENE_TRIANGLES ? count * s->meshes[m].instance_count : 0;
         }
     }
     fputs("  \"scene\": {\"name\": ", f);
     print_string(f, s->name);
-    fprintf(f, ", \"triangles\": %" PRIu64 ", \"instances\": %u},\n", triangles, s->instance_count);
+    fprintf(f, ", \"triangles\": %" PRIu64 ", \"instances\": %u},\n  \"warnings\": [", triangles, s->instance_count);
+    for (size_t i = 0; i < s->warning_count; i++) {
+        fputs(i ? ", " : "", f);
+        print_string(f, s->warnings[i]);
+    }
+    fputs("],\n", f);
 }
 
 static void print_settings(FILE *f, const report *r)
 {
-    static const char *const techniques[] = {"classic", "hemisphere", "horizon"};
-    static const char *const qualities[] = {"low", "medium", "high", "ultra"};
-    static const char *const blurs[] = {"none", "gaussian", "bilateral", "box", "planar"};
-    static const char *const tiles[] = {"auto", "off", "on"};
     const glssao_settings *s = r->settings;
     if (!s) {
         fputs("  \"settings\": null,\n", f);
@@ -185,11 +160,11 @@ static void print_settings(FILE *f, const report *r)
             "\"half_resolution\": %s, \"upsample\": %s, \"tiles\": \"%s\", \"blur\": \"%s\", \"blur_rounds\": %d, "
             "\"blur_sigma\": %.9g, "
             "\"blur_normal_threshold\": %.9g, \"blur_depth_threshold\": %.9g, \"seed\": %u},\n",
-            techniques[s->technique], qualities[r->options->quality], (double)s->radius, (double)s->fade_start,
-            (double)s->fade_end, (double)s->surface_epsilon, (double)s->power, s->sample_count,
-            s->half_resolution ? "true" : "false", s->upsample ? "true" : "false", tiles[s->tiles], blurs[s->blur],
-            s->blur_rounds, (double)s->blur_sigma, (double)s->blur_normal_threshold, (double)s->blur_depth_threshold,
-            r->options->seed);
+            words_at(TECHNIQUE_WORDS, (int)s->technique).text, words_at(QUALITY_WORDS, r->options->quality).text,
+            (double)s->radius, (double)s->fade_start, (double)s->fade_end, (double)s->surface_epsilon, (double)s->power,
+            s->sample_count, s->half_resolution ? "true" : "false", s->upsample ? "true" : "false",
+            words_at(TILES_WORDS, (int)s->tiles).text, words_at(BLUR_WORDS, (int)s->blur).text, s->blur_rounds,
+            (double)s->blur_sigma, (double)s->blur_normal_threshold, (double)s->blur_depth_threshold, r->options->seed);
 }
 
 static void print_traced(FILE *f, const report *r)
@@ -222,43 +197,40 @@ static void print_passes(FILE *f, const report *r)
 static void print_bench(FILE *f, const bench *b)
 {
     fprintf(f, "  \"bench\": {\"frames\": %d, ", b->recorded);
-    print_ms(f, "median_ms", percentile(b->frame_ms, b->recorded, 50));
+    print_ms(f, "median_ms", statistics_percentile(b->frame_ms, b->recorded, 50));
     fputs(", ", f);
-    print_ms(f, "p95_ms", percentile(b->frame_ms, b->recorded, 95));
+    print_ms(f, "p95_ms", statistics_percentile(b->frame_ms, b->recorded, 95));
     fputs(", ", f);
-    print_ms(f, "cpu_median_ms", percentile(b->cpu_ms, b->recorded, 50));
+    print_ms(f, "cpu_median_ms", statistics_percentile(b->cpu_ms, b->recorded, 50));
     fputs("},\n", f);
 }
 
-bool report_write(const report *r, const char *path, char *error, size_t error_size)
+bool report_write(const report *r, const char *path, fault *why)
 {
     static const char *const phase_names[PHASE_COUNT] = {"load", "context", "setup",    "prepass",
                                                          "ao",   "main",    "readback", "encode"};
     whole_file file;
-    if (!whole_file_open(&file, path, error, error_size)) {
+    if (!whole_file_open(&file, path, why->text, why->size))
         return false;
-    }
     FILE *f = file.file;
     const uint32_t v = glssao_version();
     fprintf(f, "{\n  \"program\": \"glssao-render %d.%d.%d\",\n  \"library\": \"%u.%u.%u\",\n", GLSSAO_VERSION_MAJOR,
             GLSSAO_VERSION_MINOR, GLSSAO_VERSION_PATCH, v >> 16, v >> 8 & 255, v & 255);
     print_field(f, "context", r->context);
     print_scene(f, r->scene);
-    fprintf(f, "  \"width\": %d,\n  \"height\": %d,\n  \"frames\": %d,\n", r->options->width, r->options->height,
-            r->frames);
-    if (r->traced) {
+    fprintf(f, "  \"width\": %d,\n  \"height\": %d,\n  \"frames\": %d,\n  \"samples_per_pixel\": %d,\n",
+            r->options->width, r->options->height, r->frames, r->samples_per_pixel);
+    if (r->traced)
         print_traced(f, r);
-    } else {
+    else
         print_settings(f, r);
-    }
     print_passes(f, r);
     if (r->reached) {
         fprintf(f, "  \"estimates\": %d,\n  \"sampling_error\": %.6g,\n", r->reached->estimates,
                 r->reached->sampling_error);
     }
-    if (r->bench) {
+    if (r->bench)
         print_bench(f, r->bench);
-    }
     fputs("  \"ms\": {", f);
     for (int i = 0; i < PHASE_COUNT; i++) {
         print_ms(f, phase_names[i], r->times->ms[i]);
@@ -269,8 +241,7 @@ bool report_write(const report *r, const char *path, char *error, size_t error_s
     print_ms(f, "cpu", r->cpu_ms);
     fputs("}\n}\n", f);
     const bool written = !ferror(f);
-    if (!written) {
-        snprintf(error, error_size, "%s: it could not be written in full", path);
-    }
-    return whole_file_close(&file, written, error, error_size);
+    if (!written)
+        fault_set(why, "%s: it could not be written in full", path);
+    return whole_file_close(&file, written, why->text, why->size);
 }

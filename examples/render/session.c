@@ -5,25 +5,25 @@
 #include "gl.h"
 #include "outputs.h"
 #include "progress.h"
+#include "stop.h"
 
 #include <stdio.h>
 #include <string.h>
 
 enum { WARM_UP_FRAMES = 3 };
 
-bool session_open(session *s, const options *o, char *error, size_t error_size)
+bool session_open(session *s, const options *o, bool quiet, fault *why)
 {
-    s->context = context_create(&(context_options){.kind = (context_kind)o->context}, error, error_size);
-    if (!s->context || !gl_load(context_load, s->context, error, error_size)) {
+    s->context = context_create(&(context_options){.kind = (context_kind)o->context}, why->text, why->size);
+    if (!s->context || !gl_load(context_load, s->context, why->text, why->size))
         return false;
-    }
     s->writer = writer_create();
     s->readback = s->writer ? readback_create(s->writer) : NULL;
     if (!s->readback) {
-        snprintf(error, error_size, "out of memory");
-        return false;
+        return fault_set(why, "out of memory");
     }
-    fprintf(stderr, "context: %s\n", context_description(s->context));
+    if (!quiet)
+        fprintf(stderr, "context: %s\n", context_description(s->context));
     return true;
 }
 
@@ -32,17 +32,27 @@ void session_close(session *s)
     readback_destroy(s->readback);
     writer_destroy(s->writer);
     bench_destroy(&s->bench);
-    if (s->readback) { /* then GL is there */
+    if (s->readback) /* then OpenGL is loaded */
         pipeline_destroy(&s->pipeline);
-    }
     context_destroy(s->context);
     *s = (session){.context = NULL};
 }
 
-static pipeline_wants choose_wants(const options *o)
+/* By default 4 samples a pixel on a GPU, where a frame takes about a millisecond, and 1 on a software rasteriser, where
+ * it takes about a hundred. */
+static int choose_samples(const session *s)
 {
+    const options *o = s->options;
+    return o->samples_per_pixel ? o->samples_per_pixel : o->bench || context_is_software(s->context) ? 1 : 4;
+}
+
+static pipeline_wants choose_wants(const session *s)
+{
+    const options *o = s->options;
     const bool maps_alone = !o->output && (o->ao || o->normals || o->depth);
     pipeline_wants wants = {.picture = o->bench || !maps_alone};
+    wants.maps = o->ao || o->normals || o->depth || o->debug_map;
+    wants.samples = choose_samples(s);
     wants.ao = !o->no_ao && (wants.picture || o->ao);
     wants.ao_map = o->ao || o->debug_map == OPTIONS_MAP_AO || o->debug_map == OPTIONS_MAP_TILES;
     wants.traced = wants.ao && o->technique == OPTIONS_RAYTRACE;
@@ -53,129 +63,120 @@ static pipeline_wants choose_wants(const options *o)
     return wants;
 }
 
-/* With the margin on it. */
-static bool find_view(session *s, float angle_rad, scene_view *out_view, char *error, size_t error_size)
+/* The view of the job, including the margin. */
+static bool find_view(session *s, float angle_rad, scene_view *out_view, fault *why)
 {
     const options *o = s->options;
-    if (!viewpoint_view(&s->viewpoint, s->scene, angle_rad, o->width, o->height, out_view, error, error_size)) {
+    if (!viewpoint_view(&s->viewpoint, s->scene, angle_rad, o->width, o->height, out_view, why))
         return false;
-    }
     *out_view = camera_widened_view(out_view, o->margin);
     return true;
 }
 
-bool session_begin(session *s, const options *o, stage *st, char *error, size_t error_size)
+bool session_begin(session *s, const options *o, stage *st, fault *why)
 {
     s->options = o;
     s->scene = st->scene;
     s->frames_drawn = 0;
     s->times.finish = o->stats || o->bench;
     for (int i = 0; i < 16 && gl.GetError() != GL_NO_ERROR;
-         i++) { /* of a job before; a lost context has no end of them */
+         i++) { /* errors of an earlier job; a lost context never runs out of them */
     }
     scene_view view;
     stopwatch_start(&s->times);
-    if (!viewpoint_choose(o, s->scene, &s->viewpoint, error, error_size) ||
-        !find_view(s, 0, &view, error, error_size)) {
+    if (!outputs_spare_inputs(o, st->inputs, why))
         return false;
-    }
-    if (!pipeline_prepare(&s->pipeline, st, context_load, s->context, o, choose_wants(o), error, error_size)) {
+    if (!viewpoint_choose(o, s->scene, 0, &s->viewpoint, why) || !find_view(s, 0, &view, why))
+        return false;
+    if (!pipeline_prepare(&s->pipeline, st, context_load, s->context, o, choose_wants(s), why)) {
         pipeline_destroy(&s->pipeline);
         return false;
     }
     stopwatch_lap(&s->times, PHASE_SETUP);
-    if (o->plan) {
+    if (o->plan)
         pipeline_print_plan(&s->pipeline, &view);
-    }
     return true;
 }
 
-static bool draw(session *s, float angle_rad, scene_view *out_view, char *error, size_t error_size)
+static bool draw(session *s, float angle_rad, scene_view *out_view, fault *why)
 {
-    if (!find_view(s, angle_rad, out_view, error, error_size)) {
+    if (!find_view(s, angle_rad, out_view, why))
         return false;
-    }
-    if (!pipeline_draw(&s->pipeline, out_view, &s->times, error, error_size)) {
+    if (!pipeline_draw(&s->pipeline, out_view, &s->times, why)) {
         pipeline_destroy(&s->pipeline);
         return false;
     }
-    if (s->pipeline.reached.estimates > 0) {
-        progressive_print(&s->pipeline.reached, &s->pipeline.goal);
-    }
+    if (s->pipeline.reached.estimates > 0)
+        progressive_print(s->options->output && strcmp(s->options->output, "-") == 0 ? stderr : stdout,
+                          &s->pipeline.reached, &s->pipeline.goal);
     return true;
 }
 
-bool session_bench(session *s, char *error, size_t error_size)
+bool session_bench(session *s, fault *why)
 {
     const int frames = s->options->bench;
     if (!bench_create(&s->bench, frames)) {
-        snprintf(error, error_size, "--bench %d: out of memory", frames);
-        return false;
+        return fault_set(why, "--bench %d: out of memory", frames);
     }
     stopwatch *times = &s->times;
     const stopwatch before = *times;
     glssao_stats stats = {0};
-    times->finish = false; /* a frame flows as it would in a program: no wait between its passes */
+    times->finish = false; /* measure frames as a program draws them, without waiting between passes */
     for (int i = -WARM_UP_FRAMES; i < frames; i++) {
         scene_view view;
         const double wall = clock_wall_ms(), cpu = clock_cpu_ms();
-        if (!draw(s, 0, &view, error, error_size)) {
+        if (!draw(s, 0, &view, why))
             return false;
-        }
         gl.Finish();
         const double wall_ms = clock_wall_ms() - wall, cpu_ms = clock_cpu_ms() - cpu;
         stats = glssao_get_stats(s->pipeline.effect);
-        if (i >= 0) {
+        if (i >= 0)
             bench_record(&s->bench, wall_ms, cpu_ms, &stats);
-        }
     }
     *times = before;
     bench_print(&s->bench, &stats, context_is_software(s->context));
     return true;
 }
 
-bool session_draw(session *s, bool shows_progress, writer_slip *slip, char *error, size_t error_size)
+bool session_draw(session *s, bool shows_progress, writer_slip *slip, fault *why)
 {
     const float full_turn = 6.283185307f;
     const options *o = s->options;
     const int count = o->frames ? o->frames : 1;
-    progress shown = progress_start("frame", count);
+    progress shown = progress_start("frame");
     for (int i = 0; i < count; i++) {
         scene_view view;
         stopwatch_start(&s->times);
-        if (!draw(s, full_turn * (float)i / (float)count, &view, error, error_size) ||
-            !outputs_take(o, &s->pipeline, &view, o->frames ? i + 1 : 0, s->readback, slip, error, error_size)) {
+        if (stop_signal())
+            return fault_set(why, "stopped");
+        if (!draw(s, full_turn * (float)i / (float)count, &view, why) ||
+            !outputs_take(o, &s->pipeline, &view, o->frames ? i + 1 : 0, s->readback, slip, why))
             return false;
-        }
-        if (s->times.finish) { /* the phase is to hold all of it */
+        if (s->times.finish) /* the whole read-back belongs to this phase */
             readback_drain(s->readback);
-        } else {
+        else
             readback_poll(s->readback);
-        }
         stopwatch_lap(&s->times, PHASE_READBACK);
         s->frames_drawn++;
-        if (writer_has_failed(s->writer, slip)) { /* the rest would fail too */
-            return session_finish(s, slip, error, error_size);
-        }
-        if (shows_progress && o->frames) {
-            progress_show(&shown, i + 1);
-        }
+        if (writer_has_failed(s->writer, slip)) /* the other frames would fail too */
+            return session_finish(s, slip, why);
+        if (shows_progress && o->frames)
+            progress_count(&shown, i + 1, count);
     }
     return true;
 }
 
-bool session_finish(session *s, writer_slip *slip, char *error, size_t error_size)
+bool session_finish(session *s, writer_slip *slip, fault *why)
 {
     readback_drain(s->readback);
     const bool done = writer_wait(s->writer, slip);
     s->times.ms[PHASE_ENCODE] = slip->ms;
-    if (!done) {
-        snprintf(error, error_size, "%s", slip->error);
-    }
+    if (!done)
+        fault_set(why, "%s", slip->error);
     return done;
 }
 
-bool session_write_stats(session *s, double start_ms, double start_cpu_ms, char *error, size_t error_size)
+bool session_write_stats(session *s, double start_ms, double start_cpu_ms, fault *why)
 {
     const pipeline *p = &s->pipeline;
     const report facts = {.options = s->options,
@@ -188,7 +189,8 @@ bool session_write_stats(session *s, double start_ms, double start_cpu_ms, char 
                           .traced = p->wants.traced ? &p->truth.stats : NULL,
                           .bench = s->bench.recorded ? &s->bench : NULL,
                           .frames = s->frames_drawn,
+                          .samples_per_pixel = p->wants.samples,
                           .wall_ms = clock_wall_ms() - start_ms,
                           .cpu_ms = clock_cpu_ms() - start_cpu_ms};
-    return report_write(&facts, s->options->stats, error, error_size);
+    return report_write(&facts, s->options->stats, why);
 }

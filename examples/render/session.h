@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * What renders jobs, one after the other, on one context: a job is what one command line, or one line of a batch, asks
- * for.
+ * Renders jobs, one after the other, in one context. A job is a command line or a line of a batch.
  */
 #ifndef GLSSAO_EXAMPLES_SESSION_H
 #define GLSSAO_EXAMPLES_SESSION_H
 
 #include "context.h"
+#include "fault.h"
 #include "options.h"
 #include "pipeline.h"
 #include "readback.h"
@@ -19,7 +19,7 @@ typedef struct session {
     writer *writer;
     readback *readback;
     pipeline pipeline;
-    /* Of the job: */
+    /* These belong to the job that is being drawn. */
     const options *options;
     const scene *scene;
     viewpoint viewpoint;
@@ -28,27 +28,27 @@ typedef struct session {
     int frames_drawn;
 } session;
 
-/* Makes the context, and leaves it current; prints what it is to stderr. False, with one line in `error`; session_close
- * is due in either case. */
-bool session_open(session *s, const options *o, char *error, size_t error_size);
-/* Waits for the pictures that are on their way. */
+/* Makes a context and leaves it current. Prints its description to stderr unless `quiet`. False, with one line in
+ * `why`; session_close is due in either case. */
+bool session_open(session *s, const options *o, bool quiet, fault *why);
+/* Waits until all pictures are written. */
 void session_close(session *s);
 
-/* Makes the pipeline fit a job and the scene that it draws; prints the plan where that is asked for. False, with one
- * line in `error`: the job can't be drawn, another one can. */
-bool session_begin(session *s, const options *o, stage *st, char *error, size_t error_size);
+/* Prepares the pipeline for a job and its scene, and prints the plan if the job asks for it. False, with one line in
+ * `why`, if the job cannot be drawn; other jobs still can. */
+bool session_begin(session *s, const options *o, stage *st, fault *why);
 
-/* Draws the job's frames, or its turntable with progress on stderr where `shows_progress`, and has them written: the
- * slip, which must live until then, tells what becomes of them. */
-bool session_draw(session *s, bool shows_progress, writer_slip *slip, char *error, size_t error_size);
+/* Draws the frames of the job and passes them to the writer. The slip tells the result; it must live until the pictures
+ * are written. `shows_progress`: print the progress of a turntable to stderr. */
+bool session_draw(session *s, bool shows_progress, writer_slip *slip, fault *why);
 
-/* Whole frames, each waited for, without read-back; prints their times. */
-bool session_bench(session *s, char *error, size_t error_size);
+/* Draws whole frames, waits for each, reads nothing back, and prints the times. */
+bool session_bench(session *s, fault *why);
 
-/* Waits until the pictures of the slip's job are written. False, with one line in `error`, where one could not be. */
-bool session_finish(session *s, writer_slip *slip, char *error, size_t error_size);
+/* Waits until the pictures of the slip are written. False, with one line in `why`, if one could not be written. */
+bool session_finish(session *s, writer_slip *slip, fault *why);
 
-/* The file of --stats, after session_finish. start_ms, start_cpu_ms: when the job began, by clock.h. */
-bool session_write_stats(session *s, double start_ms, double start_cpu_ms, char *error, size_t error_size);
+/* Writes the file of --stats, after session_finish. start_ms and start_cpu_ms: when the job began (clock.h). */
+bool session_write_stats(session *s, double start_ms, double start_cpu_ms, fault *why);
 
 #endif

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "setting_table.h"
 
+#include "words.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,73 +17,59 @@ enum {
 
 #define AT(member) offsetof(glssao_settings, member)
 const setting setting_table[] = {
-    {"radius", "scene units", "how far away an occluder can be", SETTING_NUMBER, AT(radius), 0, 1e12f, true, NULL, ALL},
-    {"power", "exponent", "contrast: accessibility is raised to this", SETTING_NUMBER, AT(power), 0, 64, false, NULL,
-     ALL},
-    {"samples", "a pixel", "more is smoother, and slower", SETTING_WHOLE, AT(sample_count), 1, 64, false, NULL, ALL},
-    {"half", "", "estimate at half the size", SETTING_SWITCH, AT(half_resolution), 0, 1, false, NULL, ALL},
-    {"upsample", "", "a half-size result is brought to full size along surfaces", SETTING_SWITCH, AT(upsample), 0, 1,
+    {"radius", "scene units", "largest distance of an occluder", SETTING_NUMBER, AT(radius), 0, 1e12f, true, NULL, ALL},
+    {"power", "exponent", "contrast: accessibility is raised to this power", SETTING_NUMBER, AT(power), 0, 64, false,
+     NULL, ALL},
+    {"samples", "a pixel", "more samples give less noise and take more time", SETTING_WHOLE, AT(sample_count), 1, 64,
      false, NULL, ALL},
-    {"fade-start", "scene units", "an occluder this much nearer counts fully", SETTING_NUMBER, AT(fade_start), 0, 1e12f,
-     true, NULL, CLASSIC},
-    {"fade-end", "scene units", "an occluder this much nearer no longer counts", SETTING_NUMBER, AT(fade_end), 0, 1e12f,
-     true, NULL, CLASSIC},
-    {"epsilon", "scene units", "an occluder less than this nearer does not count", SETTING_NUMBER, AT(surface_epsilon),
-     0, 1e12f, true, NULL, CLASSIC | HEMISPHERE},
-    {"blur", "", "how noise is smoothed", SETTING_WORD, AT(blur), 0, 4, false, "none|gaussian|bilateral|box|planar",
-     ALL},
-    {"blur-rounds", "rounds", "each is one horizontal and one vertical pass", SETTING_WHOLE, AT(blur_rounds), 0, 16,
+    {"half", "", "estimate occlusion at half size", SETTING_SWITCH, AT(half_resolution), 0, 1, false, NULL, ALL},
+    {"upsample", "", "bring a half-size result to full size along surfaces", SETTING_SWITCH, AT(upsample), 0, 1, false,
+     NULL, ALL},
+    {"fade-start", "scene units", "occluders that are nearer to the camera by this much count fully", SETTING_NUMBER,
+     AT(fade_start), 0, 1e12f, true, NULL, CLASSIC},
+    {"fade-end", "scene units", "occluders that are nearer to the camera by more than this do not count",
+     SETTING_NUMBER, AT(fade_end), 0, 1e12f, true, NULL, CLASSIC},
+    {"epsilon", "scene units", "occluders that are nearer to the camera by less than this do not count", SETTING_NUMBER,
+     AT(surface_epsilon), 0, 1e12f, true, NULL, CLASSIC | HEMISPHERE},
+    {"blur", "", "how noise is smoothed", SETTING_WORD, AT(blur), 0, 4, false, BLUR_WORDS, ALL},
+    {"blur-rounds", "rounds", "each round is a horizontal and a vertical pass", SETTING_WHOLE, AT(blur_rounds), 0, 16,
      false, NULL, ALL},
     {"blur-sigma", "pixels", "width of the Gaussian and bilateral blurs", SETTING_NUMBER, AT(blur_sigma), 0.1f, 2.5f,
      false, NULL, ALL},
-    {"blur-normals", "cosine", "bilateral: taps whose normals' dot product is below are dropped", SETTING_NUMBER,
-     AT(blur_normal_threshold), -1, 1, false, NULL, ALL},
-    {"blur-depth", "scene units", "bilateral: taps farther off in view distance are dropped", SETTING_NUMBER,
+    {"blur-normals", "cosine", "bilateral: drop taps whose normal differs so that the dot product is smaller",
+     SETTING_NUMBER, AT(blur_normal_threshold), -1, 1, false, NULL, ALL},
+    {"blur-depth", "scene units", "bilateral: drop taps whose view distance differs by more", SETTING_NUMBER,
      AT(blur_depth_threshold), 0, 1e12f, true, NULL, ALL},
-    {"tiles", "", "tiles where nothing can occlude are looked for, and left out", SETTING_WORD, AT(tiles), 0, 2, false,
-     "auto|off|on", ALL},
-    {"no-angle-weight", "", "for teaching: occluders count at any angle", SETTING_SWITCH, AT(no_angle_weight), 0, 1,
+    {"tiles", "", "find tiles that nothing can occlude, and skip them", SETTING_WORD, AT(tiles), 0, 2, false,
+     TILES_WORDS, ALL},
+    {"no-angle-weight", "", "for teaching: count occluders at any angle", SETTING_SWITCH, AT(no_angle_weight), 0, 1,
      false, NULL, CLASSIC},
 };
 #undef AT
 const int setting_count = sizeof setting_table / sizeof setting_table[0];
-
-static bool find_word(const char *words, const char *text, size_t length, int *out)
-{
-    for (int i = 0; *words; i++) {
-        const size_t here = strcspn(words, "|");
-        if (here == length && !memcmp(words, text, length)) {
-            *out = i;
-            return true;
-        }
-        words += here + (words[here] == '|');
-    }
-    return false;
-}
 
 static bool take(const setting *s, const char *text, size_t length, glssao_settings *out)
 {
     void *at = (char *)out + s->offset;
     char number[64];
     if (s->kind == SETTING_WORD) {
-        return find_word(s->words, text, length, at);
+        const int value = words_find_span(s->words, text, length);
+        *(int *)at = value >= 0 ? value : *(int *)at;
+        return value >= 0;
     }
     if (s->kind == SETTING_SWITCH) {
-        int value;
-        const bool known = find_word("off|on", text, length, &value);
-        *(bool *)at = known ? value : *(bool *)at;
-        return known;
+        const int value = words_find_span("off|on", text, length);
+        *(bool *)at = value >= 0 ? value > 0 : *(bool *)at;
+        return value >= 0;
     }
-    if (length == 0 || length >= sizeof number || !strchr("-.0123456789", text[0])) {
+    if (length == 0 || length >= sizeof number || !strchr("-.0123456789", text[0]))
         return false;
-    }
     memcpy(number, text, length);
     number[length] = '\0';
     char *end;
     const double value = strtod(number, &end);
-    if (*end != '\0' || strpbrk(number, "xX") || !((float)value >= s->low && (float)value <= s->high)) {
+    if (*end != '\0' || strpbrk(number, "xX") || !((float)value >= s->low && (float)value <= s->high))
         return false;
-    }
     if (s->kind == SETTING_NUMBER) {
         *(float *)at = (float)value;
         return true;
@@ -90,37 +78,23 @@ static bool take(const setting *s, const char *text, size_t length, glssao_setti
     return value == floor(value);
 }
 
-bool setting_apply(const char *text, glssao_settings *settings, char *error, size_t error_size)
+bool setting_apply(const char *text, glssao_settings *settings, fault *why)
 {
     while (*text) {
         const size_t length = strcspn(text, ","), name_length = strcspn(text, "=,");
         const setting *found = NULL;
-        for (int i = 0; i < setting_count; i++) {
-            if (strlen(setting_table[i].name) == name_length && !memcmp(setting_table[i].name, text, name_length)) {
+        for (int i = 0; i < setting_count; i++)
+            if (strlen(setting_table[i].name) == name_length && !memcmp(setting_table[i].name, text, name_length))
                 found = &setting_table[i];
-            }
-        }
         if (!found || text[name_length] != '=') {
-            snprintf(error, error_size, "\"%.*s\": no setting of that name; NAME=VALUE is wanted", (int)length, text);
-            return false;
+            return fault_set(why, "\"%.*s\": unknown setting; write NAME=VALUE", (int)length, text);
         }
         if (!take(found, text + name_length + 1, length - name_length - 1, settings)) {
-            snprintf(error, error_size, "\"%.*s\": not a value that %s can have", (int)length, text, found->name);
-            return false;
+            return fault_set(why, "\"%.*s\": not a valid value of %s", (int)length, text, found->name);
         }
         text += length + (text[length] == ',');
     }
     return true;
-}
-
-/* The n-th of words separated by '|'. */
-static const char *word_at(const char *words, int n, int *out_length)
-{
-    for (int i = 0; i < n; i++) {
-        words += strcspn(words, "|") + 1;
-    }
-    *out_length = (int)strcspn(words, "|");
-    return words;
 }
 
 static bool is_same(const setting *s, const glssao_settings *a, const glssao_settings *b)
@@ -136,25 +110,20 @@ bool setting_differences(const glssao_settings *from, const glssao_settings *to,
     for (int i = 0; i < setting_count; i++) {
         const setting *s = &setting_table[i];
         const void *at = (const char *)to + s->offset;
-        if (is_same(s, from, to)) {
+        if (is_same(s, from, to))
             continue;
-        }
         char value[64];
-        int length = 0;
-        if (s->kind == SETTING_NUMBER) {
+        if (s->kind == SETTING_NUMBER)
             snprintf(value, sizeof value, "%.9g", (double)*(const float *)at);
-        } else if (s->kind == SETTING_WHOLE) {
+        else if (s->kind == SETTING_WHOLE)
             snprintf(value, sizeof value, "%d", *(const int *)at);
-        } else if (s->kind == SETTING_SWITCH) {
+        else if (s->kind == SETTING_SWITCH)
             snprintf(value, sizeof value, "%s", *(const bool *)at ? "on" : "off");
-        } else {
-            const char *word = word_at(s->words, *(const int *)at, &length);
-            snprintf(value, sizeof value, "%.*s", length, word);
-        }
+        else
+            snprintf(value, sizeof value, "%s", words_at(s->words, *(const int *)at).text);
         const int written = snprintf(out + used, out_size - used, "%s%s=%s", used ? "," : "", s->name, value);
-        if (written < 0 || (size_t)written >= out_size - used) {
+        if (written < 0 || (size_t)written >= out_size - used)
             return false;
-        }
         used += (size_t)written;
     }
     return true;
@@ -163,10 +132,8 @@ bool setting_differences(const glssao_settings *from, const glssao_settings *to,
 void setting_scale_radius(glssao_settings *settings, float radius)
 {
     const float scale = radius > 0 && settings->radius > 0 ? radius / settings->radius : 1;
-    for (int i = 0; i < setting_count; i++) {
-        if (setting_table[i].length) {
+    for (int i = 0; i < setting_count; i++)
+        if (setting_table[i].length)
             *(float *)((char *)settings + setting_table[i].offset) *= scale;
-        }
-    }
     settings->radius = radius;
 }

@@ -4,24 +4,31 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-scene *stage_load_scene(const options *o, char *error, size_t error_size)
+scene *stage_load_scene(const options *o, inputs *out_inputs, fault *why)
 {
-    if (!o->scene_path) {
-        return scene_make(o->scene_name, error, error_size);
-    }
-    return o->time_s.given ? scene_load_at(o->scene_path, (double)o->time_s.value, error, error_size)
-                           : scene_load(o->scene_path, error, error_size);
+    *out_inputs = (inputs){0};
+    if (!o->scene_path)
+        return scene_make(o->scene_name, why->text, why->size);
+    inputs_record(out_inputs);
+    scene_load_options file = o->file;
+    file.timed = o->time_s.given;
+    file.time_s = (double)o->time_s.value;
+    file.memory_bytes = (uint64_t)o->memory_mib << 20;
+    scene *s = scene_load_with(o->scene_path, &file, why->text, why->size);
+    inputs_record(NULL);
+    for (size_t i = 0; s && i < s->warning_count; i++)
+        fprintf(stderr, "%s: warning: %s\n", o->scene_path, s->warnings[i]);
+    return s;
 }
 
-bool stage_open(stage *st, const scene *s, const stage *like, char *error, size_t error_size)
+bool stage_open(stage *st, const scene *s, const stage *like, fault *why)
 {
     *st = (stage){.scene = s, .lights = malloc((s->light_count + 1u) * sizeof *st->lights)};
     if (!st->lights) {
-        snprintf(error, error_size, "out of memory");
-        return false;
+        return fault_set(why, "out of memory");
     }
     st->lighting = scene_lighting_of(s, st->lights);
-    st->renderer = scene_renderer_create_like(s, like ? like->renderer : NULL, error, error_size);
+    st->renderer = scene_renderer_create_like(s, like ? like->renderer : NULL, why->text, why->size);
     return st->renderer;
 }
 
@@ -33,10 +40,9 @@ void stage_close(stage *st)
     *st = (stage){0};
 }
 
-bool stage_trace(stage *st, char *error, size_t error_size)
+bool stage_trace(stage *st, fault *why)
 {
-    if (!st->traced) {
-        st->traced = trace_scene_create(st->scene, error, error_size);
-    }
+    if (!st->traced)
+        st->traced = trace_scene_create(st->scene, why->text, why->size);
     return st->traced;
 }

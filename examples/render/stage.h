@@ -6,6 +6,8 @@
 #define GLSSAO_EXAMPLES_STAGE_H
 
 #include "draw.h"
+#include "fault.h"
+#include "inputs.h"
 #include "options.h"
 #include "scene.h"
 #include "trace.h"
@@ -15,18 +17,20 @@ typedef struct stage {
     scene_renderer *renderer;
     scene_light *lights; /* of lighting */
     scene_lighting lighting;
-    trace_scene *traced; /* NULL: not yet */
+    trace_scene *traced;  /* NULL: not yet */
+    const inputs *inputs; /* files that the scene was read from; set by who loaded it */
 } stage;
 
-/* The options' scene: NULL, with one line in `error`, on failure. Any thread. */
-scene *stage_load_scene(const options *o, char *error, size_t error_size);
+/* Loads the scene of the options and lists the files that it was read from. Warnings go to stderr. NULL, with one line
+ * in `why`, on failure. Any thread. The caller frees the list in either case. */
+scene *stage_load_scene(const options *o, inputs *out_inputs, fault *why);
 
-/* Uploads the scene, which must outlive the stage; its programs are shared with those of `like` (may be NULL). False,
- * with one line in `error`; stage_close is due in either case. */
-bool stage_open(stage *st, const scene *s, const stage *like, char *error, size_t error_size);
+/* Uploads the scene, which must outlive the stage. Programs are shared with those of `like`, which may be NULL. False,
+ * with one line in `why`, on failure. Call stage_close in either case. */
+bool stage_open(stage *st, const scene *s, const stage *like, fault *why);
 void stage_close(stage *st);
 
-/* Builds Embree's side where it is not there yet. */
-bool stage_trace(stage *st, char *error, size_t error_size);
+/* Builds Embree's acceleration structure unless it exists. */
+bool stage_trace(stage *st, fault *why);
 
 #endif

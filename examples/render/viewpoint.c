@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: MIT
  *
- * Chooses the camera and fits its planes.
+ * Chooses the camera of a picture and fits its planes.
  */
 #include "viewpoint.h"
 
+#include "words.h"
+
 #include <math.h>
-#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const float rad_per_deg = 0.01745329252f;
 
-/* The file's camera looks along a ray; the target is the point of it nearest to the scene's middle, so that a
- * turntable turns about what is looked at. */
+/* The target of a file's camera is the point on its line of sight nearest to the middle of the scene. A turntable then
+ * turns about the thing that the camera looks at. */
 static void from_scene_camera(const scene_camera *c, const scene *s, viewpoint *out)
 {
     const float *m = c->world_from_view;
@@ -21,53 +23,123 @@ static void from_scene_camera(const scene_camera *c, const scene *s, viewpoint *
         const float middle = 0.5f * s->bounds_min[i] + 0.5f * s->bounds_max[i];
         distance += (middle - m[12 + i]) * (-m[8 + i] / length);
     }
-    if (!(distance > 0)) {
+    if (!(distance > 0))
         distance = 1;
-    }
     for (int i = 0; i < 3; i++) {
         out->base.eye[i] = m[12 + i];
         out->base.target[i] = m[12 + i] - m[8 + i] / length * distance;
         out->base.up[i] = m[4 + i];
     }
     out->base.fov_y_rad = c->orthographic ? 45.0f * rad_per_deg : c->fov_y_rad;
-    out->half_height = c->orthographic ? c->half_height : 0;
+    out->base.half_height = c->orthographic ? c->half_height : 0;
     out->clip_near = c->near_plane;
     out->clip_far = c->far_plane;
 }
 
-bool viewpoint_choose(const options *o, const scene *s, viewpoint *out, char *error, size_t error_size)
+bool viewpoint_parse_view(const char *text, float out_deg[2])
 {
-    *out = (viewpoint){.near_plane = o->near_plane, .far_plane = o->far_plane};
-    if (o->camera > 0 && (uint32_t)o->camera > s->camera_count) {
-        snprintf(error, error_size, "--camera %d: %s has %u camera%s", o->camera, s->name, s->camera_count,
-                 s->camera_count == 1 ? "" : "s");
-        return false;
+    /* Isometric: at an elevation of atan(1 / sqrt(2)) the three axes look equally long. */
+    static const float named[][2] = {{0, 0}, {90, 0}, {180, 0}, {-90, 0}, {0, 90}, {0, -90}, {45, 35.2643897f}};
+    const int word = words_find(VIEW_WORDS, text);
+    if (word >= 0) {
+        memcpy(out_deg, named[word], sizeof named[word]);
+        return true;
     }
-    if (s->camera_count > 0) {
-        from_scene_camera(&s->cameras[o->camera > 0 ? o->camera - 1 : 0], s, out);
-    } else {
-        out->base = camera_frame_scene(s, (float)o->width / (float)o->height);
-    }
-    const struct {
-        const options_vector *from;
-        float *to;
-    } vectors[] = {{&o->eye, out->base.eye}, {&o->target, out->base.target}, {&o->up, out->base.up}};
-    for (size_t i = 0; i < sizeof vectors / sizeof vectors[0]; i++) {
-        if (vectors[i].from->given) {
-            memcpy(vectors[i].to, vectors[i].from->value, sizeof vectors[i].from->value);
-        }
-    }
-    if (o->fov_deg.given) {
-        out->base.fov_y_rad = o->fov_deg.value * rad_per_deg;
-        out->half_height = 0;
-    }
-    if (o->eye.given || o->target.given || o->fov_deg.given) {
-        out->clip_near = out->clip_far = 0; /* the file's planes belong to the file's view */
+    char *end = NULL;
+    for (int i = 0; i < 2; i++) {
+        if (!strchr("+-.0123456789", *text) || *text == '\0')
+            return false;
+        out_deg[i] = strtof(text, &end);
+        if (end == text || *end != (i == 0 ? ',' : '\0') || !(fabsf(out_deg[i]) <= (i == 0 ? 1e6f : 90)))
+            return false;
+        text = end + 1;
     }
     return true;
 }
 
-/* Planes that hug the scene, but never show what the file's camera cuts away. */
+static void fit_scene(const options *o, const scene *s, float free_left, viewpoint *out)
+{
+    camera_framing how = camera_default_framing((float)o->width / (float)o->height);
+    float angles[2];
+    memcpy(how.up, out->axis, sizeof how.up);
+    if (o->view && viewpoint_parse_view(o->view, angles)) {
+        how.azimuth_rad = angles[0] * rad_per_deg;
+        how.elevation_rad = angles[1] * rad_per_deg;
+    }
+    if (o->fov_deg.given)
+        how.fov_y_rad = o->fov_deg.value * rad_per_deg;
+    how.free_left = free_left;
+    how.orthographic = o->orthographic;
+    how.turns = o->frames > 0;
+    out->base = camera_frame(s, &how);
+    out->fitted = true;
+    for (int i = 0; i < 3; i++)
+        out->pivot[i] = 0.5f * s->bounds_min[i] + 0.5f * s->bounds_max[i];
+}
+
+static float distance_to_target(const camera *c)
+{
+    return hypotf(hypotf(c->eye[0] - c->target[0], c->eye[1] - c->target[1]), c->eye[2] - c->target[2]);
+}
+
+/* Replaces parts of the camera by --eye and --target, which are in the file's coordinates, --up and --fov. */
+static void take_given(const options *o, const scene *s, viewpoint *v)
+{
+    camera *c = &v->base;
+    if (v->fitted && (o->eye.given || o->target.given)) {
+        memcpy(c->target, v->pivot, sizeof c->target);
+        memcpy(c->up, v->axis, sizeof c->up);
+        c->half_height = 0;
+        v->fitted = false;
+    }
+    for (int i = 0; i < 3; i++) {
+        if (o->eye.given)
+            c->eye[i] = (float)(o->eye.value[i] - s->origin[i]);
+        if (o->target.given)
+            c->target[i] = (float)(o->target.value[i] - s->origin[i]);
+        if (o->up.given && !v->fitted)
+            c->up[i] = (float)o->up.value[i];
+    }
+    if (o->fov_deg.given && !v->fitted) {
+        c->fov_y_rad = o->fov_deg.value * rad_per_deg;
+        c->half_height = 0;
+    }
+    if (o->orthographic && c->half_height == 0) /* things at the target keep their size */
+        c->half_height = distance_to_target(c) * tanf(0.5f * c->fov_y_rad);
+}
+
+float viewpoint_fov_deg(const viewpoint *v)
+{
+    const camera *c = &v->base;
+    return (c->half_height > 0 ? 2 * atan2f(c->half_height, distance_to_target(c)) : c->fov_y_rad) / rad_per_deg;
+}
+
+bool viewpoint_choose(const options *o, const scene *s, float free_left, viewpoint *out, fault *why)
+{
+    *out = (viewpoint){.axis = {0, 1, 0}, .near_plane = o->near_plane, .far_plane = o->far_plane};
+    if (o->camera > 0 && (uint32_t)o->camera > s->camera_count)
+        return fault_set(why, "--camera %d: %s has %u camera%s", o->camera, s->name, s->camera_count,
+                         s->camera_count == 1 ? "" : "s");
+    if (o->up.given) {
+        const double *up = o->up.value, length = hypot(hypot(up[0], up[1]), up[2]);
+        for (int i = 0; i < 3; i++)
+            out->axis[i] = (float)(up[i] / length);
+        if (!(length > 0))
+            return fault_set(why, "--up 0,0,0: has no direction");
+    }
+    if (s->camera_count > 0 && o->camera >= 0 && !o->view)
+        from_scene_camera(&s->cameras[o->camera > 0 ? o->camera - 1 : 0], s, out);
+    else
+        fit_scene(o, s, free_left, out);
+    take_given(o, s, out);
+    if (!out->fitted)
+        memcpy(out->pivot, out->base.target, sizeof out->pivot);
+    if (o->eye.given || o->target.given || o->fov_deg.given)
+        out->clip_near = out->clip_far = 0; /* the planes of the file belong to its own view */
+    return true;
+}
+
+/* Fits the planes to the scene. They never show what the file's camera cuts away. */
 static void fit_planes(const viewpoint *v, const scene *s, camera *c)
 {
     camera_fit_planes(c, s);
@@ -77,37 +149,19 @@ static void fit_planes(const viewpoint *v, const scene *s, camera *c)
         c->near_plane = near_plane;
         c->far_plane = far_plane;
     }
-    if (v->near_plane.given) {
+    if (v->near_plane.given)
         c->near_plane = v->near_plane.value;
-    }
-    if (v->far_plane.given) {
+    if (v->far_plane.given)
         c->far_plane = v->far_plane.value;
-    }
-}
-
-/* clip_from_view, column-major, as glOrtho defines it for a frustum about the axis. */
-static void orthographic(float half_width, float half_height, float near_plane, float far_plane, float out[16])
-{
-    memset(out, 0, 16 * sizeof out[0]);
-    out[0] = 1 / half_width;
-    out[5] = 1 / half_height;
-    out[10] = -2 / (far_plane - near_plane);
-    out[14] = -(far_plane + near_plane) / (far_plane - near_plane);
-    out[15] = 1;
 }
 
 bool viewpoint_view(const viewpoint *v, const scene *s, float angle_rad, int width, int height, scene_view *out,
-                    char *error, size_t error_size)
+                    fault *why)
 {
-    camera c = angle_rad == 0 ? v->base : camera_turned(&v->base, angle_rad);
+    camera c = angle_rad == 0 ? v->base : camera_turned(&v->base, v->pivot, v->axis, angle_rad);
     fit_planes(v, s, &c);
-    if (!camera_check(&c, error, error_size)) {
+    if (!camera_check(&c, why->text, why->size))
         return false;
-    }
     *out = camera_view(&c, width, height);
-    if (v->half_height > 0) {
-        orthographic(v->half_height * (float)width / (float)height, v->half_height, c.near_plane, c.far_plane,
-                     out->clip_from_view);
-    }
     return true;
 }

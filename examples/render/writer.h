@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Encodes and writes pictures on threads of its own, while the next ones are drawn.
+ * Encodes and writes pictures on other threads, while the next ones are drawn.
  */
 #ifndef GLSSAO_EXAMPLES_WRITER_H
 #define GLSSAO_EXAMPLES_WRITER_H
@@ -12,35 +12,35 @@
 
 typedef struct writer writer;
 
-/* What becomes of the pictures of one job; zero before the first. To be read after writer_wait, or once writer_is_done:
- * until then the writer's threads change it. */
+/* The result of one job's pictures. Set it to 0 before the first. Read it only after writer_wait or when
+ * writer_is_done: until then the writer's threads change it. */
 typedef struct writer_slip {
     int pending, written;
     bool failed;
-    double ms;        /* spent, summed over the pictures */
-    char error[4352]; /* one line: of the first failure */
+    double ms;        /* sum over the pictures */
+    char error[4352]; /* one line about the first failure */
 } writer_slip;
 
-/* NULL where memory is short. */
+/* NULL if memory is short. */
 writer *writer_create(void);
-/* Waits, frees; NULL is fine. */
+/* Waits for all pictures and frees the writer. NULL is allowed. */
 void writer_destroy(writer *w);
 
-/* Says that a picture of the slip's job will come: writer_submit or writer_give_up must follow. */
+/* Announces a picture of the slip's job. writer_submit or writer_give_up must follow. */
 void writer_expect(writer *w, writer_slip *slip);
 
-/* Takes `pixels` (of malloc, bottom to top) over, also on failure. Waits where too many pictures are in the queue, so
- * that memory stays bounded. */
+/* Writes a picture. Takes ownership of `pixels` (from malloc, rows bottom to top), also on failure. Waits while too
+ * many pictures are queued, so that memory stays bounded. */
 void writer_submit(writer *w, writer_slip *slip, const char *path, int width, int height, pixel_kind kind,
                    void *pixels);
 
-/* The picture expected will not come; the slip fails with this line. */
+/* Cancels a picture that was announced. The slip fails with this line. */
 void writer_give_up(writer *w, writer_slip *slip, const char *error);
 
-/* Waits for all pictures expected. False where one failed. */
+/* Waits for all pictures that were announced. False if one failed. */
 bool writer_wait(writer *w, writer_slip *slip);
 bool writer_is_done(writer *w, writer_slip *slip);
-/* True as soon as one failed. */
+/* True as soon as one picture has failed. */
 bool writer_has_failed(writer *w, writer_slip *slip);
 
 #endif

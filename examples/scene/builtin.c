@@ -27,7 +27,7 @@ static bool add_camera(scene_builder *b, const float eye[3], const float target[
     glm_lookat_rh(from, to, up, view_from_world);
     glm_mat4_inv(view_from_world, world_from_view);
     memcpy(camera.world_from_view, world_from_view, sizeof camera.world_from_view);
-    return scene_builder_add_camera(b, &camera) >= 0;
+    return scene_builder_add_camera(b, &camera, (const double[3]){(double)eye[0], (double)eye[1], (double)eye[2]}) >= 0;
 }
 
 /* Everything that was added since `first_index` becomes a mesh of one material. */

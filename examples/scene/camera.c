@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Cameras for the examples. Everything is relative to the scene's own size, so that a scene of any scale looks the
- * same; differences of large coordinates are taken in double precision.
+ * Cameras for the examples. All lengths are relative to the size of the scene, so that a scaled scene looks the same.
+ * Differences of large coordinates are computed in double precision.
  */
 #define CGLM_ALL_UNALIGNED /* the matrices are plain float[16] */
 #include "camera.h"
@@ -12,13 +12,11 @@
 #include <math.h>
 #include <stdio.h>
 
-static const float default_fov_y_rad = 45.0f * GLM_PIf / 180.0f;
-static const double frame_azimuth_rad = 0.30, frame_elevation_rad = 0.35; /* by eye: shows depth without looking down */
-static const double frame_fill = 0.95;           /* share of the half picture that the bounds may take */
-static const double largest_plane_ratio = 20000; /* far / near: a 24-bit depth buffer still tells 1/800 of far apart */
+static const double largest_plane_ratio =
+    20000; /* far / near: a 24-bit depth buffer then resolves 1/800 of the far distance */
 
 typedef struct basis {
-    double right[3], up[3], back[3]; /* world space, unit; zero where the camera is degenerate */
+    double right[3], up[3], back[3]; /* unit vectors in world space; zero if the camera is degenerate */
 } basis;
 
 static double dot(const double a[3], const double b[3])
@@ -32,7 +30,7 @@ static void cross(const double a[3], const double b[3], double out[3])
         out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-/* Returns the length that v had. */
+/* Returns the previous length. */
 static double normalize(double v[3])
 {
     double length = sqrt(dot(v, v));
@@ -70,7 +68,7 @@ static double bounds_diagonal(const scene *s)
     return sqrt(dot(size, size));
 }
 
-/* View distances of the nearest and the farthest corner of the bounds. */
+/* Finds the view distances of the nearest and the farthest corner of the bounds. */
 static void bounds_distances(const camera *c, const scene *s, double *out_nearest, double *out_farthest)
 {
     basis b = camera_basis(c);
@@ -92,79 +90,28 @@ void camera_fit_planes(camera *c, const scene *s)
     double nearest, farthest;
     bounds_distances(c, s, &nearest, &farthest);
     if (!(farthest > 0.0)) {
-        /* All behind: nothing is seen, whatever the planes. */
+        /* Everything is behind the camera, so any planes will do. */
         nearest = 0.0;
         farthest = bounds_diagonal(s) > 0.0 ? bounds_diagonal(s) : 1.0;
     }
-    /* Room for bounds that are flat, and for rounding in the matrices. */
+    /* Leaves room for flat bounds and for rounding in the matrices. */
     double margin = 0.01 * (farthest - fmax(nearest, 0.0)) + 0.001 * farthest;
     double far_plane = farthest + margin;
     c->near_plane = (float)fmax(nearest - margin, far_plane / largest_plane_ratio);
     c->far_plane = (float)far_plane;
 }
 
-camera camera_frame_scene(const scene *s, float aspect)
-{
-    camera c = {.eye = {0.0f, 0.0f, 1.0f}, .up = {0.0f, 1.0f, 0.0f}, .fov_y_rad = default_fov_y_rad};
-    double diagonal = bounds_diagonal(s);
-    if (!s->instance_count || !(diagonal > 0.0)) {
-        /* Nothing to frame, or a single point, which is seen from anywhere. */
-        for (int i = 0; i < 3; i++) {
-            c.target[i] = s->bounds_min[i];
-            c.eye[i] += s->bounds_min[i];
-        }
-        camera_fit_planes(&c, s);
-        return c;
-    }
-
-    double sin_elevation = sin(frame_elevation_rad), cos_elevation = cos(frame_elevation_rad);
-    camera direction = {.eye = {(float)(sin(frame_azimuth_rad) * cos_elevation), (float)sin_elevation,
-                                (float)(cos(frame_azimuth_rad) * cos_elevation)},
-                        .up = {0.0f, 1.0f, 0.0f}};
-    basis b = camera_basis(&direction);
-    double centre[3];
-    for (int i = 0; i < 3; i++)
-        centre[i] = 0.5 * ((double)s->bounds_min[i] + s->bounds_max[i]);
-
-    /* Seen along this basis, with the origin at the centre, the eye is at (0, eye_y, eye_z). A corner (x, y, z) is in
-     * the picture where |x| <= tan_x (eye_z - z) and |y - eye_y| <= tan_y (eye_z - z). */
-    double tan_y = frame_fill * tan(0.5 * (double)c.fov_y_rad);
-    double tan_x = tan_y * (aspect > 0.0f ? (double)aspect : 1.0);
-    double above = -INFINITY, below = -INFINITY, eye_z = 0.0;
-    for (int k = 0; k < 8; k++) {
-        double corner[3];
-        bounds_corner(s, k, corner);
-        for (int i = 0; i < 3; i++)
-            corner[i] -= centre[i];
-        double x = dot(corner, b.right), y = dot(corner, b.up), z = dot(corner, b.back);
-        /* A scene that is a line towards the eye still gets some distance. */
-        eye_z = fmax(eye_z, z + fmax(fabs(x) / tan_x, 0.05 * diagonal));
-        above = fmax(above, y + tan_y * z);
-        below = fmax(below, -y + tan_y * z);
-    }
-    double eye_y = 0.5 * (above - below);
-    eye_z = fmax(eye_z, 0.5 * (above + below) / tan_y);
-
-    /* The eye is moved up or down, and the target with it, which stays on the vertical through the centre: a turned
-     * camera goes round the middle of the scene. */
-    double rise = eye_y / cos_elevation, distance = eye_z - rise * sin_elevation;
-    centre[1] += rise;
-    for (int i = 0; i < 3; i++) {
-        c.target[i] = (float)centre[i];
-        c.eye[i] = (float)(centre[i] + distance * b.back[i]);
-    }
-    camera_fit_planes(&c, s);
-    return c;
-}
-
-camera camera_turned(const camera *c, float angle_rad)
+camera camera_turned(const camera *c, const float pivot[3], const float axis[3], float angle_rad)
 {
     camera turned = *c;
-    vec3 vertical = {0.0f, 1.0f, 0.0f}; /* glTF's, also where the camera is tilted */
-    glm_vec3_sub(turned.eye, turned.target, turned.eye);
-    glm_vec3_rotate(turned.eye, angle_rad, vertical);
-    glm_vec3_add(turned.eye, turned.target, turned.eye);
-    glm_vec3_rotate(turned.up, angle_rad, vertical);
+    float *const points[] = {turned.eye, turned.target};
+    for (int i = 0; i < 2; i++) {
+        float *point = points[i];
+        glm_vec3_sub(point, (float *)pivot, point);
+        glm_vec3_rotate(point, angle_rad, (float *)axis);
+        glm_vec3_add(point, (float *)pivot, point);
+    }
+    glm_vec3_rotate(turned.up, angle_rad, (float *)axis);
     return turned;
 }
 
@@ -193,7 +140,7 @@ bool camera_check(const camera *c, char *error, size_t error_size)
         up[i] = c->up[i];
         largest = fmax(largest, fmax(fabs((double)c->eye[i]), fabs((double)c->target[i])));
     }
-    /* Nearer than this, rounding of the coordinates alone decides where the camera looks. */
+    /* At a smaller distance, rounding of the coordinates decides where the camera looks. */
     if (!(normalize(offset) > 4.0 * (double)FLT_EPSILON * largest)) {
         snprintf(error, error_size, "camera eye and target are the same point (%g, %g, %g)", (double)c->eye[0],
                  (double)c->eye[1], (double)c->eye[2]);
@@ -239,8 +186,12 @@ scene_view camera_view(const camera *c, int width, int height)
     }
     view.view_from_world[15] = 1.0f;
 
+    const float aspect = (float)width / (float)height, half = c->half_height;
     mat4 clip_from_view;
-    glm_perspective(c->fov_y_rad, (float)width / (float)height, c->near_plane, c->far_plane, clip_from_view);
+    if (half > 0)
+        glm_ortho(-half * aspect, half * aspect, -half, half, c->near_plane, c->far_plane, clip_from_view);
+    else
+        glm_perspective(c->fov_y_rad, aspect, c->near_plane, c->far_plane, clip_from_view);
     glm_mat4_ucopy(clip_from_view, (vec4 *)view.clip_from_view);
     return view;
 }

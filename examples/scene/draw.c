@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Draws a scene_renderer's items: the pre-pass, layers, and for draw_shadow.c and draw_main.c what those passes draw.
- * Each public function sets all the state it needs and leaves GL's defaults behind.
+ * Draws a scene_renderer's items for every pass: the pre-pass, the layers, the shadow map and the main pass. Each
+ * public function sets all the state that it needs, and restores GL's defaults.
  */
 #include "draw_internal.h"
 #include "gl.h"
@@ -93,20 +93,22 @@ static void use_program(draw_pass *pass, const draw_program *p)
     pass->material = -1;
 }
 
-static void use_map(const scene_renderer *r, unsigned unit, int texture, bool is_srgb, int uv_location, int uv,
-                    const float uv_from_uv[6])
+static void use_map(const scene_renderer *r, unsigned unit, int texture, bool is_srgb, int uv_location, bool more_uvs,
+                    int uv, const float uv_from_uv[6])
 {
-    float rows[3][4] = {{0}};
+    /* Rows 0 and 1 weigh the first two uv sets, 3 and 4 the others, row 2 is added. */
+    float rows[5][4] = {{0}};
     for (int row = 0; row < 2; row++) {
-        rows[row][2 * uv] = uv_from_uv[3 * row];
-        rows[row][2 * uv + 1] = uv_from_uv[3 * row + 1];
+        float *weights = rows[row + (uv >= 2 ? 3 : 0)] + 2 * (uv % 2);
+        weights[0] = uv_from_uv[3 * row];
+        weights[1] = uv_from_uv[3 * row + 1];
         rows[2][row] = uv_from_uv[3 * row + 2];
     }
     draw_bind_texture(unit, r->images[is_srgb][r->scene->textures[texture].image], r->samplers[texture]);
-    gl.Uniform4fv(uv_location, 3, rows[0]);
+    gl.Uniform4fv(uv_location, more_uvs ? 5 : 3, rows[0]);
 }
 
-/* The maps of the program; those that the item has none of are neutral. */
+/* Binds the program's maps. A neutral texture takes the place of a map that the item lacks. */
 static void use_maps(const scene_renderer *r, const scene_material *m, const draw_program *p, unsigned variant,
                      unsigned own)
 {
@@ -127,8 +129,8 @@ static void use_maps(const scene_renderer *r, const scene_material *m, const dra
     };
     for (size_t i = 0; i < sizeof maps / sizeof maps[0]; i++)
         if (variant & own & maps[i].bit)
-            use_map(r, maps[i].unit, maps[i].map->texture, maps[i].is_srgb, maps[i].uv_location, maps[i].map->uv,
-                    maps[i].uv_from_uv);
+            use_map(r, maps[i].unit, maps[i].map->texture, maps[i].is_srgb, maps[i].uv_location,
+                    variant & VARIANT_MORE_UVS, maps[i].map->uv, maps[i].uv_from_uv);
         else if (variant & maps[i].bit)
             draw_bind_texture(maps[i].unit, r->neutral[maps[i].bit == VARIANT_NORMAL_MAPPED], r->linear_sampler);
 }
@@ -178,7 +180,8 @@ void draw_item_now(draw_pass *pass, const draw_item *item)
         use_instances(pass, item->first_instance);
     gl.Uniform1f(pass->program->handedness, item->mirrored ? -1.0f : 1.0f);
     gl.FrontFace(item->mirrored ? GL_CW : GL_CCW);
-    gl.DrawElementsInstanced(GL_TRIANGLES, (GLsizei)item->index_count, GL_UNSIGNED_INT,
+    static const GLenum modes[] = {GL_TRIANGLES, GL_LINES, GL_POINTS};
+    gl.DrawElementsInstanced(modes[item->topology], (GLsizei)item->index_count, GL_UNSIGNED_INT,
                              (const void *)(item->first_index * sizeof(uint32_t)), (GLsizei)item->instance_count);
 }
 
@@ -230,14 +233,15 @@ void scene_draw_normals(scene_renderer *r, const scene_view *view)
 
 scene_seen scene_find_seen(const scene_renderer *r, const scene_view *view)
 {
-    scene_seen seen = {.opaque_total = r->opaque_count, .blended_total = r->item_count - r->opaque_count};
+    scene_seen seen = {.opaque_total = r->opaque_count, .blended_total = r->item_count - r->first_blended};
     double clip_from_world[16];
     find_clip_from_world(view, clip_from_world);
     for (uint32_t i = 0; i < r->item_count; i++) {
         if (!draw_item_is_seen(&r->items[i], clip_from_world))
             continue;
         const bool opaque = i < r->opaque_count;
-        *(opaque ? &seen.opaque : &seen.blended) += 1;
+        seen.opaque += opaque;
+        seen.blended += i >= r->first_blended;
         seen.lit += opaque && r->items[i].variant & VARIANT_LIT;
     }
     return seen;
@@ -245,7 +249,7 @@ scene_seen scene_find_seen(const scene_renderer *r, const scene_view *view)
 
 void scene_draw_layer(scene_renderer *r, const scene_view *view, unsigned depth_texture, scene_layer layer)
 {
-    /* Two steps of a 24-bit depth buffer: the same triangle, drawn again, has the same depth but for rounding. */
+    /* Two steps of a 24-bit depth buffer. A triangle that is drawn again has the same depth up to rounding. */
     const float rounding = 1.2e-7f, far_depth = 1;
     if (!draw_is_ready(r) || !r->options.layers)
         return;

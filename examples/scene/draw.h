@@ -34,6 +34,8 @@ typedef struct scene_lighting {
     float directional[3];            /* linear irradiance; all 0: no such light */
     float sky[3];                    /* linear, at the horizon; drawn where nothing is */
     float sky_tilt[3];               /* how much more straight above, as with ambient; all 0: one colour */
+    bool plain;                      /* draws no sky, but `background` where nothing is */
+    float background[4];             /* linear colour, and alpha, by which it is multiplied */
     const scene_environment *environment; /* in the place of the four gradients; NULL: those */
     const scene_light *lights;       /* further lights; they cast no shadow. Past 16, the rest is left out */
     uint32_t light_count;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * What a scene_renderer is made of. draw_upload.c, draw_items.c and draw_programs.c fill it; draw.c and draw_shadow.c
- * read it every frame.
+ * The members of a scene_renderer. draw_upload.c, draw_items.c and draw_programs.c fill them; draw.c, draw_main.c and
+ * draw_shadow.c read them every frame.
  */
 #ifndef GLSSAO_EXAMPLES_DRAW_INTERNAL_H
 #define GLSSAO_EXAMPLES_DRAW_INTERNAL_H
@@ -17,7 +17,8 @@ enum {
     ATTRIBUTE_COLOR = 3,
     ATTRIBUTE_WORLD_FROM_MESH = 4,
     ATTRIBUTE_NORMAL_WORLD_FROM_MESH = 8,
-    ATTRIBUTE_TANGENT = 11
+    ATTRIBUTE_TANGENT = 11,
+    ATTRIBUTE_MORE_UVS = 12
 };
 
 /* As the vertex shader reads it: columns of three. */
@@ -41,9 +42,10 @@ typedef struct draw_item {
     uint32_t first_index, index_count;
     uint32_t first_instance, instance_count; /* in the instance buffer */
     int material;
-    bool colored, blended;
+    bool colored, blended, flat;
+    scene_topology topology;
     bool mirrored;                       /* triangles change their winding */
-    unsigned variant;                    /* of the main pass, less what the options decide */
+    unsigned variant;                    /* of the main pass, without the bits that the options decide */
     int program[DRAW_KIND_COUNT];        /* index into the pool's variants, -1: not drawn so */
     double bounds_min[3], bounds_max[3]; /* world space, of all instances */
 } draw_item;
@@ -91,14 +93,15 @@ typedef struct draw_sky_seen {
 struct scene_renderer {
     const scene *scene;
     unsigned vertex_array, empty_vertex_array;
-    unsigned vertex_buffer, tangent_buffer, index_buffer, instance_buffer;
+    unsigned vertex_buffer, tangent_buffer, more_uv_buffer, index_buffer, instance_buffer;
     unsigned *images[2]; /* GL texture of each of the scene's images, 0 where no material uses it: linear, sRGB */
     unsigned *samplers;  /* of each of the scene's textures, 0 likewise */
     unsigned linear_sampler, nearest_sampler; /* clamped, for screen-sized maps */
     unsigned white_texture;                   /* stands in for the ambient map */
-    unsigned neutral[2]; /* where options.everything: white, and a normal along the surface's, for what has no map */
-    draw_item *items;    /* opaque ones first, sorted by program and material; then blended ones as in the file */
-    uint32_t opaque_count, item_count;
+    unsigned neutral[2]; /* for options.everything: white, and the unbent normal, where the material has no map */
+    draw_item *items;    /* opaque triangles first, sorted by program and material; then opaque lines and points; then
+                            blended ones as in the file */
+    uint32_t opaque_count, first_blended, item_count;
     draw_order *blended_order; /* scratch, one for each blended item */
     draw_pool *pool;
     scene_draw_options options;
@@ -113,7 +116,7 @@ struct scene_renderer {
  * matrix that mirrors. */
 bool draw_normal_matrix(const float affine[16], float out[3][3]);
 
-/* What is the same for all draw calls of a pass, and what the last one left bound. */
+/* Values that all draw calls of a pass share, and the state that the last one left bound. */
 typedef struct draw_pass {
     const scene_renderer *renderer;
     const scene_view *view;
@@ -134,18 +137,17 @@ typedef struct draw_pass {
     uint32_t first_instance;
 } draw_pass;
 
-/* draw_upload.c: r->neutral, where it is not there yet. */
+/* draw_upload.c: creates r->neutral on first use. */
 void draw_make_neutral(scene_renderer *r);
 
 /* draw_items.c: decides which draw calls the scene takes; fills instances[s->instance_count]. */
 bool draw_plan_items(scene_renderer *r, draw_instance *instances);
-/* False where the item lies wholly outside what the matrix shows. */
+/* False if the item lies outside the view volume of the matrix. */
 bool draw_item_is_seen(const draw_item *item, const double clip_from_world[16]);
 
 /* draw_programs.c: false where the sky is one colour. */
 bool draw_has_sky(const scene_lighting *lighting);
-/* Index of its program among the pool's variants, built where it is not there yet; -1, with one line in `error`, on
- * failure. */
+/* Index of its program among the pool's variants, built on first use; -1, with one line in `error`, on failure. */
 int draw_find_sky(scene_renderer *r, const scene_lighting *lighting, char *error, size_t error_size);
 
 /* draw_shadow.c */
@@ -167,7 +169,7 @@ draw_pass draw_begin(const scene_renderer *r, const scene_view *view, draw_kind 
 void draw_item_now(draw_pass *pass, const draw_item *item);
 /* Opaque items that are seen; returns how many, and adds those that are not to *out_culled. */
 unsigned draw_opaque(draw_pass *pass, unsigned *out_culled);
-/* A renderer that nobody configured draws plainly; false where that fails, with a line on stderr. */
+/* Configures a renderer with the plainest options if the host did not; false if that fails, with a line on stderr. */
 bool draw_is_ready(scene_renderer *r);
 /* The whole of a pass: draws opaque items as `kind`, those that are seen; returns how many, and adds those that are not
  * to *out_culled. */

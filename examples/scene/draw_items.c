@@ -3,6 +3,7 @@
  * Decides which draw calls a scene takes, in which order, and which of them a view shows.
  */
 #include "draw_internal.h"
+#include "matrix.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,25 +11,10 @@
 
 bool draw_normal_matrix(const float affine[16], float out[3][3])
 {
-    double m[3][3], cofactors[3][3];
-    for (int c = 0; c < 3; c++)
-        for (int r = 0; r < 3; r++)
-            m[c][r] = affine[4 * c + r];
-    /* The cofactor matrix is the determinant times the inverse transpose, and exists where the inverse does not. */
-    for (int c = 0; c < 3; c++) {
-        const double *a = m[(c + 1) % 3], *b = m[(c + 2) % 3];
-        for (int r = 0; r < 3; r++)
-            cofactors[c][r] = a[(r + 1) % 3] * b[(r + 2) % 3] - a[(r + 2) % 3] * b[(r + 1) % 3];
-    }
-    double determinant = 0.0, largest = 0.0;
-    for (int r = 0; r < 3; r++)
-        determinant += m[0][r] * cofactors[0][r];
+    double normals[9];
+    const bool mirrors = matrix_for_normals(affine, normals);
     for (int i = 0; i < 9; i++)
-        largest = fmax(largest, fabs(cofactors[i / 3][i % 3]));
-    bool mirrors = determinant < 0.0;
-    double scale = largest > 0.0 ? (mirrors ? -1.0 : 1.0) / largest : 0.0;
-    for (int i = 0; i < 9; i++)
-        out[i / 3][i % 3] = (float)(scale * cofactors[i / 3][i % 3]);
+        out[i / 3][i % 3] = (float)normals[i];
     return mirrors;
 }
 
@@ -42,7 +28,16 @@ static bool has_colors(const scene *s, const scene_primitive *p)
     return false;
 }
 
-/* What the material and the vertices call for in the main pass, whatever the options. */
+static bool reads_more_uvs(const scene_material *m)
+{
+    const scene_map *const maps[] = {&m->metallic_roughness_map, &m->normal_map, &m->occlusion_map, &m->emissive_map};
+    bool any = false;
+    for (size_t i = 0; i < sizeof maps / sizeof maps[0]; i++)
+        any = any || (maps[i]->used && maps[i]->uv >= 2);
+    return any;
+}
+
+/* The variant that the material and the vertices need in the main pass, before the options add to it. */
 static unsigned choose_variant(const scene *s, const scene_material *m, bool colored)
 {
     const struct {
@@ -55,6 +50,7 @@ static unsigned choose_variant(const scene *s, const scene_material *m, bool col
             {m->alpha == SCENE_ALPHA_MASK, VARIANT_MASKED},
             {m->alpha == SCENE_ALPHA_BLEND, VARIANT_BLENDED},
             {!m->unlit, VARIANT_LIT},
+            {s->more_uvs && reads_more_uvs(m), VARIANT_MORE_UVS},
         },
       where_lit[] = {
           {m->double_sided, VARIANT_DOUBLE_SIDED},
@@ -112,17 +108,20 @@ static bool add_primitive(scene_renderer *r, uint32_t *capacity, const scene_pri
         draw_item *item = add_item(r, capacity);
         if (!item)
             return false;
-        *item = (draw_item){.first_index = p->first_index,
-                            .index_count = p->index_count,
-                            .first_instance = first + i,
-                            .instance_count = step,
-                            .material = p->material,
-                            .colored = colored,
-                            .blended = blended,
-                            .mirrored = mirrored,
-                            .variant = choose_variant(r->scene, m, colored),
-                            .bounds_min = {INFINITY, INFINITY, INFINITY},
-                            .bounds_max = {-INFINITY, -INFINITY, -INFINITY}};
+        *item =
+            (draw_item){.first_index = p->first_index,
+                        .index_count = p->index_count,
+                        .first_instance = first + i,
+                        .instance_count = step,
+                        .material = p->material,
+                        .colored = colored,
+                        .blended = blended,
+                        .flat = p->flat,
+                        .topology = p->topology,
+                        .mirrored = mirrored,
+                        .variant = choose_variant(r->scene, m, colored) | (p->flat && !m->unlit ? VARIANT_FLAT : 0u),
+                        .bounds_min = {INFINITY, INFINITY, INFINITY},
+                        .bounds_max = {-INFINITY, -INFINITY, -INFINITY}};
         for (uint32_t k = 0; k < step; k++)
             grow_bounds(item, p, &instances[first + i + k]);
     }
@@ -147,7 +146,7 @@ static bool add_mesh(scene_renderer *r, uint32_t *capacity, const scene_mesh *me
         const scene_primitive *p = &s->primitives[mesh->first_primitive + i];
         if (!p->index_count)
             continue;
-        bool colored = has_colors(s, p);
+        bool colored = !p->white && has_colors(s, p);
         if (!add_primitive(r, capacity, p, colored, instances, mesh->first_instance, plain_count, false) ||
             !add_primitive(r, capacity, p, colored, instances, split, mirrored_count, true))
             return false;
@@ -155,12 +154,18 @@ static bool add_mesh(scene_renderer *r, uint32_t *capacity, const scene_mesh *me
     return true;
 }
 
-/* A total order, so that the same scene is drawn in the same order everywhere. */
+/* Opaque triangles, opaque lines and points, blended items. */
+static int group_of(const draw_item *item)
+{
+    return item->blended ? 2 : item->topology != SCENE_TRIANGLES;
+}
+
+/* A total order, so that every platform draws the same scene in the same order. */
 static int compare_items(const void *a, const void *b)
 {
     const draw_item *x = a, *y = b;
-    if (x->blended != y->blended)
-        return x->blended - y->blended;
+    if (group_of(x) != group_of(y))
+        return group_of(x) - group_of(y);
     if (x->variant != y->variant && !x->blended)
         return x->variant < y->variant ? -1 : 1;
     if (x->material != y->material && !x->blended)
@@ -178,9 +183,12 @@ bool draw_plan_items(scene_renderer *r, draw_instance *instances)
             return false;
     if (r->item_count)
         qsort(r->items, r->item_count, sizeof *r->items, compare_items);
-    while (r->opaque_count < r->item_count && !r->items[r->opaque_count].blended)
+    while (r->opaque_count < r->item_count && group_of(&r->items[r->opaque_count]) == 0)
         r->opaque_count++;
-    r->blended_order = calloc((size_t)(r->item_count - r->opaque_count) + 1, sizeof *r->blended_order);
+    r->first_blended = r->opaque_count;
+    while (r->first_blended < r->item_count && !r->items[r->first_blended].blended)
+        r->first_blended++;
+    r->blended_order = calloc((size_t)(r->item_count - r->first_blended) + 1, sizeof *r->blended_order);
     return r->blended_order != NULL;
 }
 
@@ -205,7 +213,7 @@ bool draw_item_is_seen(const draw_item *item, const double clip_from_world[16])
         }
         unsigned beyond = 0;
         for (unsigned axis = 0; axis < 3; axis++) {
-            /* False for NaN, so that bounds without meaning are drawn. */
+            /* Comparisons with NaN are false, so an item with invalid bounds is drawn. */
             beyond |= clip[axis] < -clip[3] - slack * largest ? 1u << (2 * axis) : 0u;
             beyond |= clip[axis] > clip[3] + slack * largest ? 2u << (2 * axis) : 0u;
         }

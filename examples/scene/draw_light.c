@@ -9,8 +9,8 @@
 
 scene_lighting scene_default_lighting(void)
 {
-    /* Tuned by eye: a bluish sky over grey ground and a warm sun from the upper left front, near 1 together on a white
-     * wall. The environment gives about half, so that occlusion is seen in the lit parts too. */
+    /* Tuned by eye: a bluish sky over grey ground and a warm sun from the upper left front. Together they give a white
+     * wall nearly 1. The environment gives about half of that, so that occlusion also shows in sunlit parts. */
     return (scene_lighting){.ambient = {0.46f, 0.50f, 0.56f},
                             .ambient_tilt = {0.08f, 0.11f, 0.16f},
                             .direction_world = {0.48f, -0.72f, -0.50120f},
@@ -19,7 +19,7 @@ scene_lighting scene_default_lighting(void)
                             .sky_tilt = {0.02f, 0.08f, 0.18f}};
 }
 
-/* The largest channel of what it gives a surface in the middle of the scene that faces it. */
+/* The largest channel of the irradiance on a surface that faces the light in the middle of the scene. */
 static float irradiance_in_the_middle(const scene_light *light, const scene *s)
 {
     float distance2 = 0;
@@ -31,7 +31,7 @@ static float irradiance_in_the_middle(const scene_light *light, const scene *s)
     for (int i = 0; i < 3; i++)
         size2 += (s->bounds_max[i] - s->bounds_min[i]) * (s->bounds_max[i] - s->bounds_min[i]);
     const float most = fmaxf(light->color[0], fmaxf(light->color[1], light->color[2]));
-    /* A lamp in the very middle is to light what stands around it. */
+    /* A lamp in the middle of the scene lights the objects around it. */
     return light->kind == SCENE_LIGHT_DIRECTIONAL ? most : most / fmaxf(distance2, fmaxf(size2 / 16, 1e-12f));
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * The main pass: lights, opaque items with depth EQUAL, the sky, then blended items back to front.
+ * The main pass: lights, opaque triangles with depth EQUAL, opaque lines and points, the sky, then blended items back
+ * to front.
  */
 #define CGLM_ALL_UNALIGNED /* the matrices are plain float[16] */
 #include "draw_internal.h"
@@ -24,13 +25,13 @@ static int compare_back_to_front(const void *a, const void *b)
 static void sort_blended(scene_renderer *r, const scene_view *view)
 {
     const float *m = view->view_from_world;
-    for (uint32_t i = r->opaque_count; i < r->item_count; i++) {
+    for (uint32_t i = r->first_blended; i < r->item_count; i++) {
         double distance = -(double)m[14];
         for (int axis = 0; axis < 3; axis++)
             distance -= (double)m[4 * axis + 2] * 0.5 * (r->items[i].bounds_min[axis] + r->items[i].bounds_max[axis]);
-        r->blended_order[i - r->opaque_count] = (draw_order){.view_distance = distance, .item = i};
+        r->blended_order[i - r->first_blended] = (draw_order){.view_distance = distance, .item = i};
     }
-    qsort(r->blended_order, r->item_count - r->opaque_count, sizeof *r->blended_order, compare_back_to_front);
+    qsort(r->blended_order, r->item_count - r->first_blended, sizeof *r->blended_order, compare_back_to_front);
 }
 
 static void draw_blended(draw_pass *pass, scene_renderer *r)
@@ -40,7 +41,7 @@ static void draw_blended(draw_pass *pass, scene_renderer *r)
     gl.Enable(GL_BLEND);
     /* Colour by straight alpha; the target's own alpha as coverage. */
     gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    for (uint32_t i = 0; i < r->item_count - r->opaque_count; i++) {
+    for (uint32_t i = 0; i < r->item_count - r->first_blended; i++) {
         const draw_item *item = &r->items[r->blended_order[i].item];
         if (r->options.everything || draw_item_is_seen(item, pass->clip_from_world)) {
             draw_item_now(pass, item);
@@ -49,6 +50,23 @@ static void draw_blended(draw_pass *pass, scene_renderer *r)
             r->counts.culled++;
         }
     }
+}
+
+/* Lines and points are not in the pre-pass, so that they receive no occlusion and cast none: they find their depth
+ * here. */
+static void draw_thin(draw_pass *pass, scene_renderer *r)
+{
+    gl.DepthMask(GL_TRUE);
+    gl.DepthFunc(GL_LEQUAL);
+    for (uint32_t i = r->opaque_count; i < r->first_blended; i++) {
+        if (r->options.everything || draw_item_is_seen(&r->items[i], pass->clip_from_world)) {
+            draw_item_now(pass, &r->items[i]);
+            r->counts.main++;
+        } else {
+            r->counts.culled++;
+        }
+    }
+    gl.DepthMask(GL_FALSE);
 }
 
 static void rotate_to_view(const scene_view *view, const float world[3], vec3 out)
@@ -100,8 +118,8 @@ static void set_lighting(draw_pass *pass, const scene_lighting *lighting)
         pack_light(&lighting->lights[i], pass->view, pass->lights[i]);
 }
 
-/* Whether the sky of this view was drawn before and no pixel of it passed: the scene stands still, so none will. Never
- * waits; where it is not known, the sky may be seen. */
+/* Whether the sky was drawn for this view before and no pixel passed the depth test. The scene is static, so none will
+ * pass now. Never waits for the query: without a result, the sky counts as visible. */
 static bool is_sky_hidden(scene_renderer *r, const scene_view *view)
 {
     draw_sky_seen *seen = &r->sky_seen;
@@ -164,7 +182,7 @@ void scene_draw_main(scene_renderer *r, const scene_view *view, const scene_ligh
 
     gl.Enable(GL_FRAMEBUFFER_SRGB);
     const float sky[4] = {lighting->sky[0], lighting->sky[1], lighting->sky[2], 1.0f};
-    gl.ClearBufferfv(GL_COLOR, 0, sky);
+    gl.ClearBufferfv(GL_COLOR, 0, lighting->plain ? lighting->background : sky);
 
     draw_bind_texture(UNIT_AMBIENT, ambient_map ? ambient_map : r->white_texture, r->linear_sampler);
     if (lighting->environment)
@@ -174,6 +192,8 @@ void scene_draw_main(scene_renderer *r, const scene_view *view, const scene_ligh
     gl.DepthMask(GL_FALSE);
     gl.DepthFunc(GL_EQUAL);
     r->counts.main = draw_opaque(&pass, &r->counts.culled);
+    if (r->opaque_count < r->first_blended)
+        draw_thin(&pass, r);
     if (r->options.everything || (draw_has_sky(lighting) && !is_sky_hidden(r, view))) {
         draw_sky(r, view, lighting);
         if (lighting->environment)
@@ -181,7 +201,7 @@ void scene_draw_main(scene_renderer *r, const scene_view *view, const scene_ligh
         gl.BindVertexArray(r->vertex_array);
         pass.program = NULL;
     }
-    if (r->opaque_count < r->item_count)
+    if (r->first_blended < r->item_count)
         draw_blended(&pass, r);
     draw_set_defaults();
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Which shader variant each draw call takes in each pass, what that means in words, and building those that are
- * missing. A variant is built once and kept.
+ * Chooses the shader variant of each draw call in each pass, describes the choice in words, and builds missing
+ * variants. Each variant is built once.
  */
 #include "draw_internal.h"
 #include "gl.h"
@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Index of the program, built where it is not there yet; -1 on failure. */
+/* Index of the program, built on first use; -1 on failure. */
 static int find_program(draw_pool *pool, draw_kind kind, unsigned variant, char *error, size_t error_size)
 {
     static const char *const what[] = {"scene normals pass", "scene main pass", "shadow pass", "layer pass",
@@ -42,8 +42,8 @@ static unsigned normals_variant(const draw_item *item, const scene_material *m, 
 {
     if (options->everything)
         return VARIANT_LIT | VARIANT_DOUBLE_SIDED | VARIANT_MASKED | VARIANT_COLORED | VARIANT_BASE_MAPPED |
-               VARIANT_TEXTURED | VARIANT_NORMAL_MAPPED;
-    unsigned variant = VARIANT_LIT | (m->double_sided ? VARIANT_DOUBLE_SIDED : 0u);
+               VARIANT_TEXTURED | VARIANT_NORMAL_MAPPED | (item->flat ? VARIANT_FLAT : 0u);
+    unsigned variant = VARIANT_LIT | (m->double_sided ? VARIANT_DOUBLE_SIDED : 0u) | (item->flat ? VARIANT_FLAT : 0u);
     if (m->alpha == SCENE_ALPHA_MASK) {
         variant |= VARIANT_MASKED | (item->colored ? VARIANT_COLORED : 0u);
         variant |= m->base_color_texture >= 0 ? VARIANT_BASE_MAPPED | VARIANT_TEXTURED : 0u;
@@ -57,7 +57,8 @@ static unsigned main_variant(const draw_item *item, const scene_lighting *lighti
                              bool shadowed)
 {
     if (options->everything)
-        return VARIANT_EVERYTHING | (item->blended ? VARIANT_BLENDED : 0u);
+        return VARIANT_EVERYTHING | (item->blended ? VARIANT_BLENDED : 0u) |
+               (item->variant & (VARIANT_FLAT | VARIANT_MORE_UVS));
     if (!(item->variant & VARIANT_LIT))
         return item->variant;
     const bool occluded = !item->blended;
@@ -68,7 +69,7 @@ static unsigned main_variant(const draw_item *item, const scene_lighting *lighti
            (options->multi_bounce && occluded ? VARIANT_MULTI_BOUNCE : 0u);
 }
 
-/* Depth alone, of what the alpha test leaves: the shadow map and the layers. */
+/* The shadow map and the layers need depth alone, after the alpha test. */
 static unsigned depth_variant(unsigned normals)
 {
     const unsigned test = VARIANT_MASKED | VARIANT_COLORED | VARIANT_BASE_MAPPED | VARIANT_TEXTURED;
@@ -78,7 +79,7 @@ static unsigned depth_variant(unsigned normals)
 bool draw_has_sky(const scene_lighting *lighting)
 {
     const float *tilt = lighting->sky_tilt;
-    return lighting->environment || tilt[0] != 0 || tilt[1] != 0 || tilt[2] != 0;
+    return !lighting->plain && (lighting->environment || tilt[0] != 0 || tilt[1] != 0 || tilt[2] != 0);
 }
 
 int draw_find_sky(scene_renderer *r, const scene_lighting *lighting, char *error, size_t error_size)
@@ -98,21 +99,22 @@ static bool choose_programs(scene_renderer *r, const scene_lighting *lighting, c
         const scene_material *m = &r->scene->materials[item->material];
         const unsigned normals = normals_variant(item, m, options, r->scene->tangents != NULL);
         int chosen[DRAW_KIND_COUNT] = {-1, -1, -1, -1};
+        const bool casts = !item->blended && item->topology == SCENE_TRIANGLES;
         bool done = true;
         if (!options->no_picture) {
             chosen[DRAW_MAIN] =
                 find_program(r->pool, DRAW_MAIN, main_variant(item, lighting, options, shadowed), error, error_size);
             done = chosen[DRAW_MAIN] >= 0;
         }
-        if (done && !item->blended) {
+        if (done && casts) {
             chosen[DRAW_NORMALS] = find_program(r->pool, DRAW_NORMALS, normals, error, error_size);
             done = chosen[DRAW_NORMALS] >= 0;
         }
-        if (done && !item->blended && shadowed) {
+        if (done && casts && shadowed) {
             chosen[DRAW_SHADOW] = find_program(r->pool, DRAW_SHADOW, depth_variant(normals), error, error_size);
             done = chosen[DRAW_SHADOW] >= 0;
         }
-        if (done && !item->blended && options->layers) {
+        if (done && casts && options->layers) {
             chosen[DRAW_LAYER] =
                 find_program(r->pool, DRAW_LAYER, depth_variant(normals) | VARIANT_BEHIND, error, error_size);
             done = chosen[DRAW_LAYER] >= 0;
@@ -170,7 +172,7 @@ static const char *shadow_reason(const scene_renderer *r, const scene_lighting *
 void scene_renderer_effects(const scene_renderer *r, const scene_lighting *lighting, scene_effect *out)
 {
     const bool mapped = any_item(r, VARIANT_NORMAL_MAPPED), masked = any_item(r, VARIANT_MASKED);
-    const bool instanced = any_instances(r), blended = r->item_count > r->opaque_count;
+    const bool instanced = any_instances(r), blended = r->item_count > r->first_blended;
     const bool reflective = any_item(r, VARIANT_REFLECTIVE);
     const bool surrounded = lighting->environment, sky = draw_has_sky(lighting);
     const scene_effect effects[SCENE_EFFECT_COUNT] = {
@@ -188,7 +190,7 @@ void scene_renderer_effects(const scene_renderer *r, const scene_lighting *light
          lighting->light_count > 0},
         {"environment", surrounded ? "ambient light from a picture" : "no picture given: a gradient", surrounded},
         {"sky",
-         surrounded ? "the environment's picture, last, until a view shows none of it"
+         surrounded && sky ? "the environment's picture, last, until a view shows none of it"
          : sky      ? "a gradient, last, at the far plane, until a view shows none of it"
                     : "one colour: the clear's",
          sky},

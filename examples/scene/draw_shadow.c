@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * The shadow map of the directional light: depth seen along the light in an orthographic box that holds the scene.
- * The scene stands still, so it is drawn again only when the light turns.
+ * The shadow map of the directional light: depth along the light, in an orthographic box around the scene. The scene
+ * is static, so the map is drawn again only when the light turns.
  */
 #define CGLM_ALL_UNALIGNED /* the matrices are plain float[16] */
 #include "draw_internal.h"
@@ -13,9 +13,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The comparison reads up to two texels from the point on a sloping surface, along both axes: one tap, and one more for
- * the filter. GL may take the larger of the two slopes as the slope, so the depth stored is moved by four of those, and
- * by some steps for rounding. */
+/* The comparison reads up to two texels away from the point along both axes: one for the tap, one for the filter. GL
+ * may use the larger of the two slopes, so the stored depth is offset by four slopes, and by a few depth steps for
+ * rounding. */
 static const float offset_slopes = 4.0f, offset_steps = 8.0f;
 
 void draw_shadow_offset(void)

@@ -48,6 +48,11 @@ static void upload_geometry(scene_renderer *r, const draw_instance *instances)
         gl.VertexAttribPointer(ATTRIBUTE_TANGENT, 4, GL_FLOAT, GL_FALSE, sizeof *s->tangents, NULL);
         gl.EnableVertexAttribArray(ATTRIBUTE_TANGENT);
     }
+    if (s->more_uvs) {
+        upload_buffer(&r->more_uv_buffer, GL_ARRAY_BUFFER, s->more_uvs, s->vertex_count * sizeof *s->more_uvs);
+        gl.VertexAttribPointer(ATTRIBUTE_MORE_UVS, 4, GL_FLOAT, GL_FALSE, sizeof *s->more_uvs, NULL);
+        gl.EnableVertexAttribArray(ATTRIBUTE_MORE_UVS);
+    }
     for (unsigned i = ATTRIBUTE_WORLD_FROM_MESH; i < ATTRIBUTE_NORMAL_WORLD_FROM_MESH + 3; i++) {
         gl.EnableVertexAttribArray(i);
         gl.VertexAttribDivisor(i, 1);
@@ -82,7 +87,7 @@ static unsigned upload_image(const scene_image *image, bool is_srgb, bool mipmap
     return texture;
 }
 
-/* The textures that a draw call reads, as the variants of its material say. */
+/* The textures that a draw call reads, according to the variant of its material. */
 typedef struct texture_list {
     int texture[5];
     bool is_srgb[5];
@@ -135,7 +140,7 @@ static bool upload_texture(scene_renderer *r, int index, bool is_srgb, const boo
     return true;
 }
 
-/* Only what the items use, each image once for colours and once for other data. */
+/* Uploads only images that the items use: once as sRGB for colours, once as linear for other data. */
 static bool upload_textures(scene_renderer *r, char *error, size_t error_size)
 {
     const scene *s = r->scene;
@@ -227,11 +232,11 @@ void scene_renderer_destroy(scene_renderer *r)
 {
     if (!r)
         return;
-    /* GL ignores the name 0, which is what was not made. */
-    unsigned buffers[] = {r->vertex_buffer, r->tangent_buffer, r->index_buffer, r->instance_buffer};
+    /* GL ignores the name 0, which stands for an object that was not created. */
+    unsigned buffers[] = {r->vertex_buffer, r->tangent_buffer, r->more_uv_buffer, r->index_buffer, r->instance_buffer};
     unsigned vertex_arrays[] = {r->vertex_array, r->empty_vertex_array};
     unsigned samplers[] = {r->linear_sampler, r->nearest_sampler};
-    gl.DeleteBuffers(4, buffers);
+    gl.DeleteBuffers(5, buffers);
     gl.DeleteVertexArrays(2, vertex_arrays);
     gl.DeleteSamplers(2, samplers);
     gl.DeleteTextures(1, &r->white_texture);

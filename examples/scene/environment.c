@@ -4,11 +4,11 @@
  */
 #include "environment.h"
 
-#include "gltf_decode.h"
+#include "gltf_file.h"
+#include "image_decode.h"
 #include "image_header.h"
 #include "radiance.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -16,31 +16,8 @@
 #include <string.h>
 
 enum { MOST_SIDE = 16384 };
-static const long most_bytes = 1L << 30;
+static const uint64_t most_bytes = UINT64_C(1) << 30;
 static const float most_radiance = 65504; /* that half floats hold */
-
-static uint8_t *read_file(const char *path, size_t *out_size, char *error, size_t error_size)
-{
-    FILE *file = fopen(path, "rb");
-    uint8_t *data = NULL;
-    if (file && fseek(file, 0, SEEK_END) == 0) {
-        const long size = ftell(file);
-        if (size >= 0 && size <= most_bytes && fseek(file, 0, SEEK_SET) == 0 && (data = malloc((size_t)size + 1))) {
-            *out_size = fread(data, 1, (size_t)size, file);
-            if (ferror(file) || *out_size != (size_t)size) {
-                free(data);
-                data = NULL;
-            }
-        } else {
-            errno = size > most_bytes ? EFBIG : errno;
-        }
-    }
-    if (!data)
-        snprintf(error, error_size, "%s: %s", path, errno ? strerror(errno) : "it can't be read");
-    if (file)
-        fclose(file);
-    return data;
-}
 
 /* By how much the file's picture is made smaller. */
 static int reduction(int width)
@@ -60,7 +37,7 @@ static bool make_sky(environment *e, int width, int height)
     return e->sky.rgb;
 }
 
-/* Adds the file's row to the one of the sky that it belongs to; what is left over at the ends goes to none. */
+/* Adds a row of the file to the row of the sky that contains it. Leftover rows and columns at the ends are dropped. */
 static void add_row(environment *e, int by, int y, const float *row)
 {
     if (y / by >= e->sky.height)
@@ -128,11 +105,11 @@ static const char *take_file(environment *e, const uint8_t *data, size_t size, c
         return fault ? fault : take_radiance(e, &r);
     }
     if (!image_measure(data, size, &width, &height))
-        return "neither a sound PNG nor a JPEG nor a Radiance picture";
+        return "neither a sound PNG, JPEG or WebP nor a Radiance picture";
     const char *fault = check_size(width, height, text);
     int w = 0, h = 0;
     uint8_t *rgba = NULL;
-    if (!fault && !gltf_decode_image(data, size, &w, &h, &rgba))
+    if (!fault && !image_decode(data, size, &w, &h, &rgba))
         fault = "it cannot be decoded";
     if (!fault)
         fault = check_size((unsigned)w, (unsigned)h, text);
@@ -166,11 +143,13 @@ environment *environment_load(const char *path, char *error, size_t error_size)
 {
     size_t size = 0;
     char text[128];
-    errno = 0;
-    uint8_t *data = read_file(path, &size, error, error_size);
-    environment *e = data ? calloc(1, sizeof *e) : NULL;
-    if (!data)
+    const char *reason = NULL;
+    uint8_t *data = gltf_read_file(path, most_bytes, &size, &reason);
+    if (!data) {
+        snprintf(error, error_size, "%s: %s", path, reason);
         return NULL;
+    }
+    environment *e = calloc(1, sizeof *e);
     const char *fault = e ? take_file(e, data, size, text) : "out of memory";
     free(data);
     if (!fault && !environment_light(e))

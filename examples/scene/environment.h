@@ -22,7 +22,8 @@ typedef struct environment_picture {
 
 typedef struct environment {
     environment_picture sky; /* the file's own, halved until it is no wider than ENVIRONMENT_MOST_WIDTH */
-    /* What mirrors of roughness i / 5 show: ENVIRONMENT_WIDTH wide, then each half as wide as the one before. */
+    /* The reflection in a mirror of roughness i / 5. The first is ENVIRONMENT_WIDTH wide, each further one half as
+     * wide. */
     environment_picture mirrors[ENVIRONMENT_LEVELS];
     /* Irradiance / pi, times: 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2 of the unit normal. */
     float irradiance[9][3];
@@ -36,7 +37,7 @@ void environment_destroy(environment *e);
 
 /* Radiance / pi of a white matte surface that faces along the unit vector. */
 void environment_irradiance(const environment *e, const float normal_world[3], float out_rgb[3]);
-/* What a mirror of roughness level / 5 shows along the unit vector, filtered as a texture is. */
+/* The reflection in a mirror of roughness level / 5 along the unit vector, filtered linearly. */
 void environment_mirrored(const environment *e, int level, const float direction_world[3], float out_rgb[3]);
 
 /* ---- environment_light.c */

@@ -166,7 +166,7 @@ static void make_lobe(float roughness, int count, lobe *out)
     const float texel_angle = 4 * pi / (ENVIRONMENT_WIDTH * ENVIRONMENT_WIDTH / 2);
     float sum = 0;
     for (uint32_t i = 0; i < (uint32_t)count; i++) {
-        /* In pairs that lie opposite, so that the lobe leans to no side. */
+        /* In opposite pairs, so that the lobe stays symmetric. */
         const uint32_t pair = i / 2;
         const float share = ((float)pair + 0.5f) / (0.5f * (float)count);
         const float turn = pi * (reversed_bits(pair) + (float)(i % 2));

@@ -2,27 +2,18 @@
  *
  * Loads a glTF file: opens and checks the document, sets the limits, builds the scene, cleans up.
  */
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "gltf_file.h"
 #include "gltf_loader.h"
 
-enum { MOST_VERTICES = 1 << 25, MOST_PIXELS = 1 << 28 };
-
-static uint64_t smaller(uint64_t a, uint64_t b)
-{
-    return a < b ? a : b;
-}
-
-/* The file's size sets most limits: instances aside, what is in memory is some times what is on disk at most, and
- * some ten megabytes. */
+/* Elements are read again for each primitive that shares them: this bounds the time that a small file may take. */
 static void set_limits(gltf_loader *l)
 {
     const uint64_t bytes = l->document->source_bytes;
-    l->vertices_left = smaller((1u << 20) + 4 * bytes, MOST_VERTICES);
-    l->indices_left = 4 * l->vertices_left;
-    l->reads_left = 16 * l->vertices_left;
-    l->pixels_left = smaller((1u << 24) + 64 * bytes, MOST_PIXELS);
+    l->reads_left = 16 * ((1u << 20) + 4 * bytes);
 }
 
 /* `count` numbers, all -1. */
@@ -44,10 +35,13 @@ bool gltf_loader_begin(gltf_loader *l)
     l->material_map = make_map(l, d->material_count);
     l->texture_map = make_map(l, d->texture_count);
     l->image_map = make_map(l, d->image_count);
-    l->mesh_map = make_map(l, d->mesh_count);
+    l->mesh_map = malloc((d->mesh_count + 1) * sizeof *l->mesh_map);
     l->world_from_node = calloc(d->node_count + 1, sizeof *l->world_from_node);
-    if (!l->world_from_node)
+    l->drawn = calloc(d->node_count + 1, sizeof *l->drawn);
+    if (!l->world_from_node || !l->drawn || !l->mesh_map)
         scene_fail_memory(l->fault);
+    for (size_t i = 0; l->mesh_map && i < d->mesh_count; ++i)
+        l->mesh_map[i] = (gltf_mesh_range){.first = -1};
     return !l->fault->set;
 }
 
@@ -55,41 +49,76 @@ void gltf_loader_end(gltf_loader *l)
 {
     gltf_free_vertices(&l->recent);
     free(l->world_from_node);
+    free(l->drawn);
     free(l->mesh_map);
     free(l->image_map);
     free(l->texture_map);
     free(l->material_map);
+    free(l->opaque_map);
+    free(l->unlit_map);
 }
 
-static scene *load(const char *path, const double *time_s, char *error, size_t error_size)
+bool gltf_warn_of_omissions(gltf_loader *l)
+{
+    const gltf_omissions *o = &l->omitted;
+    const struct {
+        unsigned count;
+        const char *one, *more;
+    } parts[] = {{o->without_positions, "primitive without positions", "primitives without positions"},
+                 {o->empty, "primitive without a whole triangle, line or point",
+                  "primitives without a whole triangle, line or point"},
+                 {o->flattened, "instance that its transform makes a line or a point",
+                  "instances that their transforms make lines or points"},
+                 {o->cameras, "camera that cannot see", "cameras that cannot see"}};
+    char line[400] = "";
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i)
+        if (parts[i].count) {
+            const size_t used = strlen(line);
+            snprintf(line + used, sizeof line - used, "%s%u %s", used ? ", " : "left out: ", parts[i].count,
+                     parts[i].count == 1 ? parts[i].one : parts[i].more);
+        }
+    const bool empty = !l->builder->made->instance_count;
+    return (!*line || scene_warn(l->document->warnings, l->fault, "%s", line)) &&
+           (!empty || scene_warn(l->document->warnings, l->fault, "the scene has nothing to draw"));
+}
+
+/* The warnings become the scene's. */
+static void hand_over(scene *made, scene_warnings *warnings)
+{
+    made->warnings = warnings->lines;
+    made->warning_count = warnings->count;
+    *warnings = (scene_warnings){.lines = NULL};
+}
+
+scene *scene_load_with(const char *path, const scene_load_options *options, char *error, size_t error_size)
 {
     scene_fault fault = {.file = path, .text = error, .size = error_size};
+    scene_warnings warnings = {.strict = options && options->strict};
     gltf_document document;
     scene_builder builder;
     scene *made = NULL;
-    if (!gltf_document_open(&document, path, &fault))
-        return NULL;
-    if (gltf_check(&document, &fault) && scene_builder_begin(&builder, gltf_file_name(path), &fault)) {
-        gltf_loader loader = {.document = &document, .builder = &builder, .fault = &fault};
-        gltf_pose pose = {0};
-        if (gltf_loader_begin(&loader) && (!time_s || gltf_animate(&loader, &document, *time_s, &pose)) &&
-            gltf_place_nodes(&loader) && gltf_add_scene(&loader))
-            made = scene_builder_finish(&builder);
-        else
-            scene_builder_abandon(&builder);
-        gltf_loader_end(&loader);
-        gltf_free_pose(&pose);
+    if (gltf_document_open(&document, path, options, &warnings, &fault)) {
+        if (gltf_check(&document, &fault) && scene_builder_begin(&builder, gltf_file_name(path), &fault)) {
+            gltf_loader loader = {.document = &document, .builder = &builder, .fault = &fault};
+            gltf_pose pose = {0};
+            const bool timed = options && options->timed;
+            if (gltf_loader_begin(&loader) && (!timed || gltf_animate(&loader, &document, options->time_s, &pose)) &&
+                gltf_place_nodes(&loader) && gltf_add_scene(&loader) && gltf_warn_of_omissions(&loader))
+                made = scene_builder_finish(&builder);
+            else
+                scene_builder_abandon(&builder);
+            gltf_loader_end(&loader);
+            gltf_free_pose(&pose);
+        }
+        gltf_document_close(&document);
     }
-    gltf_document_close(&document);
+    if (made)
+        hand_over(made, &warnings);
+    scene_warnings_free(&warnings);
     return made;
 }
 
 scene *scene_load(const char *path, char *error, size_t error_size)
 {
-    return load(path, NULL, error, error_size);
-}
-
-scene *scene_load_at(const char *path, double time_s, char *error, size_t error_size)
-{
-    return load(path, &time_s, error, error_size);
+    return scene_load_with(path, NULL, error, error_size);
 }

@@ -15,7 +15,7 @@ static const char *const path_names[] = {"translation", "rotation", "scale", "we
 typedef enum interpolation { STEP, LINEAR, CUBIC_SPLINE, INTERPOLATION_COUNT } interpolation;
 static const char *const interpolation_names[] = {"STEP", "LINEAR", "CUBICSPLINE"};
 
-/* What one channel needs of its sampler. */
+/* The data of a sampler that one channel needs. */
 typedef struct track {
     interpolation kind;
     size_t key_count, width; /* numbers a value */

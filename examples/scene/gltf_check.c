@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Every reference, range and count of a glTF document, checked once, so that the loader may follow them. What buffers
- * hold (vertex indices, joints, sparse positions) is checked where it is read.
+ * Checks every reference, range and count of a glTF document once, so that the loader may follow them. Values inside
+ * buffers (vertex indices, joints, sparse positions) are checked when they are read.
  */
 #include "gltf_document.h"
 
@@ -13,6 +13,7 @@
 #include "scene_fault.h"
 
 enum { MOST_NODE_DEPTH = 256 };
+static const double rounding = 1e-4; /* that a factor may be out of range by */
 
 int gltf_find_attribute(const gltf_attribute_list *list, const char *name)
 {
@@ -92,7 +93,7 @@ static bool check_range(const gltf_document *d, size_t number, int view_index, i
     return scene_fail(fault, "accessor %zu: %.0f bytes asked, its buffer view holds %zu", number, asked, length);
 }
 
-/* The bytes of a matrix but for the padding after its last column. */
+/* The bytes of a matrix without the padding after its last column. */
 static size_t last_element_size(const gltf_accessor *a)
 {
     const size_t column = gltf_element_size(a) / (size_t)a->columns;
@@ -220,6 +221,11 @@ static bool check_skin(const gltf_document *d, size_t number, scene_fault *fault
                       skin->inverse_bind_matrices, skin->joint_count);
 }
 
+static bool is_share(double value)
+{
+    return value >= -rounding && value <= 1 + rounding;
+}
+
 static bool check_material(const gltf_document *d, size_t number, scene_fault *fault)
 {
     const gltf_material *m = &d->materials[number];
@@ -235,18 +241,18 @@ static bool check_material(const gltf_document *d, size_t number, scene_fault *f
         strcmp(m->alpha_mode, "BLEND") != 0)
         return scene_fail(fault, "material %zu: alphaMode '%.32s'", number, m->alpha_mode);
     for (int i = 0; i < 4; ++i)
-        if (!(m->base_color[i] >= 0 && m->base_color[i] <= 1))
+        if (!is_share(m->base_color[i]))
             return scene_fail(fault, "material %zu: base colour %g is not within 0 and 1", number, m->base_color[i]);
-    if (!(m->metallic >= 0 && m->metallic <= 1 && m->roughness >= 0 && m->roughness <= 1))
+    if (!is_share(m->metallic) || !is_share(m->roughness))
         return scene_fail(fault, "material %zu: metallic %g and roughness %g are not within 0 and 1", number,
                           m->metallic, m->roughness);
-    if (!(m->occlusion_strength >= 0 && m->occlusion_strength <= 1) || !isfinite(m->normal_scale))
+    if (!is_share(m->occlusion_strength) || !isfinite(m->normal_scale))
         return scene_fail(fault, "material %zu: occlusion strength %g or normal scale %g is out of range", number,
                           m->occlusion_strength, m->normal_scale);
     for (int i = 0; i < 3; ++i)
-        if (!(m->emissive[i] >= 0 && isfinite(m->emissive[i])))
+        if (!(m->emissive[i] >= -rounding && isfinite(m->emissive[i])))
             return scene_fail(fault, "material %zu: emission %g is negative or not finite", number, m->emissive[i]);
-    return m->alpha_cutoff >= 0 || scene_fail(fault, "material %zu: alphaCutoff is negative", number);
+    return m->alpha_cutoff >= -rounding || scene_fail(fault, "material %zu: alphaCutoff is negative", number);
 }
 
 static bool check_light(const gltf_document *d, size_t number, scene_fault *fault)
@@ -258,8 +264,9 @@ static bool check_light(const gltf_document *d, size_t number, scene_fault *faul
     for (int i = 0; i < 3; ++i)
         if (!(light->color[i] >= 0 && isfinite(light->color[i] * light->intensity)))
             return scene_fail(fault, "light %zu: its colour or intensity is negative or not finite", number);
-    const bool cones = light->inner_cone_rad >= 0 && light->inner_cone_rad < light->outer_cone_rad &&
-                       light->outer_cone_rad <= 1.5707964; /* half of pi, as written with few digits */
+    const bool cones =
+        light->inner_cone_rad >= 0 && light->inner_cone_rad < light->outer_cone_rad &&
+        light->outer_cone_rad <= 1.5707964; /* half of pi, rounded up, since files write it with few digits */
     return (light->intensity >= 0 && light->range >= 0 && isfinite(light->range) &&
             (strcmp(light->type, "spot") != 0 || cones)) ||
            scene_fail(fault, "light %zu: its intensity, range or cone is out of range", number);
@@ -314,10 +321,13 @@ static bool check_scenes(const gltf_document *d, const int *parent, int *listed,
             const int node = d->scenes[s].nodes[i];
             if (!need_index(node, d->node_count, "scene", s, "node", fault))
                 return false;
-            if (parent[node] != -1)
-                return scene_fail(fault, "scene %zu: node %d is not a root", s, node);
-            if (listed[node] == (int)s + 1)
-                return scene_fail(fault, "scene %zu: node %d is named twice", s, node);
+            if (parent[node] != -1 &&
+                !scene_warn(d->warnings, fault, "scene %zu names nodes that are children of others; each is drawn once",
+                            s))
+                return false;
+            if (listed[node] == (int)s + 1 &&
+                !scene_warn(d->warnings, fault, "scene %zu names node %d twice; it is drawn once", s, node))
+                return false;
             listed[node] = (int)s + 1;
         }
     }

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * A glTF 2.0 file as it was written, in plain C: what tinygltf parsed, less what the examples do not draw. Nothing
- * has been checked yet when it comes from gltf_document_open(); after gltf_check() every index, range and count in it
- * holds, so that the rest of the loader may follow them freely. Indices are -1 where the file names none.
+ * A glTF 2.0 file in plain C, without the parts that the examples do not draw. Compressed geometry is unpacked: its
+ * accessors name buffer views that lie behind those of the file. gltf_document_open() checks types only; after
+ * gltf_check() every index, range and count in the document holds, so that the rest of the loader may follow them
+ * freely. Indices are -1 where the file names none.
  */
 #ifndef GLSSAO_EXAMPLES_GLTF_DOCUMENT_H
 #define GLSSAO_EXAMPLES_GLTF_DOCUMENT_H
@@ -10,13 +11,16 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "memory_budget.h"
+#include "scene.h"
 #include "scene_fault.h"
+#include "scene_warnings.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* glTF's numbers, which are OpenGL's. */
+/* glTF's component types and primitive modes, which are OpenGL's constants. */
 enum {
     GLTF_BYTE = 5120,
     GLTF_UNSIGNED_BYTE = 5121,
@@ -90,6 +94,7 @@ typedef struct gltf_mesh {
 
 typedef struct gltf_node {
     int mesh, skin, camera, light;
+    bool hidden; /* by KHR_node_visibility, which hides the node's descendants too */
     const int *children;
     size_t child_count;
     bool has_matrix;
@@ -113,7 +118,8 @@ typedef struct gltf_texture_use {
 
 typedef struct gltf_material {
     double base_color[4], metallic, roughness, normal_scale, occlusion_strength;
-    double emissive[3]; /* KHR_materials_emissive_strength multiplied in */
+    double emissive[3];  /* KHR_materials_emissive_strength multiplied in */
+    double transmission; /* KHR_materials_transmission */
     gltf_texture_use base_color_map, metallic_roughness_map, normal_map, occlusion_map, emissive_map;
     const char *alpha_mode;
     double alpha_cutoff;
@@ -133,6 +139,7 @@ typedef struct gltf_image {
     int buffer_view;
     const uint8_t *encoded; /* NULL: in the buffer view, or not found */
     size_t encoded_size;
+    const char *fault; /* why it was not found */
 } gltf_image;
 
 typedef struct gltf_camera {
@@ -164,7 +171,9 @@ typedef struct gltf_scene {
 /* Each list as pointer and length; the pointers lead into `owner`. */
 typedef struct gltf_document {
     void *owner;
-    size_t source_bytes; /* of the file and of the external files that it names */
+    size_t source_bytes;  /* of the file, of the external files that it names, and of what was unpacked */
+    memory_budget budget; /* what the file may still make the loader allocate */
+    scene_warnings *warnings;
     const char *version, *min_version;
     int default_scene;
     const gltf_buffer *buffers;
@@ -180,7 +189,8 @@ typedef struct gltf_document {
     const gltf_camera *cameras;
     const gltf_light *lights;
     const gltf_scene *scenes;
-    size_t animation_count; /* of which the first: */
+    size_t animation_count;
+    int animation; /* the chosen one, whose samplers and channels follow */
     const gltf_animation_sampler *animation_samplers;
     const gltf_animation_channel *animation_channels;
     size_t animation_sampler_count, animation_channel_count;
@@ -188,15 +198,17 @@ typedef struct gltf_document {
         texture_count, sampler_count, image_count, camera_count, light_count, scene_count;
 } gltf_document;
 
-/* Reads and parses the file. On failure false, with the fault set, and nothing to close. */
-bool gltf_document_open(gltf_document *out, const char *path, scene_fault *fault);
+/* Reads and parses the file, as the options say (NULL: the file as it stands). `warnings` must outlive the document. On
+ * failure false, with the fault set, and nothing to close. */
+bool gltf_document_open(gltf_document *out, const char *path, const scene_load_options *options,
+                        scene_warnings *warnings, scene_fault *fault);
 void gltf_document_close(gltf_document *document);
 
 /* True where every reference, range and count in the document holds, animations aside; otherwise the fault says which
- * does not. */
+ * does not. Factors may still be out of range by a rounding error. */
 bool gltf_check(const gltf_document *document, scene_fault *fault);
 
-/* The accessor of that name, -1 where the list has none. */
+/* The accessor of the attribute of that name, -1 if the list has none. */
 int gltf_find_attribute(const gltf_attribute_list *list, const char *name);
 
 /* Bytes of one component, 0 for a type that glTF does not have; of one element, columns aligned as glTF asks. */

@@ -1,64 +1,49 @@
 /* SPDX-License-Identifier: MIT
  *
- * Reading files, and the checks that come before parsing. tinygltf 2.7 reads eight bytes past a BIN chunk whose length
- * is wrong, recurses once per level of nested extras, and copies the BIN chunk for each buffer without a URI.
+ * Reads files, finds the chunks of a GLB, and checks how deep and how full the JSON is before it is parsed.
  */
-#ifndef _POSIX_C_SOURCE
-#define _POSIX_C_SOURCE 200809L /* fstat: a FIFO or a device must not be read */
-#endif
 #include "gltf_file.h"
 
-#include <errno.h>
-#include <fcntl.h>
+#include "read_file.h"
+
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
+#include <strings.h>
 #include <unistd.h>
 
-enum {
-    MOST_FILE_BYTES = INT32_MAX, /* tinygltf counts in int */
-    MOST_JSON_DEPTH = 64,
-    MOST_JSON_VALUES = 4 << 20,   /* a parsed value takes up to 150 bytes */
-    MOST_COPIED_BYTES = 256 << 20 /* of the BIN chunk, for buffers after the first */
-};
+enum { CHUNK_HEADER = 8, MOST_JSON_DEPTH = 64, JSON_VALUE_BYTES = 200 };
 
-/* Most elements of the arrays at the root; each becomes a structure of some hundred bytes to some kilobytes. */
-static const struct {
-    const char *name;
-    size_t most;
-} root_arrays[] = {{"buffers", 4096},   {"materials", 65536},         {"images", 65536}, {"textures", 65536},
-                   {"samplers", 65536}, {"cameras", 65536},           {"skins", 65536},  {"animations", 65536},
-                   {"scenes", 65536},   {"", 1 << 19 /* any other */}};
-
-uint8_t *gltf_read_file(const char *path, size_t limit, size_t *out_size, const char **out_reason)
+/* Recognises files that were fetched or packed wrongly by their first bytes; NULL for all others. */
+static const char *find_mistake(const uint8_t *data, size_t size)
 {
-    const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    struct stat about;
-    uint8_t *data = NULL;
-    *out_size = 0;
-    *out_reason = NULL;
-    if (file < 0 || fstat(file, &about) != 0)
-        *out_reason = strerror(errno);
-    else if (!S_ISREG(about.st_mode))
-        *out_reason = "not a regular file";
-    else if ((uintmax_t)about.st_size > limit)
-        *out_reason = "too large";
-    else if (!(data = malloc((size_t)about.st_size + 1)))
-        *out_reason = "not enough memory";
-    while (data && *out_size < (size_t)about.st_size) {
-        const ssize_t got = read(file, data + *out_size, (size_t)about.st_size - *out_size);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got <= 0) {
-            *out_reason = got < 0 ? strerror(errno) : "the file became shorter while it was read";
-            free(data);
-            data = NULL;
-            break;
-        }
-        *out_size += (size_t)got;
+    static const struct {
+        const char *begin, *meaning;
+    } mistakes[] = {
+        {"version https://git-lfs", "this is a Git LFS pointer, not the file itself: fetch it with \"git lfs pull\""},
+        {"<!doctype html", "this is an HTML page: the download was probably answered by a web page"},
+        {"<html", "this is an HTML page: the download was probably answered by a web page"},
+        {"\x1f\x8b\x08", "this is compressed with gzip: unpack it first"},
+        {"PK\x03\x04", "this is a ZIP archive: unpack it first"},
+    };
+    for (size_t i = 0; i < sizeof mistakes / sizeof *mistakes; ++i) {
+        const size_t length = strlen(mistakes[i].begin);
+        if (size >= length && !strncasecmp((const char *)data, mistakes[i].begin, length))
+            return mistakes[i].meaning;
     }
-    if (file >= 0)
-        close(file);
+    return NULL;
+}
+
+uint8_t *gltf_read_file(const char *path, uint64_t limit, size_t *out_size, const char **out_reason)
+{
+    const size_t most = limit < SIZE_MAX / 4 ? (size_t)limit : SIZE_MAX / 4;
+    uint8_t *data = strcmp(path, "-") != 0 ? read_file(path, most, out_size, out_reason)
+                                           : read_stream(STDIN_FILENO, most, out_size, out_reason);
+    const char *mistake = data ? find_mistake(data, *out_size) : NULL;
+    if (mistake) {
+        *out_reason = mistake;
+        free(data);
+        data = NULL;
+    }
     return data;
 }
 
@@ -68,47 +53,49 @@ const char *gltf_file_name(const char *path)
     return slash ? slash + 1 : path;
 }
 
-bool gltf_uri_is_local(const char *uri)
-{
-    if (!*uri || *uri == '/' || strpbrk(uri, "\\:"))
-        return false;
-    for (const char *segment = uri; segment; segment = strchr(segment, '/')) {
-        segment += *segment == '/';
-        if (!strncmp(segment, "..", 2) && (!segment[2] || segment[2] == '/'))
-            return false;
-    }
-    return true;
-}
-
 static size_t read_u32(const uint8_t *at)
 {
     return (size_t)at[0] | (size_t)at[1] << 8 | (size_t)at[2] << 16 | (size_t)at[3] << 24;
 }
 
-static void write_u32(uint8_t *at, size_t value)
-{
-    for (int i = 0; i < 4; ++i)
-        at[i] = (uint8_t)(value >> 8 * i);
-}
-
 /* The chunk at `at`: its payload's size. False where it does not lie inside the file. */
 static bool read_chunk(const gltf_file *f, size_t at, int number, size_t *out_size, scene_fault *fault)
 {
-    if (f->size - at < 8)
+    if (f->size - at < CHUNK_HEADER)
         return scene_fail(fault, "GLB chunk %d: its header is cut short", number);
     *out_size = read_u32(f->data + at);
-    if (*out_size > f->size - at - 8)
-        return scene_fail(fault, "GLB chunk %d: %zu bytes said, %zu left in the file", number, *out_size,
-                          f->size - at - 8);
-    if (*out_size % 4)
-        return scene_fail(fault, "GLB chunk %d: %zu bytes, not a multiple of 4", number, *out_size);
+    return *out_size <= f->size - at - CHUNK_HEADER ||
+           scene_fail(fault, "GLB chunk %d: %zu bytes said, %zu left in the file", number, *out_size,
+                      f->size - at - CHUNK_HEADER);
+}
+
+static bool is_bin_chunk(const gltf_file *f, size_t at)
+{
+    return at <= f->size && f->size - at >= CHUNK_HEADER && !memcmp(f->data + at + 4, "BIN", 4);
+}
+
+/* Chunks should be multiples of 4 bytes long. Of writers that forget it, some put the next chunk right behind, others
+ * where it would have to be. */
+static bool find_bin(gltf_file *f, size_t at, scene_fault *fault)
+{
+    const size_t aligned = (at + 3) / 4 * 4;
+    at = is_bin_chunk(f, at) ? at : aligned;
+    if (at >= f->size)
+        return true;
+    size_t size = 0;
+    if (!read_chunk(f, at, 1, &size, fault))
+        return false;
+    f->unaligned = f->unaligned || size % 4;
+    if (is_bin_chunk(f, at)) {
+        f->bin_begin = at + CHUNK_HEADER;
+        f->bin_size = size;
+    }
     return true;
 }
 
-/* Finds the JSON and BIN chunks, and hides what follows them, which tinygltf would refuse. */
 static bool check_glb(gltf_file *f, scene_fault *fault)
 {
-    enum { HEADER = 12, CHUNK_HEADER = 8, JSON = 0x4e4f534a, BIN = 0x004e4942 };
+    enum { HEADER = 12 };
     if (f->size < HEADER)
         return scene_fail(fault, "the GLB header is cut short");
     if (read_u32(f->data + 4) != 2)
@@ -120,123 +107,68 @@ static bool check_glb(gltf_file *f, scene_fault *fault)
     f->size = read_u32(f->data + 8); /* what follows is not part of it */
     if (!read_chunk(f, HEADER, 0, &f->json_size, fault))
         return false;
-    if (read_u32(f->data + HEADER + 4) != JSON)
+    if (memcmp(f->data + HEADER + 4, "JSON", 4) != 0)
         return scene_fail(fault, "GLB chunk 0 is not JSON");
     f->json_begin = HEADER + CHUNK_HEADER;
-    const size_t second = f->json_begin + f->json_size;
-    size_t end = second;
-    if (second < f->size) {
-        size_t size = 0;
-        if (!read_chunk(f, second, 1, &size, fault))
-            return false;
-        if (read_u32(f->data + second + 4) == BIN && size) {
-            f->bin_size = size;
-            end += CHUNK_HEADER + size;
-        }
-    }
-    f->size = end;
-    write_u32(f->data + 8, end);
-    return true;
-}
-
-/* What the scan of the JSON text knows. */
-typedef struct json_scan {
-    size_t depth, values;
-    const char *name; /* the last string at the root, which names what follows */
-    size_t name_size;
-    size_t limit, elements; /* of the root's array that is being read */
-    bool in_buffers;
-} json_scan;
-
-/* A name written with escapes would pass by the limits. */
-static bool enter_root_array(json_scan *scan, scene_fault *fault)
-{
-    if (scan->name_size && memchr(scan->name, '\\', scan->name_size))
-        return scene_fail(fault, "JSON: a name at the root is written with escapes");
-    size_t i = 0;
-    while (*root_arrays[i].name && (strlen(root_arrays[i].name) != scan->name_size ||
-                                    memcmp(root_arrays[i].name, scan->name, scan->name_size) != 0))
-        ++i;
-    scan->limit = root_arrays[i].most;
-    scan->in_buffers = i == 0;
-    scan->elements = 1;
-    return true;
+    f->unaligned = f->json_size % 4;
+    return find_bin(f, f->json_begin + f->json_size, fault);
 }
 
 /* Moves `at` from the string's first quote to its last; false where it does not end. */
-static bool skip_string(const char *text, size_t size, size_t *at, json_scan *scan, scene_fault *fault)
+static bool skip_string(const char *text, size_t size, size_t *at, scene_fault *fault)
 {
-    const size_t begin = *at + 1;
-    size_t end = begin;
+    size_t end = *at + 1;
     while (end < size && text[end] != '"')
         end += text[end] == '\\' ? 2 : 1;
     if (end >= size)
         return scene_fail(fault, "JSON: a string does not end");
-    if (scan->depth == 1) {
-        scan->name = text + begin;
-        scan->name_size = end - begin;
-    }
     *at = end;
     return true;
 }
 
-static bool count_value(json_scan *scan, const gltf_file *f, scene_fault *fault)
-{
-    if (++scan->values > MOST_JSON_VALUES)
-        return scene_fail(fault, "JSON: more than %d values", MOST_JSON_VALUES);
-    if (scan->depth == 2 && scan->elements > scan->limit)
-        return scene_fail(fault, "JSON: more than %zu %.*s", scan->limit, (int)scan->name_size, scan->name);
-    if (scan->depth == 2 && scan->in_buffers && f->bin_size && scan->elements - 1 > MOST_COPIED_BYTES / f->bin_size)
-        return scene_fail(fault, "JSON: too many buffers for a BIN chunk of %zu bytes", f->bin_size);
-    return true;
-}
-
-/* Depth and counts only: whether it is JSON at all is the parser's to say. */
-static bool check_json(const gltf_file *f, scene_fault *fault)
+/* Checks only the depth and the number of values; the parser checks the syntax. A parsed value and the structure built
+ * from it take up to JSON_VALUE_BYTES. */
+static bool check_json(const gltf_file *f, memory_budget *budget, scene_fault *fault)
 {
     const char *text = (const char *)f->data + f->json_begin;
-    json_scan scan = {0};
+    size_t depth = 0, values = 0;
     for (size_t at = 0; at < f->json_size; ++at) {
         switch (text[at]) {
         case '"':
-            if (!skip_string(text, f->json_size, &at, &scan, fault))
+            if (!skip_string(text, f->json_size, &at, fault))
                 return false;
             break;
         case '{':
         case '[':
-            if (++scan.depth > MOST_JSON_DEPTH)
+            if (++depth > MOST_JSON_DEPTH)
                 return scene_fail(fault, "JSON: nested more than %d deep", MOST_JSON_DEPTH);
-            if (scan.depth == 2 && !enter_root_array(&scan, fault))
-                return false;
-            if (!count_value(&scan, f, fault))
-                return false;
+            ++values;
             break;
         case ',':
-            scan.elements += scan.depth == 2;
-            if (!count_value(&scan, f, fault))
-                return false;
+            ++values;
             break;
         case '}':
         case ']':
-            scan.depth -= scan.depth > 0;
+            depth -= depth > 0;
             break;
         default:
             break;
         }
     }
-    return true;
+    return memory_budget_charge(budget, (uint64_t)values * JSON_VALUE_BYTES, "its JSON", fault);
 }
 
-bool gltf_file_open(gltf_file *out, const char *path, scene_fault *fault)
+bool gltf_file_open(gltf_file *out, const char *path, memory_budget *budget, scene_fault *fault)
 {
     const char *reason = NULL;
     memset(out, 0, sizeof *out);
-    out->data = gltf_read_file(path, MOST_FILE_BYTES, &out->size, &reason);
+    out->data = gltf_read_file(path, budget->left, &out->size, &reason);
     if (!out->data)
         return scene_fail(fault, "%s", reason);
     out->binary = out->size >= 4 && !memcmp(out->data, "glTF", 4);
     out->json_size = out->size;
-    if (out->size && (!out->binary || check_glb(out, fault)) && check_json(out, fault))
+    if (out->size && memory_budget_charge(budget, out->size, "the file", fault) &&
+        (!out->binary || check_glb(out, fault)) && check_json(out, budget, fault))
         return true;
     scene_fail(fault, "the file is empty");
     free(out->data);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * What has to hold before tinygltf may see a file: it is a regular file of a sane size, a GLB's chunks lie inside it,
- * and its JSON is neither nested so deeply nor so full that parsing would take the stack or the memory.
+ * A glTF file's bytes: its JSON, and the BIN chunk of a GLB. Whatever is found here lies inside the file, and the JSON
+ * is neither nested so deeply nor so full that parsing it would take the stack or the memory.
  */
 #ifndef GLSSAO_EXAMPLES_GLTF_FILE_H
 #define GLSSAO_EXAMPLES_GLTF_FILE_H
@@ -9,6 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "memory_budget.h"
 #include "scene_fault.h"
 
 #ifdef __cplusplus
@@ -17,25 +18,23 @@ extern "C" {
 
 typedef struct gltf_file {
     uint8_t *data;
-    size_t size;       /* what tinygltf is to see: without chunks it does not know */
-    bool binary;       /* GLB */
-    size_t json_begin; /* where the JSON lies in `data` */
-    size_t json_size;
-    size_t bin_size; /* of the GLB's BIN chunk */
+    size_t size;
+    bool binary;                  /* GLB */
+    bool unaligned;               /* a chunk's length is no multiple of 4 */
+    size_t json_begin, json_size; /* in `data` */
+    size_t bin_begin, bin_size;   /* of the GLB's BIN chunk; 0: no such chunk */
 } gltf_file;
 
-/* The whole of a regular file of at most `limit` bytes, to be freed by the caller; never NULL for an empty one. NULL on
- * failure, with the reason in words. */
-uint8_t *gltf_read_file(const char *path, size_t limit, size_t *out_size, const char **out_reason);
+/* Reads a regular file of at most `limit` bytes, or standard input if the path is "-". The caller frees the result,
+ * which is not NULL for an empty file. NULL on failure, with the reason in words. Git LFS pointers, HTML pages, gzip
+ * and ZIP files are refused. */
+uint8_t *gltf_read_file(const char *path, uint64_t limit, size_t *out_size, const char **out_reason);
 
 /* Reads a .gltf or .glb file, told apart by its first bytes, and checks it. The caller frees `data`. */
-bool gltf_file_open(gltf_file *out, const char *path, scene_fault *fault);
+bool gltf_file_open(gltf_file *out, const char *path, memory_budget *budget, scene_fault *fault);
 
 /* Where the name part of a path begins. */
 const char *gltf_file_name(const char *path);
-
-/* Whether a decoded URI names a file in the glTF file's own folder or below: relative, no scheme, no "..". */
-bool gltf_uri_is_local(const char *uri);
 
 #ifdef __cplusplus
 }

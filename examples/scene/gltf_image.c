@@ -1,47 +1,100 @@
 /* SPDX-License-Identifier: MIT
  *
- * Images: found, measured and decoded only for what is drawn. Only PNG and JPEG, as glTF says: what else the decoder
- * would take never reaches it, nor does an image whose header asks for more pixels than allowed.
+ * Decodes the images of materials that are drawn. An image that is missing or cannot be decoded is left out with a
+ * warning, and the material keeps its factor alone.
  */
-#include "gltf_decode.h"
 #include "gltf_loader.h"
+#include "image_decode.h"
 #include "image_header.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum { MOST_SIDE = 16384 };
 
-/* Fails with a fault that names the image by number and name. */
-static int fail_image(gltf_loader *l, int number, const char *what)
+typedef struct image_bytes {
+    const uint8_t *data;
+    size_t size;
+} image_bytes;
+
+static image_bytes find_bytes(const gltf_document *d, const gltf_image *from)
 {
-    const char *name = l->document->images[number].name;
-    scene_fail(l->fault, *name ? "image %d (%.120s): %s" : "image %d%s: %s", number, name, what);
-    return -1;
+    if (from->buffer_view < 0)
+        return (image_bytes){from->encoded, from->encoded_size};
+    const gltf_buffer_view *view = &d->buffer_views[from->buffer_view];
+    return (image_bytes){d->buffers[view->buffer].data + view->offset, view->length};
 }
 
-int gltf_add_image(gltf_loader *l, int number)
+/* Why this build cannot decode images of that kind; NULL if it can. */
+static const char *find_obstacle(image_kind kind)
 {
-    const gltf_document *d = l->document;
-    const gltf_image *from = &d->images[number];
-    if (l->image_map[number] >= 0)
-        return l->image_map[number];
-    const uint8_t *data = from->encoded;
-    size_t size = from->encoded_size;
-    if (from->buffer_view >= 0) {
-        const gltf_buffer_view *view = &d->buffer_views[from->buffer_view];
-        data = d->buffers[view->buffer].data + view->offset;
-        size = view->length;
+    switch (kind) {
+    case IMAGE_PNG:
+    case IMAGE_JPEG:
+        return NULL;
+    case IMAGE_WEBP:
+        return GLSSAO_HAS_WEBP ? NULL
+                               : "WebP needs libwebp, which this program was built without (Debian: libwebp-dev)";
+    case IMAGE_KTX2:
+        return "KTX 2 with Basis Universal, which this program has no decoder for";
+    case IMAGE_AVIF:
+        return "AVIF, which this program has no decoder for";
+    case IMAGE_DDS:
+        return "DDS, which this program has no decoder for";
+    default:
+        return "neither PNG, JPEG nor WebP";
     }
-    if (!data)
-        return fail_image(l, number, "it is missing, or not a file in the glTF file's folder");
+}
+
+/* NULL, or why there is no image; the fault is set where the whole file fails. */
+static const char *decode(gltf_loader *l, const gltf_image *from, scene_image *out)
+{
+    const image_bytes bytes = find_bytes(l->document, from);
+    if (!bytes.data)
+        return from->fault ? from->fault : "it has no bytes";
+    const char *obstacle = find_obstacle(image_find_kind(bytes.data, bytes.size));
     unsigned width = 0, height = 0;
-    if (!image_measure(data, size, &width, &height))
-        return fail_image(l, number, "neither a sound PNG nor a JPEG");
+    if (obstacle)
+        return obstacle;
+    if (!image_measure(bytes.data, bytes.size, &width, &height))
+        return "its head is damaged";
     if (width > MOST_SIDE || height > MOST_SIDE)
-        return fail_image(l, number, "too large, more than 16384 pixels on a side");
-    if ((uint64_t)width * height > l->pixels_left)
-        return fail_image(l, number, "too many pixels in all images together");
+        return "too large, more than 16384 pixels on a side";
+    if (!memory_budget_charge(&l->document->budget, 4 * (uint64_t)width * height, "the file's images", l->fault))
+        return NULL;
+    if (!image_decode(bytes.data, bytes.size, &out->width, &out->height, &out->rgba))
+        return "it cannot be decoded";
+    return NULL;
+}
+
+static bool is_opaque(const scene_image *image)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height;
+    uint8_t least = 255;
+    for (size_t i = 0; i < count; ++i)
+        least = image->rgba[4 * i + 3] < least ? image->rgba[4 * i + 3] : least;
+    return least == 255;
+}
+
+bool gltf_add_image(gltf_loader *l, int number, int *out_image)
+{
+    enum { LEFT_OUT = -2 };
+    int *made = &l->image_map[number];
+    *out_image = *made >= 0 ? *made : -1;
+    if (*made >= 0 || *made == LEFT_OUT)
+        return true;
+    const gltf_image *from = &l->document->images[number];
     scene_image image = {0};
-    if (!gltf_decode_image(data, size, &image.width, &image.height, &image.rgba))
-        return fail_image(l, number, "it cannot be decoded");
-    l->pixels_left -= (uint64_t)width * height;
-    return l->image_map[number] = scene_builder_add_image(l->builder, &image);
+    const char *fault = decode(l, from, &image);
+    if (l->fault->set)
+        return false;
+    if (fault) {
+        *made = LEFT_OUT;
+        return scene_warn(l->document->warnings, l->fault, *from->name ? "image %d (%.120s): %s" : "image %d%s: %s",
+                          number, from->name, fault);
+    }
+    image.opaque = is_opaque(&image);
+    *made = *out_image = scene_builder_add_image(l->builder, &image);
+    return *made >= 0;
 }

@@ -26,6 +26,14 @@ static uint32_t read_bits(const uint8_t *at, size_t size)
     return bits;
 }
 
+static bool is_little_endian(void)
+{
+    const uint16_t one = 1;
+    uint8_t first;
+    memcpy(&first, &one, 1);
+    return first;
+}
+
 static float read_component(const uint8_t *at, int type, bool normalized)
 {
     const uint32_t bits = read_bits(at, gltf_component_size(type));
@@ -110,8 +118,17 @@ static void *read_accessor(gltf_loader *l, int number, int components, bool norm
         const size_t given = l->document->buffer_views[a->buffer_view].stride;
         const size_t stride = given ? given : gltf_element_size(a);
         const uint8_t *at = view_data(l->document, a->buffer_view) + a->offset;
-        for (size_t i = 0; i < a->count; ++i)
-            put_element(out, i, at + i * stride, a, normalized, put);
+        const size_t row = (size_t)components * sizeof(float);
+        const bool as_is = a->columns == 1 && (put == put_float ? a->component_type == GLTF_FLOAT
+                                                                : a->component_type == GLTF_UNSIGNED_INT);
+        if (as_is && stride == row && is_little_endian())
+            memcpy(out, at, row * a->count);
+        else if (as_is && is_little_endian())
+            for (size_t i = 0; i < a->count; ++i)
+                memcpy((char *)out + i * row, at + i * stride, row);
+        else
+            for (size_t i = 0; i < a->count; ++i)
+                put_element(out, i, at + i * stride, a, normalized, put);
     }
     if (a->sparse.count && !read_sparse(l, number, out, normalized, put)) {
         free(out);

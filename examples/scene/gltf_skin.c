@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * A skin's pose as the nodes stand in the file, baked into the vertices: each goes to world space by the weighted mean
- * of its joints' matrices. The transform of the node that draws the mesh plays no part, as glTF says.
+ * Bakes a skin's pose into the vertices: the weighted mean of its joints' matrices takes each vertex to world space.
+ * As glTF says, the transform of the node that draws the mesh is ignored.
  */
 #include <math.h>
 #include <stdio.h>
@@ -19,13 +19,13 @@ typedef struct joint_sets {
 } joint_sets;
 
 /* Column-major; the last row is 0, 0, 0, 1. */
-static void multiply(const float a[16], const float b[16], double out[16])
+static void multiply(const double a[16], const float b[16], double out[16])
 {
     for (int c = 0; c < 4; ++c)
         for (int r = 0; r < 4; ++r) {
             double sum = 0;
             for (int k = 0; k < 4; ++k)
-                sum += (double)a[4 * k + r] * (double)b[4 * c + k];
+                sum += a[4 * k + r] * (double)b[4 * c + k];
             out[4 * c + r] = sum;
         }
 }
@@ -78,7 +78,7 @@ static bool read_sets(gltf_loader *l, const gltf_vertices *v, joint_sets *sets)
 
 /* The weighted mean of a vertex's joints; `fallback` where it has no weight. */
 static bool blend(gltf_loader *l, const joint_sets *sets, uint32_t vertex, double (*joints)[16], int skin,
-                  const float fallback[16], double out[16])
+                  const double fallback[16], double out[16])
 {
     const size_t joint_count = l->document->skins[skin].joint_count;
     double total = 0;
@@ -96,12 +96,12 @@ static bool blend(gltf_loader *l, const joint_sets *sets, uint32_t vertex, doubl
         total += weight;
     }
     for (int m = 0; m < 16; ++m)
-        out[m] = total > 0 ? out[m] / total : (double)fallback[m];
+        out[m] = total > 0 ? out[m] / total : fallback[m];
     return true;
 }
 
 /* Moves one vertex; the sign of the matrix's determinant is returned. Normals go by its cofactors, times that sign. */
-static int pose_vertex(const double m[16], float *position, float *normal)
+static int pose_vertex(const double m[16], const double p[3], double *out_position, float *normal)
 {
     double cofactors[9], determinant = 0;
     for (int c = 0; c < 3; ++c) {
@@ -112,9 +112,8 @@ static int pose_vertex(const double m[16], float *position, float *normal)
     for (int r = 0; r < 3; ++r)
         determinant += m[r] * cofactors[r];
     const int sign = determinant < 0 ? -1 : 1;
-    const double p[3] = {(double)position[0], (double)position[1], (double)position[2]};
     for (int r = 0; r < 3; ++r)
-        position[r] = (float)(m[r] * p[0] + m[4 + r] * p[1] + m[8 + r] * p[2] + m[12 + r]);
+        out_position[r] = m[r] * p[0] + m[4 + r] * p[1] + m[8 + r] * p[2] + m[12 + r];
     if (normal) {
         const double n[3] = {(double)normal[0], (double)normal[1], (double)normal[2]};
         for (int r = 0; r < 3; ++r)
@@ -123,23 +122,36 @@ static int pose_vertex(const double m[16], float *position, float *normal)
     return sign;
 }
 
-bool gltf_pose_skin(gltf_loader *l, gltf_vertices *v, int skin, size_t node)
+/* Poses all vertices into `world`, in double precision: the joints may stand far from zero. */
+static bool pose_all(gltf_loader *l, gltf_vertices *v, int skin, size_t node, double (*joints)[16], double (*world)[3])
 {
     joint_sets sets = {0};
-    double(*joints)[16] = read_joints(l, skin);
-    bool ok = joints && read_sets(l, v, &sets);
+    bool ok = read_sets(l, v, &sets);
     int64_t signs = 0;
     for (uint32_t i = 0; ok && i < v->count; ++i) {
-        double matrix[16];
+        double matrix[16], rest[3];
+        for (int axis = 0; axis < 3; ++axis)
+            rest[axis] = (double)v->positions[i][axis] + v->center[axis];
         ok = blend(l, &sets, i, joints, skin, l->world_from_node[node], matrix);
         if (ok)
-            signs += pose_vertex(matrix, v->positions[i], v->normals ? v->normals[i] : NULL);
+            signs += pose_vertex(matrix, rest, world[i], v->normals ? v->normals[i] : NULL);
     }
     v->mirrored = signs < 0;
     for (int set = 0; set < MOST_SETS; ++set) {
         free(sets.joints[set]);
         free(sets.weights[set]);
     }
+    return ok;
+}
+
+bool gltf_pose_skin(gltf_loader *l, gltf_vertices *v, int skin, size_t node)
+{
+    double(*joints)[16] = read_joints(l, skin);
+    double(*world)[3] = joints ? malloc(((size_t)v->count + 1) * sizeof *world) : NULL;
+    const bool ok = joints && (world || scene_fail_memory(l->fault)) && pose_all(l, v, skin, node, joints, world);
+    if (ok)
+        gltf_center_vertices(v, world);
+    free(world);
     free(joints);
     return ok;
 }

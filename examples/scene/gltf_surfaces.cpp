@@ -1,90 +1,144 @@
 // SPDX-License-Identifier: MIT
 //
-// Materials, images, cameras and lights, from tinygltf's model to gltf_document.h.
-#include "gltf_translate.h"
+// Materials, textures, samplers, cameras and lights.
+#include "gltf_owner.h"
+
+#include <algorithm>
+#include <iterator>
 
 namespace
 {
 
-// Of a TextureInfo, and of those for normals and occlusion, which share its members.
-template <typename Info> gltf_texture_use translate_use(const Info &from)
+gltf_texture_use read_use(const gltf_object &owner, const char *member)
 {
     gltf_texture_use out{};
-    out.texture = from.index;
-    out.uv_set = from.texCoord;
+    const gltf_object from = owner.object(member);
+    out.texture = from.index("index");
+    out.uv_set = from.find("texCoord") ? from.index("texCoord") : 0;
     out.scale[0] = out.scale[1] = 1;
-    if (const tinygltf::Value *transform = find_extension(from.extensions, "KHR_texture_transform")) {
-        copy_member(*transform, "offset", out.offset);
-        copy_member(*transform, "scale", out.scale);
-        if (transform->Has("rotation"))
-            out.rotation = transform->Get("rotation").GetNumberAsDouble();
-        out.uv_set = index_member(*transform, "texCoord", out.uv_set);
+    if (from.uses("KHR_texture_transform")) {
+        const gltf_object transform = from.extension("KHR_texture_transform");
+        transform.numbers("offset", out.offset);
+        transform.numbers("scale", out.scale);
+        out.rotation = transform.number("rotation", 0);
+        out.uv_set = transform.find("texCoord") ? transform.index("texCoord") : out.uv_set;
     }
     return out;
 }
 
-} // namespace
-
-bool gltf_translate(const tinygltf::Material &from, size_t number, gltf_material *out, scene_fault *fault)
+// The diffuse part of KHR_materials_pbrSpecularGlossiness, where it stands alone.
+void read_specular_glossiness(const gltf_object &from, gltf_material *out)
 {
-    const tinygltf::PbrMetallicRoughness &pbr = from.pbrMetallicRoughness;
-    std::fill(out->base_color, out->base_color + 4, 1.0);
-    if (!copy_numbers(pbr.baseColorFactor, out->base_color))
-        return scene_fail(fault, "material %zu: its baseColorFactor does not have four numbers", number);
-    if (!copy_numbers(from.emissiveFactor, out->emissive))
-        return scene_fail(fault, "material %zu: its emissiveFactor does not have three numbers", number);
-    if (const tinygltf::Value *emission = find_extension(from.extensions, "KHR_materials_emissive_strength"))
-        for (double &channel : out->emissive)
-            channel *= emission->Has("emissiveStrength") ? emission->Get("emissiveStrength").GetNumberAsDouble() : 1;
-    out->base_color_map = translate_use(pbr.baseColorTexture);
-    out->metallic_roughness_map = translate_use(pbr.metallicRoughnessTexture);
-    out->normal_map = translate_use(from.normalTexture);
-    out->occlusion_map = translate_use(from.occlusionTexture);
-    out->emissive_map = translate_use(from.emissiveTexture);
-    out->metallic = pbr.metallicFactor;
-    out->roughness = pbr.roughnessFactor;
-    out->normal_scale = from.normalTexture.scale;
-    out->occlusion_strength = from.occlusionTexture.strength;
-    out->alpha_mode = from.alphaMode.c_str();
-    out->alpha_cutoff = from.alphaCutoff;
-    out->double_sided = from.doubleSided;
-    out->unlit = find_extension(from.extensions, "KHR_materials_unlit") != nullptr;
-    return true;
+    const gltf_object extension = from.extension("KHR_materials_pbrSpecularGlossiness");
+    extension.numbers("diffuseFactor", out->base_color);
+    out->base_color_map = read_use(extension, "diffuseTexture");
+    out->metallic = 0;
+    out->roughness = 1 - extension.number("glossinessFactor", 1);
 }
 
-gltf_image gltf_translate(const tinygltf::Image &from)
+gltf_material read_material(const gltf_object &from, gltf_owner *owner)
 {
-    gltf_image out{};
-    // A data URI with a type that tinygltf does not know ends up here as if it were a file's name.
-    const bool has_file_name = !from.uri.empty() && from.uri.compare(0, 5, "data:") != 0;
-    out.name = has_file_name ? from.uri.c_str() : from.name.c_str();
-    out.buffer_view = from.bufferView;
-    out.encoded = from.image.empty() ? nullptr : from.image.data();
-    out.encoded_size = from.image.size();
+    gltf_material out{};
+    const gltf_object pbr = from.object("pbrMetallicRoughness");
+    std::fill(std::begin(out.base_color), std::end(out.base_color), 1.0);
+    pbr.numbers("baseColorFactor", out.base_color);
+    from.numbers("emissiveFactor", out.emissive);
+    const double strength = from.extension("KHR_materials_emissive_strength").number("emissiveStrength", 1);
+    for (double &channel : out.emissive)
+        channel *= strength;
+    out.base_color_map = read_use(pbr, "baseColorTexture");
+    out.metallic_roughness_map = read_use(pbr, "metallicRoughnessTexture");
+    out.normal_map = read_use(from, "normalTexture");
+    out.occlusion_map = read_use(from, "occlusionTexture");
+    out.emissive_map = read_use(from, "emissiveTexture");
+    out.metallic = pbr.number("metallicFactor", 1);
+    out.roughness = pbr.number("roughnessFactor", 1);
+    out.normal_scale = from.object("normalTexture").number("scale", 1);
+    out.occlusion_strength = from.object("occlusionTexture").number("strength", 1);
+    out.transmission = from.extension("KHR_materials_transmission").number("transmissionFactor", 0);
+    out.alpha_mode = owner->keep(from.text("alphaMode", "OPAQUE"));
+    out.alpha_cutoff = from.number("alphaCutoff", 0.5);
+    out.double_sided = from.flag("doubleSided");
+    out.unlit = from.uses("KHR_materials_unlit");
+    if (!from.find("pbrMetallicRoughness") && from.uses("KHR_materials_pbrSpecularGlossiness"))
+        read_specular_glossiness(from, &out);
     return out;
 }
 
-gltf_camera gltf_translate(const tinygltf::Camera &from)
+// The image that can be decoded: WebP where this build can, else the one that glTF itself knows.
+gltf_texture read_texture(const gltf_object &from)
+{
+    gltf_texture out{};
+    out.sampler = from.index("sampler");
+    out.image = from.index("source");
+    if (from.uses("EXT_texture_webp") && (GLSSAO_HAS_WEBP || out.image == -1))
+        out.image = from.extension("EXT_texture_webp").index("source");
+    static const char *const others[] = {"KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"};
+    for (const char *other : others)
+        if (out.image == -1 && from.uses(other))
+            out.image = from.extension(other).index("source");
+    return out;
+}
+
+gltf_sampler read_sampler(const gltf_object &from)
+{
+    const int repeat = 10497;
+    gltf_sampler out{};
+    out.min_filter = from.index("minFilter");
+    out.mag_filter = from.index("magFilter");
+    out.wrap_s = from.find("wrapS") ? from.index("wrapS") : repeat;
+    out.wrap_t = from.find("wrapT") ? from.index("wrapT") : repeat;
+    return out;
+}
+
+gltf_camera read_camera(const gltf_object &from, gltf_owner *owner)
 {
     gltf_camera out{};
-    out.name = from.name.c_str();
-    out.orthographic = from.type == "orthographic";
-    out.fov_y_rad = from.perspective.yfov;
-    out.x_mag = from.orthographic.xmag;
-    out.y_mag = from.orthographic.ymag;
-    out.near_plane = out.orthographic ? from.orthographic.znear : from.perspective.znear;
-    out.far_plane = out.orthographic ? from.orthographic.zfar : from.perspective.zfar;
+    out.name = owner->keep(from.text("name", ""));
+    out.orthographic = from.text("type", "") == "orthographic";
+    const gltf_object lens = from.object(out.orthographic ? "orthographic" : "perspective");
+    out.fov_y_rad = lens.number("yfov", 0);
+    out.x_mag = lens.number("xmag", 0);
+    out.y_mag = lens.number("ymag", 0);
+    out.near_plane = lens.number("znear", 0);
+    out.far_plane = lens.number("zfar", 0);
     return out;
 }
 
-bool gltf_translate(const tinygltf::Light &from, size_t number, gltf_light *out, scene_fault *fault)
+gltf_light read_light(const gltf_object &from, gltf_owner *owner)
 {
-    std::fill(out->color, out->color + 3, 1.0);
-    out->type = from.type.c_str();
-    out->intensity = from.intensity;
-    out->range = from.range;
-    out->inner_cone_rad = from.spot.innerConeAngle;
-    out->outer_cone_rad = from.spot.outerConeAngle;
-    return copy_numbers(from.color, out->color) ||
-           scene_fail(fault, "light %zu: its color does not have three numbers", number);
+    gltf_light out{};
+    const gltf_object spot = from.object("spot");
+    std::fill(std::begin(out.color), std::end(out.color), 1.0);
+    from.numbers("color", out.color);
+    out.type = owner->keep(from.text("type", ""));
+    out.intensity = from.number("intensity", 1);
+    out.range = from.number("range", 0);
+    out.inner_cone_rad = spot.number("innerConeAngle", 0);
+    out.outer_cone_rad = spot.number("outerConeAngle", 0.7853981633974483);
+    return out;
+}
+
+template <typename T, typename Read> void read_list(const json &list, const char *name, std::vector<T> *out, Read read)
+{
+    for (size_t i = 0; i < list.size(); ++i)
+        out->push_back(read(gltf_object(list[i], std::string(name) + " " + std::to_string(i))));
+}
+
+} // namespace
+
+void gltf_read_surfaces(gltf_owner *owner, const gltf_object &root)
+{
+    read_list(root.list("materials"), "material", &owner->materials,
+              [&](const gltf_object &from) { return read_material(from, owner); });
+    read_list(root.list("textures"), "texture", &owner->textures, read_texture);
+    read_list(root.list("samplers"), "sampler", &owner->samplers, read_sampler);
+}
+
+void gltf_read_views(gltf_owner *owner, const gltf_object &root)
+{
+    read_list(root.list("cameras"), "camera", &owner->cameras,
+              [&](const gltf_object &from) { return read_camera(from, owner); });
+    read_list(root.extension("KHR_lights_punctual").list("lights"), "light", &owner->lights,
+              [&](const gltf_object &from) { return read_light(from, owner); });
 }

@@ -40,15 +40,15 @@ static uint32_t vertex_with(gltf_loader *l, uint32_t index, const float tangent[
         at = copy_of[at];
     } while (at);
     uint32_t made;
-    if (!l->vertices_left) {
-        scene_fail(l->fault, "too many vertices");
+    if (!memory_budget_charge(&l->document->budget, sizeof(scene_vertex), "the file's vertices", l->fault))
         return UINT32_MAX;
-    }
-    l->vertices_left--;
     scene_vertex *to = scene_builder_add_vertices(l->builder, 1, &made);
     if (!to || !scene_builder_tangents(l->builder))
         return UINT32_MAX;
     *to = l->builder->made->vertices[index];
+    float(*more)[2][2] = l->builder->made->more_uvs ? scene_builder_more_uvs(l->builder) : NULL;
+    if (more)
+        memcpy(more[made], more[index], sizeof more[made]);
     copy_of[last] = made;
     return made;
 }

@@ -14,8 +14,8 @@ void gltf_free_vertices(gltf_vertices *v)
 {
     free(v->positions);
     free(v->normals);
-    free(v->uvs[0]);
-    free(v->uvs[1]);
+    for (int slot = 0; slot < SCENE_UV_COUNT; ++slot)
+        free(v->uvs[slot]);
     free(v->colors);
     free(v->tangents);
     memset(v, 0, sizeof *v);
@@ -56,7 +56,7 @@ static float *read_uvs(gltf_loader *l, const gltf_vertices *v, int set)
 }
 
 /* Three components get an alpha of 1. */
-static float *read_colors(gltf_loader *l, const gltf_vertices *v)
+static float *read_colors(gltf_loader *l, gltf_vertices *v)
 {
     const int accessor = gltf_find_attribute(&v->source->attributes, "COLOR_0");
     const int components = accessor >= 0 && l->document->accessors[accessor].rows == 3 ? 3 : 4;
@@ -69,6 +69,7 @@ static float *read_colors(gltf_loader *l, const gltf_vertices *v)
             const float value = c < components ? given[i * (size_t)components + (size_t)c] : 1;
             colors[4 * i + (size_t)c] = isfinite(value) ? fminf(fmaxf(value, 0), 1) : 1;
         }
+        v->translucent = v->translucent || colors[4 * i + 3] < 1;
     }
     free(given);
     if (!colors)
@@ -124,32 +125,85 @@ static void normalize_normals(gltf_vertices *v)
     }
 }
 
-bool gltf_read_vertices(gltf_loader *l, const gltf_primitive *primitive, size_t node_number, const int uv_sets[2])
+void gltf_center_vertices(gltf_vertices *v, double (*positions)[3])
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < v->count; ++i)
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = fmin(low[axis], positions[i][axis]);
+            high[axis] = fmax(high[axis], positions[i][axis]);
+        }
+    const bool far = scene_is_far(low, high);
+    for (int axis = 0; axis < 3; ++axis)
+        v->center[axis] = far ? 0.5 * low[axis] + 0.5 * high[axis] : 0;
+    for (uint32_t i = 0; i < v->count; ++i)
+        for (int axis = 0; axis < 3; ++axis)
+            v->positions[i][axis] = (float)(positions[i][axis] - v->center[axis]);
+}
+
+/* The same in place, for positions that the file stores near zero as a rule: then nothing changes. */
+static void center_in_place(gltf_vertices *v)
+{
+    float low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < v->count; ++i)
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = v->positions[i][axis] < low[axis] ? v->positions[i][axis] : low[axis];
+            high[axis] = v->positions[i][axis] > high[axis] ? v->positions[i][axis] : high[axis];
+        }
+    double wide_low[3], wide_high[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        wide_low[axis] = (double)low[axis];
+        wide_high[axis] = (double)high[axis];
+    }
+    if (!scene_is_far(wide_low, wide_high))
+        return;
+    for (int axis = 0; axis < 3; ++axis)
+        v->center[axis] = 0.5 * wide_low[axis] + 0.5 * wide_high[axis];
+    for (uint32_t i = 0; i < v->count; ++i)
+        for (int axis = 0; axis < 3; ++axis)
+            v->positions[i][axis] = (float)((double)v->positions[i][axis] - v->center[axis]);
+}
+
+static bool is_recent(const gltf_vertices *v, const gltf_primitive *primitive, size_t pose, const gltf_uv_slots *slots)
+{
+    return v->source && v->pose == pose && v->slots.count == slots->count &&
+           !memcmp(v->slots.sets, slots->sets, (size_t)slots->count * sizeof *slots->sets) &&
+           same_source(v->source, primitive);
+}
+
+static bool read_all(gltf_loader *l, gltf_vertices *v)
+{
+    const gltf_attribute_list *attributes = &v->source->attributes;
+    v->positions = (float(*)[3])read_attribute(l, attributes, "POSITION", 3, GLTF_AS_SAID);
+    v->normals = (float(*)[3])read_attribute(l, attributes, "NORMAL", 3, GLTF_AS_SAID);
+    for (int slot = 0; slot < v->slots.count; ++slot)
+        v->uvs[slot] = (float(*)[2])read_uvs(l, v, v->slots.sets[slot]);
+    v->colors = (float(*)[4])read_colors(l, v);
+    if (v->pose == SIZE_MAX && v->normals)
+        v->tangents = (float(*)[4])read_attribute(l, attributes, "TANGENT", 4, GLTF_AS_SAID);
+    return !l->fault->set;
+}
+
+bool gltf_read_vertices(gltf_loader *l, const gltf_primitive *primitive, size_t node_number, const gltf_uv_slots *slots)
 {
     const gltf_node *node = &l->document->nodes[node_number];
     const size_t pose = node->skin >= 0 || primitive->target_count ? node_number : SIZE_MAX;
     gltf_vertices *v = &l->recent;
-    if (v->source && v->pose == pose && v->uv_sets[0] == uv_sets[0] && v->uv_sets[1] == uv_sets[1] &&
-        same_source(v->source, primitive))
+    if (is_recent(v, primitive, pose, slots))
         return true;
     gltf_free_vertices(v);
     v->source = primitive;
     v->pose = pose;
-    memcpy(v->uv_sets, uv_sets, sizeof v->uv_sets);
+    v->slots = *slots;
     const int positions = gltf_find_attribute(&primitive->attributes, "POSITION");
     const size_t count = l->document->accessors[positions].count;
-    if (count > l->vertices_left)
+    if (count > UINT32_MAX)
         return scene_fail(l->fault, "accessor %d: too many vertices, %zu", positions, count);
     v->count = (uint32_t)count;
-    const gltf_attribute_list *attributes = &primitive->attributes;
-    v->positions = (float(*)[3])read_attribute(l, attributes, "POSITION", 3, GLTF_AS_SAID);
-    v->normals = (float(*)[3])read_attribute(l, attributes, "NORMAL", 3, GLTF_AS_SAID);
-    v->uvs[0] = (float(*)[2])read_uvs(l, v, uv_sets[0]);
-    v->uvs[1] = (float(*)[2])read_uvs(l, v, uv_sets[1]);
-    v->colors = (float(*)[4])read_colors(l, v);
-    if (pose == SIZE_MAX && v->normals)
-        v->tangents = (float(*)[4])read_attribute(l, attributes, "TANGENT", 4, GLTF_AS_SAID);
-    if (l->fault->set || !pose_targets(l, v, node) || !check_positions(l, v) ||
+    if (!read_all(l, v) || !check_positions(l, v))
+        return false;
+    center_in_place(v);
+    if (!pose_targets(l, v, node) || !check_positions(l, v) ||
         (node->skin >= 0 && (!gltf_pose_skin(l, v, node->skin, node_number) || !check_positions(l, v))))
         return false;
     normalize_normals(v);

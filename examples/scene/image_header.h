@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * What a PNG or JPEG says of itself, before a decoder may see it.
+ * Finds an image's kind and size from its first bytes, before a decoder sees it.
  */
 #ifndef GLSSAO_EXAMPLES_IMAGE_HEADER_H
 #define GLSSAO_EXAMPLES_IMAGE_HEADER_H
@@ -9,8 +9,20 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* The size in pixels, of a JPEG the largest that it names. False for other formats, and for a JPEG whose Huffman
- * tables are longer than 256 codes: stb_image before 2.28 writes past its own. */
+typedef enum image_kind {
+    IMAGE_UNKNOWN,
+    IMAGE_PNG,
+    IMAGE_JPEG,
+    IMAGE_WEBP,
+    IMAGE_KTX2,
+    IMAGE_AVIF,
+    IMAGE_DDS
+} image_kind;
+
+image_kind image_find_kind(const uint8_t *data, size_t size);
+
+/* The size in pixels of a PNG, a JPEG (the largest that it names) or a WebP. False for other kinds, and where the head
+ * is damaged. */
 bool image_measure(const uint8_t *data, size_t size, unsigned *out_width, unsigned *out_height);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * PNG through libpng, PFM by hand.
+ * PNG with libpng, and PFM.
  */
 #include "picture.h"
 
@@ -43,7 +43,7 @@ typedef struct png_job {
     FILE *file;
     int width, height, channels;
     const uint8_t *pixels;
-    char message[128]; /* libpng's, after a failure */
+    char message[128]; /* from libpng, after a failure */
 } png_job;
 
 static void on_png_error(png_structp png, png_const_charp message)
@@ -59,7 +59,7 @@ static void on_png_warning(png_structp png, png_const_charp message)
     (void)message;
 }
 
-/* Holds the setjmp and no local variable, so nothing can be clobbered. */
+/* Contains the setjmp and no local variable, so that longjmp clobbers nothing. */
 static bool encode(png_job *job)
 {
     if (setjmp(png_jmpbuf(job->png)))
@@ -72,8 +72,9 @@ static bool encode(png_job *job)
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (job->channels > 1)
         png_set_sRGB(job->png, job->info, PNG_sRGB_INTENT_PERCEPTUAL);
-    /* Tuned on 1920 x 1080 RGB: 27 ms for flat shading, 90 ms for a frame full of textures. Level 3 takes twice as
-     * long for 7 to 10 % fewer bytes; no filter is a fifth larger on textures, choosing one a row no smaller. */
+    /* Tuned on 1920 x 1080 RGB: 27 ms for flat shading, 90 ms for a frame full of textures. Level 3 takes twice as long
+     * and saves 7 to 10 % of the bytes. Without a filter, textures take a fifth more bytes; a filter chosen for each
+     * row saves nothing. */
     png_set_compression_level(job->png, 1);
     png_set_filter(job->png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
     png_set_compression_buffer_size(job->png, 1 << 18);
@@ -146,7 +147,7 @@ uint8_t *picture_read_png(const char *path, int *out_width, int *out_height, cha
 
 /* ---- PFM ------------------------------------------------------------------------------------------------ */
 
-/* Bytes by shifts: little-endian on every host. */
+/* Shifts make little-endian bytes on every host. */
 static void to_bytes(const float *values, size_t count, uint8_t *bytes)
 {
     for (size_t i = 0; i < count; i++) {
@@ -195,7 +196,7 @@ bool picture_write_pfm(const char *path, int width, int height, int channels, co
     return whole_file_close(&whole, written, error, error_size);
 }
 
-/* One header field of digits, up to and with the separator. -1 where it is anything else. */
+/* Reads a number of the header and its separator. -1 for anything else. */
 static int read_number(FILE *file, int separator)
 {
     int value = -1;
@@ -209,7 +210,7 @@ static int read_number(FILE *file, int separator)
     return value;
 }
 
-/* Three lines, exactly as written above; false where anything differs. */
+/* Reads three lines, which must be exactly as picture_write_pfm writes them. */
 static bool read_pfm_header(FILE *file, int *width, int *height, int *channels)
 {
     char magic[4] = "", scale[6] = "";
@@ -221,7 +222,7 @@ static bool read_pfm_header(FILE *file, int *width, int *height, int *channels)
     return *height > 0 && fread(scale, 1, 5, file) == 5 && strcmp(scale, "-1.0\n") == 0;
 }
 
-/* How much of the file is left: what the header claims is held against it before memory is taken. */
+/* Whether the rest of the file has this size. Checked before memory is allocated for what the header claims. */
 static bool has_left(FILE *file, size_t size)
 {
     long start = ftell(file);

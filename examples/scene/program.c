@@ -33,6 +33,8 @@ static const struct {
     {VARIANT_BASE_MAPPED, "BASE_MAPPED"},
     {VARIANT_BEHIND, "BEHIND"},
     {VARIANT_ENVIRONMENT, "ENVIRONMENT"},
+    {VARIANT_FLAT, "FLAT"},
+    {VARIANT_MORE_UVS, "MORE_UVS"},
 };
 
 static const struct {

@@ -27,11 +27,13 @@ enum {
     VARIANT_SPECULAR_OCCLUSION = 16384, /* where REFLECTIVE and not BLENDED */
     VARIANT_MULTI_BOUNCE = 32768,       /* where not BLENDED */
     VARIANT_BASE_MAPPED = 65536,        /* base colour texture */
-    VARIANT_BEHIND = 131072,            /* a layer: depth alone, of what lies behind the pre-pass's */
-    VARIANT_ENVIRONMENT = 262144        /* ambient light, or the sky, from a picture */
+    VARIANT_BEHIND = 131072,            /* a layer: depth of the surfaces behind those of the pre-pass */
+    VARIANT_ENVIRONMENT = 262144,       /* ambient light, or the sky, from a picture */
+    VARIANT_FLAT = 524288,              /* normals from the triangle itself */
+    VARIANT_MORE_UVS = 1048576          /* a map reads the third or fourth uv set */
 };
 
-/* All that a material and its light can call for; without what is another kind of surface. */
+/* Every bit that a material and its light can need, except those of other kinds of surface. */
 enum {
     VARIANT_EVERYTHING = VARIANT_TEXTURED | VARIANT_COLORED | VARIANT_MASKED | VARIANT_LIT | VARIANT_DOUBLE_SIDED |
                          VARIANT_NORMAL_MAPPED | VARIANT_REFLECTIVE | VARIANT_ROUGHNESS_MAPPED | VARIANT_BAKED |
@@ -56,7 +58,7 @@ enum {
 
 enum { MOST_LIGHTS = 16 }; /* in main.frag too */
 
-/* Locations are -1 for uniforms that the program does not have; GL ignores what is set there. */
+/* A location is -1 if the program lacks the uniform; GL ignores values set there. */
 typedef struct draw_program {
     unsigned name; /* 0: not built */
     int view_from_world, clip_from_view, normal_view_from_world;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * What every scene has in common, wherever it came from: its end.
+ * Frees scenes.
  */
 #include "scene.h"
 
@@ -12,8 +12,12 @@ void scene_destroy(scene *s)
         return;
     for (uint32_t i = 0; i < s->image_count; ++i)
         free(s->images[i].rgba);
+    for (size_t i = 0; i < s->warning_count; ++i)
+        free(s->warnings[i]);
+    free(s->warnings);
     free(s->vertices);
     free(s->tangents);
+    free(s->more_uvs);
     free(s->indices);
     free(s->primitives);
     free(s->meshes);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Growing arrays, sorting of instances, bounds.
+ * Growing arrays and sorting of instances.
  */
 #include "scene_builder.h"
 
@@ -26,13 +26,16 @@ bool scene_builder_begin(scene_builder *b, const char *name, scene_fault *fault)
 void scene_builder_abandon(scene_builder *b)
 {
     scene_destroy(b->made);
-    free(b->instance_mesh);
+    free(b->placements);
+    free(b->centers);
+    free(b->camera_places);
+    free(b->light_places);
     memset(b, 0, sizeof *b);
 }
 
-/* The array, moved to where there is room for `add` more elements after `*count`, those zeroed and counted. NULL on
- * failure; the old array is then as it was. */
-static void *extend(scene_builder *b, int which, void *array, uint32_t *count, uint32_t add, size_t element)
+/* The array, moved to where there is room for `add` more elements after `*count`. NULL on failure; the old array is
+ * then as it was. */
+static void *make_room(scene_builder *b, int which, void *array, uint32_t *count, uint32_t add, size_t element)
 {
     const uint64_t needed = (uint64_t)*count + add;
     if (needed > UINT32_MAX || needed > SIZE_MAX / element) {
@@ -51,14 +54,22 @@ static void *extend(scene_builder *b, int which, void *array, uint32_t *count, u
         array = grown;
         b->room[which] = (uint32_t)room;
     }
-    memset((char *)array + (size_t)*count * element, 0, (size_t)add * element);
     return array;
+}
+
+/* The same, with the new elements zeroed. */
+static void *extend(scene_builder *b, int which, void *array, uint32_t *count, uint32_t add, size_t element)
+{
+    char *grown = make_room(b, which, array, count, add, element);
+    if (grown)
+        memset(grown + (size_t)*count * element, 0, (size_t)add * element);
+    return grown;
 }
 
 scene_vertex *scene_builder_add_vertices(scene_builder *b, uint32_t count, uint32_t *out_first)
 {
     scene *s = b->made;
-    scene_vertex *all = extend(b, VERTICES, s->vertices, &s->vertex_count, count, sizeof *all);
+    scene_vertex *all = make_room(b, VERTICES, s->vertices, &s->vertex_count, count, sizeof *all);
     if (!all)
         return NULL;
     s->vertices = all;
@@ -70,7 +81,7 @@ scene_vertex *scene_builder_add_vertices(scene_builder *b, uint32_t count, uint3
 uint32_t *scene_builder_add_indices(scene_builder *b, uint32_t count, uint32_t *out_first)
 {
     scene *s = b->made;
-    uint32_t *all = extend(b, INDICES, s->indices, &s->index_count, count, sizeof *all);
+    uint32_t *all = make_room(b, INDICES, s->indices, &s->index_count, count, sizeof *all);
     if (!all)
         return NULL;
     s->indices = all;
@@ -114,53 +125,92 @@ int scene_builder_add_image(scene_builder *b, const scene_image *image)
     return (int)s->image_count++;
 }
 
-int scene_builder_add_camera(scene_builder *b, const scene_camera *camera)
+/* A list beside one of the scene's, made as long as that one has room. */
+static bool follow(scene_builder *b, int which, void *list, size_t element)
+{
+    void **at = list;
+    void *grown = realloc(*at, b->room[which] * element);
+    if (!grown)
+        return scene_fail_memory(b->fault);
+    *at = grown;
+    return true;
+}
+
+int scene_builder_add_camera(scene_builder *b, const scene_camera *camera, const double place[3])
 {
     scene *s = b->made;
     scene_camera *all = extend(b, CAMERAS, s->cameras, &s->camera_count, 1, sizeof *all);
     if (!all)
         return -1;
     s->cameras = all;
+    if (!follow(b, CAMERAS, &b->camera_places, sizeof *b->camera_places))
+        return -1;
     all[s->camera_count] = *camera;
+    memcpy(b->camera_places[s->camera_count], place, sizeof *b->camera_places);
     return (int)s->camera_count++;
 }
 
-int scene_builder_add_light(scene_builder *b, const scene_light *light)
+int scene_builder_add_light(scene_builder *b, const scene_light *light, const double place[3])
 {
     scene *s = b->made;
     scene_light *all = extend(b, LIGHTS, s->lights, &s->light_count, 1, sizeof *all);
     if (!all)
         return -1;
     s->lights = all;
+    if (!follow(b, LIGHTS, &b->light_places, sizeof *b->light_places))
+        return -1;
     all[s->light_count] = *light;
+    memcpy(b->light_places[s->light_count], place, sizeof *b->light_places);
     return (int)s->light_count++;
 }
 
-float (*scene_builder_tangents(scene_builder *b))[4]
+/* An array beside the vertices, as long as those have room, zeroed where it grew. */
+static void *extend_beside(scene_builder *b, void *array, uint32_t *count, size_t element)
 {
-    scene *s = b->made;
-    if (s->tangents && b->tangent_count == s->vertex_count)
-        return s->tangents;
-    float(*grown)[4] = realloc(s->tangents, ((size_t)b->room[VERTICES] + 1) * sizeof *grown);
+    const uint32_t needed = b->made->vertex_count;
+    if (array && *count == needed)
+        return array;
+    char *grown = realloc(array, ((size_t)b->room[VERTICES] + 1) * element);
     if (!grown) {
         scene_fail_memory(b->fault);
         return NULL;
     }
-    s->tangents = grown;
-    memset(grown + b->tangent_count, 0, (s->vertex_count - b->tangent_count) * sizeof *grown);
-    b->tangent_count = s->vertex_count;
+    memset(grown + *count * element, 0, (needed - *count) * element);
+    *count = needed;
     return grown;
 }
 
-int scene_builder_add_mesh(scene_builder *b)
+float (*scene_builder_tangents(scene_builder *b))[4]
+{
+    float(*all)[4] = extend_beside(b, b->made->tangents, &b->tangent_count, sizeof *all);
+    b->made->tangents = all ? all : b->made->tangents;
+    return all;
+}
+
+float (*scene_builder_more_uvs(scene_builder *b))[2][2]
+{
+    float(*all)[2][2] = extend_beside(b, b->made->more_uvs, &b->more_uv_count, sizeof *all);
+    b->made->more_uvs = all ? all : b->made->more_uvs;
+    return all;
+}
+
+int scene_builder_add_mesh_about(scene_builder *b, const double center[3])
 {
     scene *s = b->made;
     scene_mesh *all = extend(b, MESHES, s->meshes, &s->mesh_count, 1, sizeof *all);
     if (!all)
         return -1;
     s->meshes = all;
+    if (!follow(b, MESHES, &b->centers, sizeof *b->centers))
+        return -1;
     all[s->mesh_count].first_primitive = s->primitive_count;
+    memcpy(b->centers[s->mesh_count], center, sizeof *b->centers);
     return (int)s->mesh_count++;
+}
+
+int scene_builder_add_mesh(scene_builder *b)
+{
+    return scene_builder_add_mesh_about(b, (const double[3]){0, 0, 0});
 }
 
 static void empty_bounds(float *bounds_min, float *bounds_max)
@@ -171,11 +221,12 @@ static void empty_bounds(float *bounds_min, float *bounds_max)
     }
 }
 
+/* The point is finite: without fminf's care for NaN, compilers make vector code of it. */
 static void grow_bounds(float *bounds_min, float *bounds_max, const float *point)
 {
     for (int axis = 0; axis < 3; ++axis) {
-        bounds_min[axis] = fminf(bounds_min[axis], point[axis]);
-        bounds_max[axis] = fmaxf(bounds_max[axis], point[axis]);
+        bounds_min[axis] = point[axis] < bounds_min[axis] ? point[axis] : bounds_min[axis];
+        bounds_max[axis] = point[axis] > bounds_max[axis] ? point[axis] : bounds_max[axis];
     }
 }
 
@@ -197,23 +248,31 @@ bool scene_builder_add_primitive(scene_builder *b, uint32_t first_index, int mat
     return true;
 }
 
-bool scene_builder_add_instance(scene_builder *b, int mesh, const float *world_from_mesh)
+bool scene_builder_place(scene_builder *b, int mesh, const double world_from_mesh[16])
 {
     scene *s = b->made;
-    const uint32_t old_room = b->room[INSTANCES];
     scene_instance *all = extend(b, INSTANCES, s->instances, &s->instance_count, 1, sizeof *all);
     if (!all)
         return false;
     s->instances = all;
-    if (b->room[INSTANCES] != old_room) {
-        int *meshes = realloc(b->instance_mesh, b->room[INSTANCES] * sizeof *meshes);
-        if (!meshes)
-            return scene_fail_memory(b->fault);
-        b->instance_mesh = meshes;
-    }
-    b->instance_mesh[s->instance_count] = mesh;
-    memcpy(all[s->instance_count++].world_from_mesh, world_from_mesh, sizeof all->world_from_mesh);
+    if (!follow(b, INSTANCES, &b->placements, sizeof *b->placements))
+        return false;
+    scene_placement *to = &b->placements[s->instance_count++];
+    const double *center = b->centers[mesh];
+    to->mesh = mesh;
+    memcpy(to->world_from_mesh, world_from_mesh, sizeof to->world_from_mesh);
+    for (int row = 0; row < 3; ++row)
+        for (int c = 0; c < 3; ++c)
+            to->world_from_mesh[12 + row] += world_from_mesh[4 * c + row] * center[c];
     return true;
+}
+
+bool scene_builder_add_instance(scene_builder *b, int mesh, const float *world_from_mesh)
+{
+    double wide[16];
+    for (int i = 0; i < 16; ++i)
+        wide[i] = (double)world_from_mesh[i];
+    return scene_builder_place(b, mesh, wide);
 }
 
 scene_material scene_default_material(void)
@@ -230,16 +289,14 @@ scene_material scene_default_material(void)
 }
 
 /* A counting sort: instances keep their order within a mesh. */
-static bool sort_instances(scene_builder *b)
+static bool sort_placements(scene_builder *b)
 {
     scene *s = b->made;
-    if (!s->instance_count)
-        return true;
-    scene_instance *sorted = malloc(s->instance_count * sizeof *sorted);
+    scene_placement *sorted = malloc((s->instance_count + 1u) * sizeof *sorted);
     if (!sorted)
         return scene_fail_memory(b->fault);
     for (uint32_t i = 0; i < s->instance_count; ++i)
-        s->meshes[b->instance_mesh[i]].instance_count++;
+        s->meshes[b->placements[i].mesh].instance_count++;
     uint32_t first = 0;
     for (uint32_t m = 0; m < s->mesh_count; ++m) {
         s->meshes[m].first_instance = first;
@@ -247,99 +304,12 @@ static bool sort_instances(scene_builder *b)
         s->meshes[m].instance_count = 0;
     }
     for (uint32_t i = 0; i < s->instance_count; ++i) {
-        scene_mesh *mesh = &s->meshes[b->instance_mesh[i]];
-        sorted[mesh->first_instance + mesh->instance_count++] = s->instances[i];
+        scene_mesh *mesh = &s->meshes[b->placements[i].mesh];
+        sorted[mesh->first_instance + mesh->instance_count++] = b->placements[i];
     }
-    free(s->instances);
-    s->instances = sorted;
+    free(b->placements);
+    b->placements = sorted;
     return true;
-}
-
-/* The mesh's vertices, each once, in points[0 .. result); `seen` holds the mesh + 1 that last counted a vertex. */
-static uint32_t collect_points(const scene *s, uint32_t mesh, uint32_t *seen, float (*points)[3])
-{
-    uint32_t count = 0;
-    const scene_mesh *m = &s->meshes[mesh];
-    for (uint32_t p = m->first_primitive; p < m->first_primitive + m->primitive_count; ++p) {
-        const scene_primitive *primitive = &s->primitives[p];
-        for (uint32_t i = 0; i < primitive->index_count; ++i) {
-            const uint32_t v = s->indices[primitive->first_index + i];
-            if (seen[v] != mesh + 1) {
-                seen[v] = mesh + 1;
-                memcpy(points[count++], s->vertices[v].position, sizeof points[0]);
-            }
-        }
-    }
-    return count;
-}
-
-/* The eight corners of the mesh's box, for meshes whose every vertex in every instance would take too long. */
-static uint32_t collect_corners(const scene *s, uint32_t mesh, float (*points)[3])
-{
-    float low[3], high[3];
-    empty_bounds(low, high);
-    const scene_mesh *m = &s->meshes[mesh];
-    for (uint32_t p = m->first_primitive; p < m->first_primitive + m->primitive_count; ++p) {
-        grow_bounds(low, high, s->primitives[p].bounds_min);
-        grow_bounds(low, high, s->primitives[p].bounds_max);
-    }
-    for (uint32_t corner = 0; corner < 8; ++corner)
-        for (uint32_t axis = 0; axis < 3; ++axis)
-            points[corner][axis] = corner >> axis & 1 ? high[axis] : low[axis];
-    return 8;
-}
-
-/* False where a point leaves what single precision holds; fmin and fmax pass over NaN, so the bounds do not show it. */
-static bool grow_bounds_of_instance(scene *s, const scene_instance *instance, const float (*points)[3], uint32_t count)
-{
-    bool finite = true;
-    const float *m = instance->world_from_mesh;
-    for (uint32_t i = 0; i < count; ++i) {
-        const float *p = points[i];
-        const float world[3] = {m[0] * p[0] + m[4] * p[1] + m[8] * p[2] + m[12],
-                                m[1] * p[0] + m[5] * p[1] + m[9] * p[2] + m[13],
-                                m[2] * p[0] + m[6] * p[1] + m[10] * p[2] + m[14]};
-        finite = finite && isfinite(world[0] + world[1] + world[2]);
-        grow_bounds(s->bounds_min, s->bounds_max, world);
-    }
-    return finite;
-}
-
-static bool measure_bounds(scene_builder *b)
-{
-    enum { MOST_POINTS = 1 << 26 }; /* about a quarter of a second */
-    scene *s = b->made;
-    if (!s->instance_count)
-        return true;
-    uint32_t *seen = calloc(s->vertex_count + 1u, sizeof *seen);
-    float(*points)[3] = malloc((s->vertex_count + 8u) * sizeof *points);
-    if (!seen || !points) {
-        free(seen);
-        free(points);
-        return scene_fail_memory(b->fault);
-    }
-    bool finite = true, any = false;
-    empty_bounds(s->bounds_min, s->bounds_max);
-    for (uint32_t m = 0; m < s->mesh_count && finite; ++m) {
-        const scene_mesh *mesh = &s->meshes[m];
-        if (!mesh->instance_count || !mesh->primitive_count)
-            continue;
-        uint32_t count = collect_points(s, m, seen, points);
-        if ((uint64_t)count * mesh->instance_count > MOST_POINTS)
-            count = collect_corners(s, m, points);
-        any = true;
-        for (uint32_t i = 0; i < mesh->instance_count && finite; ++i)
-            finite =
-                grow_bounds_of_instance(s, &s->instances[mesh->first_instance + i], (const float(*)[3])points, count);
-    }
-    free(seen);
-    free(points);
-    for (int axis = 0; axis < 3; ++axis) {
-        if (!any)
-            s->bounds_min[axis] = s->bounds_max[axis] = 0;
-        finite = finite && isfinite(s->bounds_max[axis] - s->bounds_min[axis]);
-    }
-    return finite || scene_fail(b->fault, "the scene is too large for single precision");
 }
 
 scene *scene_builder_finish(scene_builder *b)
@@ -347,7 +317,9 @@ scene *scene_builder_finish(scene_builder *b)
     const scene_material plain = scene_default_material();
     const bool has_material = b->made->material_count || scene_builder_add_material(b, &plain) >= 0;
     const bool has_tangents = !b->made->tangents || scene_builder_tangents(b);
-    if (b->fault->set || !has_material || !has_tangents || !sort_instances(b) || !measure_bounds(b)) {
+    const bool has_uvs = !b->made->more_uvs || scene_builder_more_uvs(b);
+    if (b->fault->set || !has_material || !has_tangents || !has_uvs || !sort_placements(b) ||
+        !scene_builder_settle(b)) {
         scene_builder_abandon(b);
         return NULL;
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * What Embree 3 and 4 spell differently: the header, the per-query context, and the two queries. Embree 4 takes flags
- * and context in an arguments struct; filter functions set on a geometry work in both.
+ * Hides the differences between Embree 3 and 4: the header, the per-query context, and the two queries. Embree 4 takes
+ * flags and context in an arguments struct. Filter functions set on a geometry work in both.
  */
 #ifndef GLSSAO_EXAMPLES_EMBREE_H
 #define GLSSAO_EXAMPLES_EMBREE_H

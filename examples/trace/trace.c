@@ -2,6 +2,7 @@
  *
  * Accessibility of pictures and of lists of points: jobs of a tile of pixels, or a run of points, each.
  */
+#include "clock.h"
 #include "trace_internal.h"
 
 #include <math.h>
@@ -110,10 +111,10 @@ static bool run(work *w, trace_distribution distribution, const trace_options *o
     w->radius = o->radius;
     w->stopped = o->stopped;
     w->stopped_user = o->stopped_user;
-    const double start = trace_clock();
+    const double start = clock_wall_ms();
     trace_run_jobs(o->threads, jobs, job, w, o->progress, o->progress_user);
     if (out_stats) {
-        *out_stats = (trace_stats){.rays = atomic_load(&w->rays), .seconds = trace_clock() - start};
+        *out_stats = (trace_stats){.rays = atomic_load(&w->rays), .seconds = (clock_wall_ms() - start) * 1e-3};
     }
     trace_samples_close(&w->samples);
     if (w->stopped && w->stopped(w->stopped_user)) {

@@ -3,8 +3,8 @@
  * Ray-traced ambient accessibility, through Embree: the truth that the screen-space techniques are measured against,
  * and what glssao-bake bakes. Knows nothing of OpenGL. Builds with Embree 3 and 4.
  *
- * What blocks: opaque and alpha-tested triangles, from both sides; texels below an alpha test's cut-off let rays
- * through; blended materials block nothing, as they write no depth.
+ * Opaque and alpha-tested triangles block rays from both sides. Texels below an alpha test's cut-off let rays through.
+ * Blended materials, lines and points block nothing, as they are not in the depth buffer either.
  */
 #ifndef GLSSAO_EXAMPLES_TRACE_H
 #define GLSSAO_EXAMPLES_TRACE_H
@@ -28,7 +28,7 @@ typedef void (*trace_progress_fn)(double done, void *user);
 typedef struct trace_options {
     float radius;               /* scene units: a hit farther away does not block (hard cut) */
     int samples;                /* rays a pixel or point, >= 1 */
-    uint32_t seed;              /* same seed, same bits, whatever the number of threads */
+    uint32_t seed;              /* the same seed gives the same bits for any number of threads */
     int threads;                /* 0: as many as there are cores */
     trace_progress_fn progress; /* may be NULL */
     void *progress_user;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Embree's filter functions: what a ray goes through. Alpha tests read the full-size image, filtered as the texture
- * says for magnification; primary rays also go through the back faces of single-sided materials.
+ * Embree's filter functions, which let rays pass through surfaces. Alpha tests read the full-size image with the
+ * texture's magnification filter. Primary rays also pass through the back faces of single-sided materials.
  */
 #include "trace_internal.h"
 

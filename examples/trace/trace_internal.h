@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * What a trace_scene is made of, and the parts of the tracer: the scene in Embree, the filters, surface points,
- * primary rays, samples, occlusion rays, threads.
+ * The members of a trace_scene, and the interfaces between the parts of the tracer: the scene in Embree, filters,
+ * surface points, primary rays, samples, occlusion rays, threads.
  */
 #ifndef GLSSAO_EXAMPLES_TRACE_INTERNAL_H
 #define GLSSAO_EXAMPLES_TRACE_INTERNAL_H
@@ -53,7 +53,7 @@ bool trace_filter_needed(const scene *s, const scene_primitive *p);
 /* Sets the filter functions that the part needs. */
 void trace_filter_install(RTCGeometry geometry, const trace_part *part, bool alpha_tested);
 
-/* trace_surface.c: what a triangle is in the world. */
+/* trace_surface.c: triangles in world space. */
 
 /* The part that a hit belongs to, and its instance. `instance` and `geometry` as in Embree's hit. */
 const trace_part *trace_find_part(const trace_scene *t, unsigned instance, unsigned geometry,
@@ -118,6 +118,5 @@ float trace_point_accessibility(const trace_scene *t, const trace_samples *sampl
  * many as there are cores. */
 void trace_run_jobs(int threads, size_t count, void (*work)(size_t job, void *user), void *user,
                     trace_progress_fn progress, void *progress_user);
-double trace_clock(void); /* seconds */
 
 #endif

@@ -8,7 +8,6 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
-#include <time.h>
 #include <unistd.h>
 
 enum { MOST_THREADS = 256 };
@@ -62,11 +61,4 @@ void trace_run_jobs(int threads, size_t count, void (*work)(size_t job, void *us
     if (progress) {
         progress(1, progress_user);
     }
-}
-
-double trace_clock(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }

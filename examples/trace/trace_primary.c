@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Rays through pixel centres: clip space taken back to the world in double precision. Both ends of a ray stay
- * homogeneous, so that off-centre, infinite, reversed and orthographic projections need no case of their own.
+ * Rays through pixel centres, from clip space to the world in double precision. Both ends of a ray stay homogeneous,
+ * so that off-centre, infinite, reversed and orthographic projections share one formula.
  */
 #include "trace_internal.h"
 

@@ -98,7 +98,7 @@ void trace_samples_get(const trace_samples *s, uint64_t point, int first, float 
     for (int i = 0; i < TRACE_PACKET; i++) {
         numbers[i] = (uint32_t)(first + i);
     }
-    /* The first dimension is the number with its bits reversed, so reversed once more it is the number. */
+    /* The first dimension is the sample's number with its bits reversed; reversed again it is the number itself. */
     scramble(numbers, mix(key ^ 0x9e3779b9u), x);
     scramble(s->second + first, mix(key ^ 0x7f4a7c15u), y);
     map_to_disk(x, y);

@@ -1,40 +1,25 @@
 /* SPDX-License-Identifier: MIT
  *
- * A scene's triangles in Embree. Meshes that stand in the world once are placed there; the others are built once and
- * instanced, so that thousands of copies cost little memory.
+ * Builds a scene's triangles in Embree. A mesh with one instance is placed in the world. Other meshes are built once
+ * and instanced, so that thousands of copies take little memory.
  */
 #include "trace_internal.h"
+
+#include "matrix.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The inverse transpose of the upper 3x3 up to a positive factor, so that it is there for flat matrices too. */
 static void prepare_instance(const float m[16], trace_instance *out)
 {
-    double determinant = 0, largest = 0;
-    double *n = out->normal_from_mesh;
-    for (int c = 0; c < 3; c++) {
-        const float *a = m + 4 * ((c + 1) % 3), *b = m + 4 * ((c + 2) % 3);
-        for (int r = 0; r < 3; r++) {
-            n[3 * c + r] =
-                (double)a[(r + 1) % 3] * (double)b[(r + 2) % 3] - (double)a[(r + 2) % 3] * (double)b[(r + 1) % 3];
-            largest = fmax(largest, fabs(n[3 * c + r]));
-        }
-    }
-    for (int r = 0; r < 3; r++) {
-        determinant += (double)m[r] * n[r];
-    }
     out->world_from_mesh = m;
-    out->mirrored = determinant < 0;
-    for (int i = 0; i < 9 && largest > 0; i++) {
-        n[i] *= (out->mirrored ? -1 : 1) / largest;
-    }
+    out->mirrored = matrix_for_normals(m, out->normal_from_mesh);
 }
 
-/* Embree takes rays to mesh space and back: not through a matrix that is flat, or so uneven that the inverse would lose
- * what single precision has. */
+/* Embree transforms rays to mesh space and back. A flat or very uneven matrix would lose all precision in the inverse.
+ */
 static bool can_be_instanced(const float m[16])
 {
     double longest = 0, shortest = INFINITY, determinant = 0, lengths = 1;
@@ -52,7 +37,8 @@ static bool can_be_instanced(const float m[16])
 
 static bool is_solid(const scene *s, uint32_t primitive)
 {
-    return s->materials[s->primitives[primitive].material].alpha != SCENE_ALPHA_BLEND;
+    const scene_primitive *p = &s->primitives[primitive];
+    return s->materials[p->material].alpha != SCENE_ALPHA_BLEND && p->topology == SCENE_TRIANGLES;
 }
 
 /* The part's triangles as a committed geometry. In mesh space Embree reads the scene's own arrays. */
@@ -185,7 +171,7 @@ static bool place_mesh(trace_scene *t, uint32_t mesh, uint32_t *part_count, cons
     return true;
 }
 
-/* How many parts stand in the world themselves. */
+/* The number of parts placed in the world without an instance. */
 static size_t count_world_parts(const scene *s)
 {
     size_t count = 0;

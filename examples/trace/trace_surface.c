@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * From a hit to a point on the surface: position, shading normal and geometric normal in the world, in double
- * precision from the scene's own vertices, as the rasteriser's vertex shader places them.
+ * Turns a hit into a point on the surface: position, shading normal and geometric normal in the world. They are
+ * computed in double precision from the scene's vertices, where the rasteriser's vertex shader places them.
  */
 #include "trace_internal.h"
 
@@ -31,7 +31,7 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* False where it has no direction; it is left alone then. Scaled first, so that no square leaves the range. */
+/* False, and unchanged, if the vector has no direction. It is scaled first, so that no square overflows. */
 static bool normalize(double v[3])
 {
     const double largest = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
@@ -128,17 +128,23 @@ bool trace_resolve_hit(const trace_scene *t, const struct RTCHit *hit, const dou
         return false;
     }
     const double side = dot(geometric, direction) > 0 ? -1 : 1; /* the viewer's */
-    shading_normal(part, instance, hit->primID, weights, out->normal);
+    if (part->primitive->flat) {
+        for (int i = 0; i < 3; i++) {
+            out->normal[i] = geometric[i];
+        }
+    } else {
+        shading_normal(part, instance, hit->primID, weights, out->normal);
+    }
     const bool shaded = normalize(out->normal);
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++) {
             position[i] += weights[k] * triangle.corners[k][i];
         }
-        /* Without a direction: towards the viewer, as the pre-pass has it. */
+        /* A normal without direction faces the viewer, as in the pre-pass. */
         out->normal[i] = shaded ? side * out->normal[i] : -direction[i];
     }
-    /* Off this triangle along its normal; and back the way the primary ray came, where nothing is, so that rounding
-     * does not put a point in a corner behind the other wall. */
+    /* Moves the point off its triangle, along the normal and back along the primary ray, where space is free. Otherwise
+     * rounding could put a point in a corner behind the other wall. */
     const double offset = fmin(choose_offset(position, &triangle), most_offset);
     for (int i = 0; i < 3; i++) {
         out->origin[i] = position[i] + offset * (side * geometric[i] - direction[i]);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * What is on the screen: the frame with and without occlusion, halves of both, or one of its maps. Pictures are copied
- * to the window as they are, so that it shows the bits that glssao-render writes.
+ * Draws what is on the screen: the frame with or without occlusion, halves of both, or one of its maps. Pictures are
+ * copied to the window unchanged, so that it shows the bits that glssao-render writes.
  */
 #include "viewer.h"
 
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double quick_seconds = 0.1; /* with Mesa's cache filled 0.02, else 0.25 and more */
+static const double quick_seconds = 0.1; /* with a filled Mesa cache it takes 0.02 s, otherwise 0.25 s or more */
 
 static GLuint make_target(GLenum format, int width, int height, GLuint depth, GLuint *out_framebuffer)
 {
@@ -46,12 +46,12 @@ bool viewer_resize(viewer *v, int width, int height)
     v->width = width;
     v->height = height;
     v->frame_due = true;
-    if (!pipeline_resize(&v->pipeline, width, height, v->error, sizeof v->error)) {
+    if (!pipeline_resize(&v->pipeline, width, height, FAULT(v->error))) {
         viewer_say(v, true, "%s", v->error);
         return false;
     }
     if (!v->moved)
-        viewer_frame_scene(v); /* as glssao-render would for this size */
+        viewer_frame_scene(v); /* as glssao-render does for this size */
     return true;
 }
 
@@ -60,7 +60,7 @@ static bool needs_off(const viewer *v)
     return v->shown == SHOWN_PICTURE && v->mode != MODE_ON;
 }
 
-/* The settings of the moment, or of the estimate alone. */
+/* The current settings, without blur and upsampling for the raw estimate. */
 static glssao_settings frame_settings(const viewer *v)
 {
     glssao_settings s = v->settings;
@@ -83,8 +83,8 @@ static void record_times(viewer *v, const stopwatch *times)
     v->graph_next = (v->graph_next + 1) % GRAPH_LENGTH;
 }
 
-/* Programs that no cache of the driver's holds take a second or more until they run; translating their text is what
- * tells. */
+/* Programs that are not in the driver's cache take a second or more until they run. The time that compiling takes tells
+ * which case this is. */
 static bool compiles_quickly(viewer *v)
 {
     const double start = glfwGetTime();
@@ -93,7 +93,7 @@ static bool compiles_quickly(viewer *v)
            glfwGetTime() - start < quick_seconds;
 }
 
-/* The horizon technique alone adds estimates up, and a single one is raw. */
+/* Only the horizon technique accumulates estimates. The raw estimate is a single one. */
 static progressive_goal frame_goal(const viewer *v)
 {
     if (v->settings.technique != GLSSAO_HORIZON || v->shown == SHOWN_RAW)
@@ -107,13 +107,13 @@ static bool draw_frame(viewer *v)
     v->pipeline.settings = frame_settings(v);
     v->pipeline.goal = frame_goal(v);
     stopwatch_start(&times);
-    if (!viewpoint_view(&v->viewpoint, v->scene, 0, v->width, v->height, &v->view, v->error, sizeof v->error)) {
+    if (!viewpoint_view(&v->viewpoint, v->scene, 0, v->width, v->height, &v->view, FAULT(v->error))) {
         viewer_say(v, true, "%s", v->error);
         return false;
     }
-    /* Where it has to be waited for, a picture without occlusion comes first. */
+    /* If compiling takes long, a picture without occlusion comes first. */
     v->pipeline.wants.ao = v->updates > 0 || compiles_quickly(v);
-    if (!pipeline_draw(&v->pipeline, &v->view, &times, v->error, sizeof v->error)) {
+    if (!pipeline_draw(&v->pipeline, &v->view, &times, FAULT(v->error))) {
         viewer_say(v, true, "%s", v->error);
         return false;
     }
@@ -122,7 +122,7 @@ static bool draw_frame(viewer *v)
     return true;
 }
 
-/* The picture without occlusion shares the frame's depth, and has no map of occlusion in its corner. */
+/* The picture without occlusion uses the depth of the frame and shows no map of occlusion. */
 static void draw_off(viewer *v)
 {
     const options_map corner = v->pipeline.debug_map;
@@ -149,7 +149,7 @@ static void draw_map(viewer *v)
         viewer_draw_truth(v);
         return;
     }
-    if (v->shown == SHOWN_SHADOW || v->shown == SHOWN_RANDOM) { /* square, as large as it fits */
+    if (v->shown == SHOWN_SHADOW || v->shown == SHOWN_RANDOM) { /* the largest square that fits */
         const int side = v->width < v->height ? v->width : v->height;
         place = (scene_rectangle){(v->width - side) / 2, (v->height - side) / 2, side, side};
     }
@@ -158,7 +158,7 @@ static void draw_map(viewer *v)
     map_view_draw(&v->pipeline, &v->view, maps[v->shown], place, v->map_framebuffer);
 }
 
-/* Columns from `left` up to `right`, bits as they are: no sRGB conversion either way. */
+/* Copies the columns from `left` up to `right` without sRGB conversion. */
 static void copy_columns(const viewer *v, GLuint from, GLuint to, int left, int right)
 {
     if (right <= left)
@@ -204,7 +204,7 @@ void viewer_display(viewer *v)
 void *viewer_read_shown(viewer *v)
 {
     GLuint framebuffer;
-    viewer_display(v); /* the keys before may have come with this one */
+    viewer_display(v); /* earlier keys may have arrived in the same update */
     const GLuint texture = make_target(GL_RGBA8, v->width, v->height, 0, &framebuffer);
     void *pixels = malloc((size_t)v->width * (size_t)v->height * 4);
     if (pixels) {

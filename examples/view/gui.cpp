@@ -84,9 +84,14 @@ void gui_leave(void)
     ImGui::SetWindowFocus(nullptr);
 }
 
+float gui_panel_width(float scale)
+{
+    return std::floor(390 * scale);
+}
+
 void gui_begin_panel(const char *title, bool focus)
 {
-    const float width = std::floor(390 * pixel_scale);
+    const float width = gui_panel_width(pixel_scale);
     ImGui::SetNextWindowPos(ImVec2(0, 0));
     ImGui::SetNextWindowSize(ImVec2(width, ImGui::GetIO().DisplaySize.y));
     ImGui::SetNextWindowBgAlpha(0.9f);

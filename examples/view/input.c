@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Events of the window: mouse, dropped files, keys that are held. What the panel wants it gets; the rest moves the
- * camera. keys.c has what a key does.
+ * Handles events of the window: mouse, dropped files and keys that are held. The panel gets its events first; the
+ * others move the camera. keys.c handles single keys.
  */
 #include "gui.h"
 #include "navigate.h"
@@ -11,16 +11,19 @@
 
 #include <math.h>
 
-static const float turn_rad_per_height = 3.0f; /* of the window */
+static const float turn_rad_per_height = 3.0f; /* for each height of the window */
 static const double zoom_per_step = 0.9;
-static const float split_reach = 8; /* how near to the line the pointer takes hold of it, in screen coordinates */
+static const float split_reach = 8; /* distance at which the pointer takes hold of the line, in screen coordinates */
 
 typedef struct drag {
     int button; /* -1: none */
     bool on_line, across;
-    double x, y; /* where the pointer was by the events so far; glfwGetCursorPos tells where it is by now */
+    double x, y; /* pointer position after the events so far; glfwGetCursorPos would give a later one */
 } drag;
 static drag dragging = {.button = -1}; /* one pointer, one window */
+
+/* Keys that are still down after they were pressed with Ctrl. They do not walk: Ctrl may be released before S. */
+static bool commands[GLFW_KEY_LAST + 1];
 
 static viewer *of_window(GLFWwindow *window)
 {
@@ -31,6 +34,8 @@ static void on_key(GLFWwindow *window, int key, int scancode, int action, int mo
 {
     (void)scancode;
     viewer *v = of_window(window);
+    if (key >= 0 && action != GLFW_REPEAT)
+        commands[key] = action == GLFW_PRESS && modifiers & GLFW_MOD_CONTROL;
     if (action != GLFW_RELEASE && v->scene)
         keys_press(v, key, modifiers);
 }
@@ -70,9 +75,9 @@ static void on_pointer(GLFWwindow *window, double x, double y)
     if (dragging.across)
         navigate_pan(&v->viewpoint.base, -right, -up);
     else if (dragging.button == GLFW_MOUSE_BUTTON_LEFT)
-        navigate_orbit(&v->viewpoint.base, -turn_rad_per_height * right, -turn_rad_per_height * up);
+        navigate_orbit(&v->viewpoint.base, v->viewpoint.axis, -turn_rad_per_height * right, -turn_rad_per_height * up);
     else
-        navigate_look(&v->viewpoint.base, turn_rad_per_height * right, turn_rad_per_height * up);
+        navigate_look(&v->viewpoint.base, v->viewpoint.axis, turn_rad_per_height * right, turn_rad_per_height * up);
     viewer_camera_moved(v);
 }
 
@@ -104,7 +109,9 @@ void input_start(viewer *v)
 
 static float held(const viewer *v, int more, int less)
 {
-    return (float)(glfwGetKey(v->window, more) == GLFW_PRESS) - (float)(glfwGetKey(v->window, less) == GLFW_PRESS);
+    const bool ahead = !commands[more] && glfwGetKey(v->window, more) == GLFW_PRESS;
+    const bool back = !commands[less] && glfwGetKey(v->window, less) == GLFW_PRESS;
+    return (float)ahead - (float)back;
 }
 
 bool input_walk(viewer *v, double seconds)
@@ -115,10 +122,10 @@ bool input_walk(viewer *v, double seconds)
     const float up = held(v, GLFW_KEY_E, GLFW_KEY_Q);
     if (!v->scene || control || gui_wants_keyboard() || (ahead == 0 && right == 0 && up == 0))
         return false;
-    /* Through the suggested radius, of which a scene is twenty long, five times a second. */
+    /* Five suggested radii a second; a scene is twenty of them long. */
     const float faster = glfwGetKey(v->window, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS ? 4 : 1;
     const float step = 5 * camera_suggest_radius(v->scene) * faster * (float)seconds;
-    navigate_walk(&v->viewpoint.base, step * ahead, step * right, step * up);
+    navigate_walk(&v->viewpoint.base, v->viewpoint.axis, step * ahead, step * right, step * up);
     viewer_camera_moved(v);
     return true;
 }

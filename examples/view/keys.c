@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * What each key does, and the list of them that F1 shows.
+ * Handles keys, and holds the list that F1 shows.
  */
 #include "gui.h"
 #include "navigate.h"
@@ -13,31 +13,31 @@
 #include <string.h>
 
 const char *const keys_help[][2] = {
-    {"left drag", "turn round the target"},
-    {"right drag", "look about"},
-    {"middle drag, Shift + left drag", "move across"},
-    {"wheel, + -", "nearer, farther"},
-    {"W A S D, Q E", "walk; down, up (Shift: faster)"},
-    {"arrows", "turn; in split view with Ctrl: move the line"},
-    {"F", "frame the scene"},
-    {"1 2 3 4, Space", "occlusion on, off, split by a line, blink; on or off"},
-    {"M, Shift+M", "next map, the one before"},
+    {"left drag", "turn the camera round the target"},
+    {"right drag", "turn the camera where it stands"},
+    {"middle drag, Shift + left drag", "move the camera sideways"},
+    {"wheel, + -", "move nearer, farther"},
+    {"W A S D, Q E", "walk; down, up (with Shift: faster)"},
+    {"arrows", "turn the camera; with Ctrl in split view: move the line"},
+    {"F", "fit the view to the scene"},
+    {"1 2 3 4, Space", "occlusion on, off, split by a line, blinking; toggle on and off"},
+    {"M, Shift+M", "next map, previous map"},
     {"P O U N V X", "picture, accessibility, raw estimate, normals, view distance, random vectors"},
-    {"H Z", "shadow map, tiles left out"},
-    {"T, Y", "difference to the ray-traced accessibility, that itself"},
+    {"H Z", "shadow map, skipped tiles"},
+    {"T, Y", "error against ray-traced accessibility; the ray-traced accessibility"},
     {"Tab, Shift+Tab", "technique; quality"},
-    {"[ ]", "radius smaller, larger"},
-    {", .", "contrast less, more"},
-    {"R", "the radius that suits the scene"},
-    {"Backspace", "settings as the technique and quality come"},
-    {"J K L B I", "shadows, mapped normals, specular occlusion, multi-bounce, the map in the corner"},
+    {"[ ]", "smaller, larger radius"},
+    {", .", "less, more contrast"},
+    {"R", "suggested radius of the scene"},
+    {"Backspace", "default settings of the technique and quality"},
+    {"J K L B I", "shadows, mapped normals, specular occlusion, multi-bounce, map in the corner"},
     {"Ctrl+O, drop a file", "open a glTF file, or an equirectangular picture that lights the scene"},
-    {"Page Up, Page Down", "built-in scenes"},
-    {"Ctrl+S", "save the picture as shown"},
+    {"Page Up, Page Down", "previous, next built-in scene"},
+    {"Ctrl+S", "save the picture"},
     {"Ctrl+C", "copy and print the glssao-render command line"},
-    {"G", "panel"},
-    {"F2", "keys to the panel, Esc back"},
-    {"F1", "this"},
+    {"G", "show or hide the panel"},
+    {"F2", "move through the panel with keys; Esc ends that"},
+    {"F1", "this list"},
     {"Ctrl+Q", "quit"},
     {NULL, NULL},
 };
@@ -55,7 +55,7 @@ static void step_quality(viewer *v)
 static void set_radius(viewer *v, float radius)
 {
     setting_scale_radius(&v->settings, radius);
-    v->options.radius = (options_number){true, radius};
+    v->options.radius = (option_number){true, radius};
     viewer_change(v);
 }
 
@@ -119,16 +119,16 @@ static bool key_of_view(viewer *v, int key)
     const float step = 0.1f;
     switch (key) {
     case GLFW_KEY_F:
-        v->moved = true; /* the whole scene, not the file's or the command line's view */
+        v->moved = true; /* fit the view, even if the file or the command line has a camera */
         viewer_frame_scene(v);
         return true;
     case GLFW_KEY_LEFT:
     case GLFW_KEY_RIGHT:
-        navigate_orbit(&v->viewpoint.base, key == GLFW_KEY_LEFT ? -step : step, 0);
+        navigate_orbit(&v->viewpoint.base, v->viewpoint.axis, key == GLFW_KEY_LEFT ? -step : step, 0);
         break;
     case GLFW_KEY_UP:
     case GLFW_KEY_DOWN:
-        navigate_orbit(&v->viewpoint.base, 0, key == GLFW_KEY_DOWN ? -step : step);
+        navigate_orbit(&v->viewpoint.base, v->viewpoint.axis, 0, key == GLFW_KEY_DOWN ? -step : step);
         break;
     case GLFW_KEY_EQUAL:
     case GLFW_KEY_KP_ADD:
@@ -222,17 +222,19 @@ void keys_press(viewer *v, int key, int modifiers)
     if (key == GLFW_KEY_F1) {
         v->help_open = !v->help_open;
     } else if (key == GLFW_KEY_F2) {
-        v->panel_open = v->panel_focus_due = true;
+        if (!v->panel_open)
+            viewer_toggle_panel(v);
+        v->panel_focus_due = true;
     } else if (key == GLFW_KEY_ESCAPE) {
         v->help_open = v->opening = false;
         gui_leave();
     } else if (modifiers & GLFW_MOD_CONTROL) {
-        if (!gui_wants_keyboard() || key != GLFW_KEY_C) /* there it copies text */
+        if (!gui_wants_keyboard() || key != GLFW_KEY_C) /* in the panel, Ctrl+C copies text */
             key_with_control(v, key);
     } else if (gui_wants_keyboard()) {
         return;
     } else if (key == GLFW_KEY_G) {
-        v->panel_open = !v->panel_open;
+        viewer_toggle_panel(v);
     } else if (key == GLFW_KEY_PAGE_UP || key == GLFW_KEY_PAGE_DOWN) {
         step_scene(v, key == GLFW_KEY_PAGE_UP ? -1 : 1);
     } else if (!key_of_view(v, key) && !key_of_show(v, key, shift)) {

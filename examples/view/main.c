@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * glssao-view: a window, and a loop that waits until something happens.
+ * glssao-view: opens a window and updates it when something happens.
  */
 #include "gui.h"
+#include "statistics.h"
 #include "viewer.h"
 
 #include <GLFW/glfw3.h>
@@ -13,7 +14,7 @@
 #include <string.h>
 
 enum { EXIT_DONE = 0, EXIT_NOT_SHOWN = 1, EXIT_USAGE = 2 };
-/* The panel answers an event in the frame after it, and its last movements in the one after that. */
+/* The panel reacts to an event one frame later, and its last movements end one frame after that. */
 enum { UPDATES_AFTER_EVENT = 3 };
 static const double blink_seconds = 0.6;
 
@@ -50,7 +51,7 @@ static bool open_window(viewer *v)
     return gl_load(load_function, NULL, v->error, sizeof v->error);
 }
 
-/* It keeps its size on X11, and has none on Windows. */
+/* A minimised window keeps its size on X11 and has none on Windows. */
 static bool is_minimised(const viewer *v)
 {
     int width, height;
@@ -79,38 +80,32 @@ static void update(viewer *v)
         viewer_say(v, true, "OpenGL error 0x%04x", error);
 }
 
-/* How long nothing can change by itself, in seconds. */
+/* How many seconds to wait for events: nothing changes by itself until then. */
 static double quiet_time(const viewer *v, bool walking)
 {
     if (is_minimised(v))
-        return 3600; /* until an event */
+        return 3600; /* until the next event */
     double quiet = v->notice[0] && v->notice_until > glfwGetTime() ? v->notice_until - glfwGetTime() + 0.01 : 3600;
     if (v->mode == MODE_BLINK && v->shown == SHOWN_PICTURE)
         quiet = fmin(quiet, blink_seconds - fmod(glfwGetTime(), blink_seconds) + 0.01);
     return walking ? 0.001 : quiet;
 }
 
-static int compare_floats(const void *a, const void *b)
-{
-    const float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
-/* Of the frames that the graph remembers. */
+/* Median of the frames in the graph. */
 static double median_frame_ms(const viewer *v)
 {
-    float sorted[GRAPH_LENGTH];
-    memcpy(sorted, v->frame_ms, sizeof sorted);
-    qsort(sorted, GRAPH_LENGTH, sizeof *sorted, compare_floats);
-    const unsigned count = v->frames < GRAPH_LENGTH ? v->frames : GRAPH_LENGTH; /* what was not drawn is 0, in front */
-    return (double)sorted[GRAPH_LENGTH - 1 - count / 2];
+    const int count = v->frames < GRAPH_LENGTH ? (int)v->frames : GRAPH_LENGTH;
+    double ms[GRAPH_LENGTH] = {0};
+    for (int i = 0; i < count; i++)
+        ms[i] = (double)v->frame_ms[i];
+    return statistics_percentile(ms, count > 0 ? count : 1, 50);
 }
 
 static void run(viewer *v)
 {
     bool walking = false;
     int due = UPDATES_AFTER_EVENT;
-    double last = glfwGetTime(), shown[2] = {0}; /* the first picture; the first with occlusion */
+    double last = glfwGetTime(), shown[2] = {0}; /* times of the first picture, and of the first with occlusion */
     while (!glfwWindowShouldClose(v->window)) {
         const double now = glfwGetTime();
         walking = input_walk(v, fmin(now - last, 0.1));
@@ -121,7 +116,7 @@ static void run(viewer *v)
             shown[0] = glfwGetTime();
         if (shown[1] == 0 && v->updates > 0 && !v->frame_due) {
             shown[1] = glfwGetTime();
-            glfwSetWindowTitle(v->window, v->scene->name); /* who waits for it finds the picture whole */
+            glfwSetWindowTitle(v->window, v->scene->name); /* the title tells that the picture is complete */
         }
         if (--due > 0) {
             glfwPollEvents();
@@ -129,7 +124,7 @@ static void run(viewer *v)
         }
         glfwWaitEventsTimeout(quiet_time(v, walking));
         if (glfwGetTime() - last > 0.2)
-            last = glfwGetTime(); /* waiting is no time to walk in */
+            last = glfwGetTime(); /* do not walk for the time spent waiting */
         due = UPDATES_AFTER_EVENT;
     }
     fprintf(stderr,
@@ -140,8 +135,8 @@ static void run(viewer *v)
 
 int main(int argc, char **argv)
 {
-    static viewer v; /* large, and zero */
-    switch (options_parse_for_viewer(argc, argv, &v.options, v.error, sizeof v.error)) {
+    static viewer v; /* too large for the stack; starts as 0 */
+    switch (options_parse_for_viewer(argc, argv, &v.options, FAULT(v.error))) {
     case OPTIONS_DONE:
         return EXIT_DONE;
     case OPTIONS_WRONG:
@@ -166,16 +161,18 @@ int main(int argc, char **argv)
     glfwGetWindowSize(v.window, &window_width, &window_height);
     v.width = v.width < 1 ? 1 : v.width;
     v.height = v.height < 1 ? 1 : v.height;
+    /* If a screen coordinate spans several pixels, as on macOS, the window system scales already. */
+    v.gui_scale = v.width > window_width ? 1 : scale;
     const bool opened = viewer_open(&v, v.options.scene_path, v.options.scene_name);
     if (opened) {
         input_start(&v);
-        /* Where screen coordinates are larger than pixels, as on macOS, they are scaled already. */
-        gui_start(v.window, v.width > window_width ? 1 : scale);
+        gui_start(v.window, v.gui_scale);
         run(&v);
         gui_stop();
     }
     viewer_close(&v);
     glfwDestroyWindow(v.window);
-    /* No glfwTerminate: it would unload the driver, whose own leaks a leak checker could then not tell from ours. */
+    /* glfwTerminate is not called: it would unload the driver, and a leak checker could not tell the driver's leaks
+     * from ours. */
     return opened ? EXIT_DONE : EXIT_NOT_SHOWN;
 }

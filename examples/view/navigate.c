@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-static const float steepest_rad = 1.55f; /* up is not to be along the view */
+static const float steepest_rad = 1.55f; /* keeps up away from the line of sight */
 
 typedef struct frame_of_sight {
     vec3 ahead, right, up; /* unit, world space */
@@ -26,37 +26,35 @@ static frame_of_sight look_along(const camera *c)
     return f;
 }
 
-/* Turns the way from `from` to `to`, and puts `to` at its end. */
-static void turn(const float from[3], float to[3], float right_rad, float up_rad)
+/* Turns the vector from `from` to `to` about the axis and upwards, and moves `to`. The camera is upright afterwards. */
+static void turn(camera *c, const float axis[3], const float from[3], float to[3], float right_rad, float up_rad)
 {
-    vec3 way;
+    vec3 way, flat;
     glm_vec3_sub(to, (float *)from, way);
     const float length = glm_vec3_norm(way);
-    const float height = glm_clamp(way[1] / length, -1, 1);
-    const float azimuth = atan2f(way[0], way[2]) + right_rad;
+    const float height = glm_clamp(glm_vec3_dot(way, (float *)axis) / length, -1, 1);
+    glm_vec3_copy(way, flat);
+    if (1 - height * height <
+        1e-6f) /* seen from straight above or below, the picture's up gives the horizontal direction */
+        glm_vec3_scale(c->up, height > 0 ? -1 : 1, flat);
+    glm_vec3_muladds((float *)axis, -glm_vec3_dot(flat, (float *)axis), flat);
+    glm_vec3_normalize(flat);
+    glm_vec3_rotate(flat, right_rad, (float *)axis);
     const float elevation = glm_clamp(asinf(height) + up_rad, -steepest_rad, steepest_rad);
-    const float flat = length * cosf(elevation);
-    const vec3 turned = {flat * sinf(azimuth), length * sinf(elevation), flat * cosf(azimuth)};
-    glm_vec3_add((float *)from, (float *)turned, to);
+    glm_vec3_copy((float *)from, to);
+    glm_vec3_muladds(flat, length * cosf(elevation), to);
+    glm_vec3_muladds((float *)axis, length * sinf(elevation), to);
+    glm_vec3_copy((float *)axis, c->up);
 }
 
-/* A tilted camera is set upright: the angles are about the vertical. */
-static void set_upright(camera *c)
+void navigate_orbit(camera *c, const float axis[3], float right_rad, float up_rad)
 {
-    c->up[0] = c->up[2] = 0;
-    c->up[1] = 1;
+    turn(c, axis, c->target, c->eye, right_rad, up_rad);
 }
 
-void navigate_orbit(camera *c, float right_rad, float up_rad)
+void navigate_look(camera *c, const float axis[3], float right_rad, float up_rad)
 {
-    set_upright(c);
-    turn(c->target, c->eye, right_rad, up_rad);
-}
-
-void navigate_look(camera *c, float right_rad, float up_rad)
-{
-    set_upright(c);
-    turn(c->eye, c->target, -right_rad, up_rad);
+    turn(c, axis, c->eye, c->target, -right_rad, up_rad);
 }
 
 static void move(camera *c, const vec3 by)
@@ -83,10 +81,11 @@ void navigate_zoom(camera *c, float factor)
     glm_vec3_add(c->target, way, c->eye);
 }
 
-void navigate_walk(camera *c, float ahead, float right, float up)
+void navigate_walk(camera *c, const float axis[3], float ahead, float right, float up)
 {
     const frame_of_sight f = look_along(c);
-    vec3 by = {0, up, 0};
+    vec3 by;
+    glm_vec3_scale((float *)axis, up, by);
     glm_vec3_muladds((float *)f.ahead, ahead, by);
     glm_vec3_muladds((float *)f.right, right, by);
     move(c, by);

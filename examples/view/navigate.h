@@ -1,25 +1,27 @@
 /* SPDX-License-Identifier: MIT
  *
- * Moving a camera by hand: around its target, across, towards it, and walking.
+ * Moves a camera by hand.
  */
 #ifndef GLSSAO_EXAMPLES_NAVIGATE_H
 #define GLSSAO_EXAMPLES_NAVIGATE_H
 
 #include "camera.h"
 
-/* Round the target by these angles: to the right about the vertical, and upwards, short of straight above and below. */
-void navigate_orbit(camera *c, float right_rad, float up_rad);
+/* `axis` is the direction that is up in the scene, a unit vector in world space. */
 
-/* Looks about from where it stands; the target moves. */
-void navigate_look(camera *c, float right_rad, float up_rad);
+/* Moves the eye round the target: to the right about the axis, and upwards, but never quite straight above or below. */
+void navigate_orbit(camera *c, const float axis[3], float right_rad, float up_rad);
 
-/* Eye and target together, in the picture's plane, by shares of its height at the target's distance. */
+/* Turns the camera where it stands; the target moves. */
+void navigate_look(camera *c, const float axis[3], float right_rad, float up_rad);
+
+/* Moves eye and target across the picture, by shares of its height at the target's distance. */
 void navigate_pan(camera *c, float right, float up);
 
-/* Towards the target: the distance is multiplied by `factor`. */
+/* Multiplies the distance to the target by `factor`. */
 void navigate_zoom(camera *c, float factor);
 
-/* Eye and target together by scene units: along the line of sight, to the right, and straight up. */
-void navigate_walk(camera *c, float ahead, float right, float up);
+/* Moves eye and target by scene units: along the line of sight, to the right, and along the axis. */
+void navigate_walk(camera *c, const float axis[3], float ahead, float right, float up);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The panel: what is shown, how it is drawn, the plan with reasons, times, help.
+ * Draws the panel: what is shown, how it is drawn, the plan with reasons, times and help.
  */
 #include "gui.h"
 #include "viewer.h"
@@ -29,7 +29,7 @@ static void draw_scene(viewer *v)
         if (gui_button(names[i]))
             viewer_open(v, NULL, names[i]);
     }
-    if (gui_button("Frame it (F)")) {
+    if (gui_button("Fit the view (F)")) {
         v->moved = true;
         viewer_frame_scene(v);
     }
@@ -57,10 +57,10 @@ static void draw_show(viewer *v)
                  TRUTH_ROUNDS * TRUTH_ROUND_RAYS);
         gui_progress((float)v->truth_shown_rounds / TRUTH_ROUNDS, text);
         if (v->truth_rmse >= 0) {
-            snprintf(text, sizeof text, "RMSE %.4f; difference shown 4 times as large", v->truth_rmse);
+            snprintf(text, sizeof text, "RMSE %.4f; full colour at an error of %g", v->truth_rmse, VIEWER_ERROR_RANGE);
             gui_text(text);
         }
-        gui_text("red: too dark, blue: too bright");
+        gui_text("blue: too dark, red-orange: too bright");
     }
 }
 
@@ -73,11 +73,10 @@ static void draw_drawing(viewer *v)
     int size = o->shadow_size ? o->shadow_size : 2048;
     bool changed = gui_check("shadows (J)", &shadows);
     changed = gui_slider_whole("shadow map", "texels", &size, 64, 4096, 2048) || changed;
-    changed = gui_check("occlusion sees normal maps (K)", &o->mapped_normals) || changed;
+    changed = gui_check("apply normal maps before occlusion (K)", &o->mapped_normals) || changed;
     changed = gui_check("specular occlusion (L)", &o->specular_occlusion) || changed;
     changed = gui_check("multi-bounce tint (B)", &o->multi_bounce) || changed;
-    changed =
-        gui_choice("map in the corner (I)", &o->debug_map, "none|ao|normals|depth|random|shadow|tiles") || changed;
+    changed = gui_choice("map in the corner (I)", &o->debug_map, OPTIONS_MAP_WORDS) || changed;
     o->no_shadows = !shadows;
     o->shadow_size = size == 2048 ? 0 : size;
     if (changed)
@@ -100,7 +99,8 @@ static void draw_plan(viewer *v)
                       plan.passes[i].reason);
     }
     snprintf(text, sizeof text, "%u draws", counts.main + counts.blended + counts.sky);
-    gui_table_row("main", true, text, counts.culled ? "what is outside the view is left out" : "all is in the view");
+    gui_table_row("main", true, text,
+                  counts.culled ? "draws outside the view are skipped" : "everything is in the view");
     scene_effect effects[SCENE_EFFECT_COUNT];
     scene_renderer_effects(v->pipeline.renderer, &v->pipeline.lighting, effects);
     for (int i = 0; i < SCENE_EFFECT_COUNT; i++)
@@ -170,7 +170,7 @@ static void draw_open(viewer *v)
         v->opening = false;
 }
 
-/* The line that divides the picture, and which side is which. */
+/* Draws the line of the split view and labels its sides. */
 static void draw_split(const viewer *v)
 {
     int width = 0, height = 0;

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * The panel's section of settings: a slider or choice with unit and reset for each that the technique has.
+ * Draws the settings of the technique: for each a slider or a choice, its unit and a reset button.
  */
 #include "gui.h"
 #include "setting_table.h"
 #include "viewer.h"
+#include "words.h"
 
 #include <math.h>
 
-/* Sliders have ends: for a length, ten times what comes with the radius that suits the scene. */
+/* The upper end of a slider. For a length it is ten times the default for the scene's suggested radius. */
 static float slider_end(const setting *s, const viewer *v, float standard)
 {
     if (!s->length)
@@ -89,15 +90,15 @@ void panel_draw_settings(viewer *v)
     if (!gui_section("Occlusion", true))
         return;
     int technique = v->options.technique, quality = v->options.quality;
-    const bool chosen = gui_choice("technique (Tab)", &technique, "classic|hemisphere|horizon");
-    if (gui_choice("quality (Shift+Tab)", &quality, "low|medium|high|ultra") || chosen)
+    const bool chosen = gui_choice("technique (Tab)", &technique, TECHNIQUE_WORDS);
+    if (gui_choice("quality (Shift+Tab)", &quality, QUALITY_WORDS) || chosen)
         viewer_set_technique(v, technique, quality);
     const glssao_settings standard = viewer_standard(v);
     bool changed = false;
     for (int i = 0; i < setting_count; i++)
         if (setting_table[i].techniques & 1u << v->settings.technique)
             changed = draw_setting(v, &setting_table[i], &standard) || changed;
-    if (gui_button("All as they come")) {
+    if (gui_button("Default settings")) {
         v->settings = standard;
         changed = true;
     }
@@ -107,7 +108,7 @@ void panel_draw_settings(viewer *v)
         changed = true;
     }
     if (changed) {
-        v->options.radius = (options_number){true, v->settings.radius};
+        v->options.radius = (option_number){true, v->settings.radius};
         viewer_change(v);
     }
 }

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * Pictures and command lines.
+ * Saves pictures and writes command lines.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "picture.h"
 #include "setting_table.h"
 #include "viewer.h"
+#include "words.h"
 
 #include <GLFW/glfw3.h>
 
@@ -15,7 +16,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The command line's --output, or the first name that is free. */
+/* The name from --output, or the first free name. */
 static void choose_name(const viewer *v, char *out, size_t out_size)
 {
     snprintf(out, out_size, "%s", v->options.output ? v->options.output : "");
@@ -30,16 +31,20 @@ void viewer_save_picture(viewer *v)
 {
     char name[4096];
     choose_name(v, name, sizeof name);
+    if (!inputs_spare(&v->inputs, v->options.environment, name, FAULT(v->error))) {
+        viewer_say(v, true, "%s", v->error);
+        return;
+    }
     uint8_t *pixels = viewer_read_shown(v);
     if (!pixels) {
         viewer_say(v, true, "%s: out of memory", name);
         return;
     }
-    /* Alpha means nothing here: RGB, as glssao-render writes it. */
+    /* drop alpha, as glssao-render does */
     const size_t count = (size_t)v->width * (size_t)v->height;
     for (size_t i = 0; i < count; i++)
         memmove(pixels + 3 * i, pixels + 4 * i, 3);
-    if (picture_write_png(name, v->width, v->height, 3, pixels, v->error, sizeof v->error))
+    if (picture_write(name, v->width, v->height, 3, pixels, v->error, sizeof v->error))
         viewer_say(v, false, "saved %s", name);
     else
         viewer_say(v, true, "%s", v->error);
@@ -64,7 +69,7 @@ static void add(line *l, const char *format, ...)
         l->used += (size_t)length;
 }
 
-/* For a POSIX shell. */
+/* Adds a word in the quotes of a POSIX shell. */
 static void add_quoted(line *l, const char *text)
 {
     add(l, " '");
@@ -73,35 +78,45 @@ static void add_quoted(line *l, const char *text)
     add(l, "'");
 }
 
-static void add_vector(line *l, const char *name, const float value[3])
+/* Adds `origin` (NULL: 0): positions on the command line are in the coordinates of the file. */
+static void add_vector(line *l, const char *name, const float value[3], const double *origin)
 {
-    add(l, " --%s %.9g,%.9g,%.9g", name, (double)value[0], (double)value[1], (double)value[2]);
+    add(l, " --%s", name);
+    for (int i = 0; i < 3; i++)
+        add(l, "%s%.*g", i ? "," : " ", origin && origin[i] != 0 ? 15 : 9, (double)value[i] + (origin ? origin[i] : 0));
 }
 
 static void add_camera(line *l, const viewer *v)
 {
     const options *o = &v->options;
     const camera *c = &v->viewpoint.base;
-    if (o->camera)
+    const float given_up[3] = {(float)o->up.value[0], (float)o->up.value[1], (float)o->up.value[2]};
+    const bool placed = v->moved || (v->viewpoint.fitted && v->panel_open); /* glssao-render has no panel */
+    if (o->camera > 0 && !placed)
         add(l, " --camera %d", o->camera);
-    if (v->moved || o->eye.given)
-        add_vector(l, "eye", c->eye);
-    if (v->moved || o->target.given)
-        add_vector(l, "target", c->target);
-    if (v->moved || o->up.given)
-        add_vector(l, "up", c->up);
-    if (v->moved || o->fov_deg.given)
-        add(l, " --fov %.9g", (double)c->fov_y_rad * 57.295779513);
+    if (o->camera < 0)
+        add(l, " --camera none");
+    if (o->view && !placed)
+        add(l, " --view %s", o->view);
+    if (o->orthographic && c->half_height > 0)
+        add(l, " --ortho");
+    if (placed || o->eye.given)
+        add_vector(l, "eye", c->eye, v->scene->origin);
+    if (placed || o->target.given)
+        add_vector(l, "target", c->target, v->scene->origin);
+    if (placed || o->up.given)
+        add_vector(l, "up", placed ? c->up : given_up, NULL);
+    if (placed || o->fov_deg.given)
+        add(l, " --fov %.9g", (double)viewpoint_fov_deg(&v->viewpoint));
     if (o->near_plane.given)
         add(l, " --near %.9g", (double)o->near_plane.value);
     if (o->far_plane.given)
         add(l, " --far %.9g", (double)o->far_plane.value);
 }
 
-/* What glssao-render takes with the technique of the moment, and with occlusion alone. */
+/* Adds options that glssao-render accepts only with the current technique, or only with occlusion. */
 static void add_occlusion(line *l, const viewer *v)
 {
-    static const char *const paths[] = {"auto", "fragment", "compute"};
     const options *o = &v->options;
     const bool horizon = v->settings.technique == GLSSAO_HORIZON;
     if (v->mode == MODE_OFF)
@@ -113,29 +128,27 @@ static void add_occlusion(line *l, const viewer *v)
     if (o->budget_ms.given && horizon && v->mode != MODE_OFF)
         add(l, " --budget %.9g", (double)o->budget_ms.value);
     if (o->path)
-        add(l, " --path %s", paths[o->path]);
+        add(l, " --path %s", words_at(PATH_WORDS, o->path).text);
 }
 
-/* The map in the corner, where glssao-render has it too. */
+/* Adds the map in the corner, if glssao-render can show it. */
 static void add_debug_map(line *l, const viewer *v)
 {
-    static const char *const maps[] = {"none", "ao", "normals", "depth", "random", "shadow", "tiles"};
     const int map = v->options.debug_map;
     const bool is_of_occlusion = map == OPTIONS_MAP_AO || map == OPTIONS_MAP_TILES;
     if (map && !(is_of_occlusion && v->mode == MODE_OFF) && !(map == OPTIONS_MAP_SHADOW && v->options.no_shadows))
-        add(l, " --debug-map %s", maps[map]);
+        add(l, " --debug-map %s", words_at(OPTIONS_MAP_WORDS, map).text);
 }
 
 bool viewer_command_line(const viewer *v, char *out, size_t out_size)
 {
-    static const char *const techniques[] = {"classic", "hemisphere", "horizon"};
-    static const char *const qualities[] = {"low", "medium", "high", "ultra"};
     const options *o = &v->options;
     char settings[1024];
     line l = {out, out_size, 0, false};
     out[0] = '\0';
     add(&l, "glssao-render -o picture.png -s %dx%d -t %s -q %s --radius %.9g", v->width, v->height,
-        techniques[v->settings.technique], qualities[o->quality], (double)v->settings.radius);
+        words_at(TECHNIQUE_WORDS, (int)v->settings.technique).text, words_at(QUALITY_WORDS, o->quality).text,
+        (double)v->settings.radius);
     const glssao_settings standard = viewer_standard(v);
     glssao_settings rest = v->settings;
     rest.radius = standard.radius;
@@ -160,6 +173,18 @@ bool viewer_command_line(const viewer *v, char *out, size_t out_size)
         add(&l, " --seed %u", o->seed);
     if (o->time_s.given)
         add(&l, " --time %.9g", (double)o->time_s.value);
+    if (o->file.animation)
+        add(&l, " --animation %d", o->file.animation);
+    if (o->file.scene)
+        add(&l, " --gltf-scene %d", o->file.scene);
+    if (o->file.variant) {
+        add(&l, " --variant");
+        add_quoted(&l, o->file.variant);
+    }
+    if (o->file.root) {
+        add(&l, " --root");
+        add_quoted(&l, o->file.root);
+    }
     if (v->scene_path[0])
         add_quoted(&l, v->scene_path);
     else

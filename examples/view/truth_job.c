@@ -19,7 +19,7 @@ struct truth_job {
     void (*wake)(void);
     pthread_t thread;
     atomic_bool stop;
-    pthread_mutex_t lock; /* of what follows */
+    pthread_mutex_t lock; /* protects the members below */
     int rounds;           /* -1: failed */
     float *mean;
     char error[512];
@@ -47,7 +47,7 @@ static bool trace_round(truth_job *j, const trace_scene *t, int round, float *sc
 {
     char error[512];
     trace_stats stats;
-    /* One core is left for the window. */
+    /* Leaves one core for the window. */
     const long cores = sysconf(_SC_NPROCESSORS_ONLN);
     const trace_options options = {.radius = j->radius,
                                    .samples = TRUTH_ROUND_RAYS,
@@ -107,14 +107,14 @@ truth_job *truth_job_start(const scene *s, const scene_view *view, float radius,
     return j;
 }
 
-int truth_job_read(truth_job *j, float *out, char *error, size_t error_size)
+int truth_job_read(truth_job *j, float *out, fault *why)
 {
     pthread_mutex_lock(&j->lock);
     const int rounds = j->rounds;
     if (rounds > 0 && out)
         memcpy(out, j->mean, pixel_count(j) * sizeof *out);
     if (rounds < 0)
-        snprintf(error, error_size, "%s", j->error);
+        fault_set(why, "%s", j->error);
     pthread_mutex_unlock(&j->lock);
     return rounds;
 }

@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * The ray-traced reference on the screen: starting it, and its difference to the accessibility of the moment.
+ * Shows ray-traced accessibility, and how far the current result is from it.
  */
+#include "error_color.h"
 #include "viewer.h"
 
 #include <GLFW/glfw3.h>
 
 #include <math.h>
 #include <stdlib.h>
-
-static const float difference_gain = 4; /* differences are small */
 
 bool viewer_shows_truth(const viewer *v)
 {
@@ -33,33 +32,26 @@ static bool start(viewer *v)
                    ? truth_job_start(v->scene, &v->view, v->settings.radius, v->options.seed, glfwPostEmptyEvent)
                    : NULL;
     if (!v->truth)
-        viewer_say(v, true, "no memory or thread for ray tracing");
+        viewer_say(v, true, "ray tracing could not start: out of memory or threads");
     return v->truth;
 }
 
-static uint8_t to_byte(float value)
-{
-    return (uint8_t)lroundf(255 * fminf(fmaxf(value, 0), 1));
-}
-
-/* Truth in grey; or red where the technique is darker than the truth, blue where it is brighter, grey where right. */
+/* Paints the truth in grey, or the error in colours. */
 static void paint(viewer *v, const float *ao, uint8_t (*out)[4])
 {
     double sum = 0;
     size_t seen = 0;
     for (size_t i = 0; i < (size_t)v->width * (size_t)v->height; i++) {
         const float traced = v->settings.power == 1 ? v->truth_mean[i] : powf(v->truth_mean[i], v->settings.power);
-        const float difference = ao[i] - traced;
+        const double error = (double)ao[i] - (double)traced;
         const bool sky = v->truth_mean[i] == 1 && ao[i] == 1;
-        sum += sky ? 0 : (double)difference * (double)difference;
+        double rgb[3] = {(double)traced, (double)traced, (double)traced};
+        sum += sky ? 0 : error * error;
         seen += !sky;
-        const float off = difference_gain * difference;
-        const float red = v->shown == SHOWN_TRUTH ? traced : 0.5f + fmaxf(-off, 0) - fmaxf(off, 0);
-        const float green = v->shown == SHOWN_TRUTH ? traced : 0.5f - fabsf(off);
-        const float blue = v->shown == SHOWN_TRUTH ? traced : 0.5f + fmaxf(off, 0) - fmaxf(-off, 0);
-        out[i][0] = to_byte(red);
-        out[i][1] = to_byte(green);
-        out[i][2] = to_byte(blue);
+        if (v->shown == SHOWN_DIFFERENCE)
+            error_color(error, VIEWER_ERROR_RANGE, rgb);
+        for (int k = 0; k < 3; k++)
+            out[i][k] = (uint8_t)lround(255 * fmin(fmax(rgb[k], 0), 1));
         out[i][3] = 255;
     }
     v->truth_rmse = seen ? sqrt(sum / (double)seen) : 0;
@@ -71,7 +63,7 @@ void viewer_draw_truth(viewer *v)
         v->shown = SHOWN_PICTURE;
         return;
     }
-    v->truth_rounds = truth_job_read(v->truth, NULL, v->error, sizeof v->error);
+    v->truth_rounds = truth_job_read(v->truth, NULL, FAULT(v->error));
     if (v->truth_rounds < 0) {
         viewer_say(v, true, "ray tracing failed: %s", v->error);
         viewer_drop_truth(v);
@@ -82,10 +74,10 @@ void viewer_draw_truth(viewer *v)
     float *ao = pipeline_read_ao(&v->pipeline, PIXELS_FLOAT);
     uint8_t(*pixels)[4] = calloc(count, sizeof *pixels);
     if (ao && pixels && v->truth_rounds > 0) {
-        truth_job_read(v->truth, v->truth_mean, v->error, sizeof v->error);
+        truth_job_read(v->truth, v->truth_mean, FAULT(v->error));
         paint(v, ao, pixels);
     }
-    if (ao && pixels) { /* black until the first round is there */
+    if (ao && pixels) { /* black until the first round is done */
         gl.BindTexture(GL_TEXTURE_2D, v->map);
         gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
         gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, v->width, v->height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);

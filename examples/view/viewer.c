@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * Opening and closing scenes, and changing what the frame is made of.
+ * Opens and closes scenes, and changes what the frame shows.
  */
 #include "viewer.h"
 
+#include "gui.h"
 #include "setting_table.h"
 
 #include <GLFW/glfw3.h>
@@ -17,7 +18,7 @@ static void *load_function(const char *name, void *user)
     (void)user;
     GLFWglproc function = glfwGetProcAddress(name);
     void *address = NULL;
-    /* ISO C has no cast from a function pointer to an object pointer; POSIX promises that the bytes agree. */
+    /* ISO C has no cast from a function pointer to an object pointer; POSIX guarantees the same representation. */
     memcpy(&address, &function, sizeof address);
     return address;
 }
@@ -43,9 +44,19 @@ void viewer_change(viewer *v)
 void viewer_camera_moved(viewer *v)
 {
     v->moved = true;
-    v->viewpoint.half_height = 0; /* an orthographic view of the file's becomes a perspective one */
+    v->viewpoint.fitted = false;
+    v->viewpoint.base.half_height = 0; /* an orthographic view becomes a perspective one */
     v->viewpoint.clip_near = v->viewpoint.clip_far = 0;
     viewer_change(v);
+}
+
+/* The share of the window that the panel covers; 0 if it leaves too little free. */
+static float panel_share(const viewer *v)
+{
+    int width = 1;
+    glfwGetWindowSize(v->window, &width, NULL);
+    const float share = v->panel_open ? gui_panel_width(v->gui_scale) / (float)width : 0;
+    return share < 0.7f ? share : 0;
 }
 
 void viewer_frame_scene(viewer *v)
@@ -53,22 +64,30 @@ void viewer_frame_scene(viewer *v)
     options o = v->options;
     o.width = v->width;
     o.height = v->height;
-    const viewpoint whole = {.base = camera_frame_scene(v->scene, (float)v->width / (float)v->height),
-                             .near_plane = o.near_plane,
-                             .far_plane = o.far_plane};
-    if (v->moved) { /* once more: the whole scene, whatever the file's camera shows */
-        v->viewpoint = whole;
-    } else if (!viewpoint_choose(&o, v->scene, &v->viewpoint, v->error, sizeof v->error)) {
+    if (v->moved) { /* fit the view, even if the file or the command line has a camera */
+        o.camera = -1;
+        o.eye.given = o.target.given = o.fov_deg.given = o.orthographic = false;
+        o.view = NULL;
+    }
+    if (!viewpoint_choose(&o, v->scene, panel_share(v), &v->viewpoint, FAULT(v->error)) && !v->moved) {
         viewer_say(v, true, "%s", v->error);
-        v->viewpoint = whole;
         v->moved = true;
+        viewer_frame_scene(v);
     }
     viewer_change(v);
+}
+
+void viewer_toggle_panel(viewer *v)
+{
+    v->panel_open = !v->panel_open;
+    if (v->viewpoint.fitted)
+        viewer_frame_scene(v);
 }
 
 static bool make_pipeline(viewer *v, pipeline *p, const scene *s)
 {
     const pipeline_wants wants = {.picture = true,
+                                  .samples = 1,
                                   .ao = true,
                                   .ao_map = true,
                                   .prepass = true,
@@ -78,7 +97,7 @@ static bool make_pipeline(viewer *v, pipeline *p, const scene *s)
     options o = v->options;
     o.width = v->width;
     o.height = v->height;
-    return pipeline_create(p, s, load_function, NULL, &o, wants, v->error, sizeof v->error);
+    return pipeline_create(p, s, load_function, NULL, &o, wants, FAULT(v->error));
 }
 
 bool viewer_open(viewer *v, const char *path, const char *name)
@@ -89,15 +108,17 @@ bool viewer_open(viewer *v, const char *path, const char *name)
     const options before = v->options;
     v->options.scene_path = path;
     v->options.scene_name = name;
-    if (!first) { /* another scene, another size and another animation */
+    if (!first) { /* these belong to the old scene */
         v->options.radius.given = v->options.near_plane.given = v->options.far_plane.given = false;
         v->options.time_s.given = false;
     }
-    scene *s = stage_load_scene(&v->options, v->error, sizeof v->error);
+    inputs in;
+    scene *s = stage_load_scene(&v->options, &in, FAULT(v->error));
     if (!s || !make_pipeline(v, &made, s)) {
         v->options = before;
         pipeline_destroy(&made);
         scene_destroy(s);
+        inputs_free(&in);
         viewer_say(v, true, "%s", v->error);
         return false;
     }
@@ -106,7 +127,9 @@ bool viewer_open(viewer *v, const char *path, const char *name)
         viewer_free_targets(v);
         pipeline_destroy(&v->pipeline);
         scene_destroy(v->scene);
+        inputs_free(&v->inputs);
     }
+    v->inputs = in;
     v->pipeline = made;
     v->scene = s;
     snprintf(v->scene_path, sizeof v->scene_path, "%s", path ? path : "");
@@ -116,6 +139,8 @@ bool viewer_open(viewer *v, const char *path, const char *name)
     } else {
         v->moved = false;
         v->options.camera = 0;
+        v->options.view = NULL;
+        v->options.orthographic = false;
         v->options.eye.given = v->options.target.given = v->options.up.given = v->options.fov_deg.given = false;
         setting_scale_radius(&v->settings, path ? camera_suggest_radius(s) : viewer_standard(v).radius);
         viewer_say(v, false, "%s: %u triangles stored, opened in %.0f ms", s->name, s->index_count / 3,
@@ -138,7 +163,7 @@ static bool is_picture(const char *path)
 
 static bool surround(viewer *v, const char *path)
 {
-    if (!pipeline_surround(&v->pipeline, &v->pipeline.own, path, v->error, sizeof v->error)) {
+    if (!pipeline_surround(&v->pipeline, &v->pipeline.own, path, FAULT(v->error))) {
         viewer_say(v, true, "%s", v->error);
         return false;
     }
@@ -161,13 +186,14 @@ void viewer_close(viewer *v)
     if (v->scene)
         pipeline_destroy(&v->pipeline);
     scene_destroy(v->scene);
+    inputs_free(&v->inputs);
     v->scene = NULL;
 }
 
 glssao_settings viewer_standard(const viewer *v)
 {
     options o = v->options;
-    o.radius = (options_number){v->settings.radius > 0, v->settings.radius};
+    o.radius = (option_number){v->settings.radius > 0, v->settings.radius};
     o.power.given = false;
     o.sample_count = 0;
     o.blur_rounds = -1;
@@ -181,8 +207,8 @@ void viewer_set_technique(viewer *v, int technique, int quality)
     v->options.quality = quality;
     v->settings = viewer_standard(v);
     v->pipeline.draw_options.layers =
-        technique == GLSSAO_HORIZON && v->options.layers == 2; /* nobody else reads them */
-    if (!pipeline_make_targets(&v->pipeline, v->error, sizeof v->error))
+        technique == GLSSAO_HORIZON && v->options.layers == 2; /* only this technique reads them */
+    if (!pipeline_make_targets(&v->pipeline, FAULT(v->error)))
         viewer_say(v, true, "%s", v->error);
     viewer_configure(v);
 }

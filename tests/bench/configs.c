@@ -5,6 +5,7 @@
 #include "configs.h"
 
 #include "peers.h"
+#include "words.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -15,7 +16,6 @@ static const char *const blur_names[] = {[GLSSAO_BLUR_NONE] = "none",
                                          [GLSSAO_BLUR_BILATERAL] = "bilateral",
                                          [GLSSAO_BLUR_BOX] = "box",
                                          [GLSSAO_BLUR_PLANAR] = "planar"};
-static const char *const level_names[] = {"low", "medium", "high", "ultra"};
 
 enum { SAME = -1, ANY = -1 };
 
@@ -144,7 +144,8 @@ int bench_configs_list(const options *o, const glssao_effect *effect, bench_conf
                 bench_config config = {.settings = apply(c, (glssao_technique)t, (glssao_quality)level),
                                        .level = c->suffix[0] == '\0',
                                        .inputs = c->inputs};
-                snprintf(config.id, sizeof config.id, "%s-%s%s", technique_names[t], level_names[level], c->suffix);
+                snprintf(config.id, sizeof config.id, "%s-%s%s", technique_names[t],
+                         words_at(QUALITY_WORDS, level).text, c->suffix);
                 if ((config.level || config.inputs != INPUTS_NORMALS || !changes_nothing(&config.settings, &base)) &&
                     !measured(out, count, &config) && options_match(o->only, config.id) && count < BENCH_CONFIGS_MAX &&
                     taken(effect, &config.settings))

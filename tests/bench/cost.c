@@ -10,6 +10,7 @@
 #include "gl_counter.h"
 #include "measure.h"
 #include "scenes.h"
+#include "statistics.h"
 #include "table.h"
 #include "truth.h"
 
@@ -143,7 +144,7 @@ static bool time_stage(cost *c, stage *s, double radius, bool apply, double out_
                 values[i * frames + f] = ms;
         }
     for (int i = 0; done && i < CASES; i++)
-        out_ms[i] = measure_percentile(values + i * frames, frames, 50);
+        out_ms[i] = statistics_percentile(values + i * frames, frames, 50);
     free(values);
     return done;
 }

@@ -12,6 +12,7 @@
 #include "gl_counter.h"
 #include "measure.h"
 #include "scenes.h"
+#include "statistics.h"
 #include "truth.h"
 
 #include <math.h>
@@ -133,7 +134,7 @@ bool economy_compare(const economy *e, const glssao_frame *frame, int width, int
                 ms[i * frames + f] = one;
         }
     for (int i = 0; done && i < 2; i++)
-        out->ms[i] = measure_percentile(ms + i * frames, frames, 50);
+        out->ms[i] = statistics_percentile(ms + i * frames, frames, 50);
     out->skipped = done ? economy_skipped_share(effects[1]) : 0;
     out->worst = done ? worst_difference(effects) : -1;
     glssao_destroy(effects[0]);

@@ -7,6 +7,7 @@
 #include "clock.h"
 #include "economy_stage.h"
 #include "measure.h"
+#include "statistics.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -70,7 +71,7 @@ bool economy_measure_steps(economy *e, char *error, size_t error_size)
                     ms[t * frames + f] = (e->software ? clock_cpu_ms() : clock_wall_ms()) - start;
             }
         for (int t = 0; t < 2; t++)
-            out->ms[t] = measure_percentile(ms + t * frames, frames, 50);
+            out->ms[t] = statistics_percentile(ms + t * frames, frames, 50);
         fprintf(stderr, "%-24s off %8.2f ms, planned %8.2f ms\n", out->what, out->ms[0], out->ms[1]);
     }
     economy_player_close(&p);

@@ -9,6 +9,7 @@
 #include "economy_stage.h"
 #include "gl_counter.h"
 #include "measure.h"
+#include "statistics.h"
 
 #include <ftw.h>
 #include <stdio.h>
@@ -86,7 +87,7 @@ static bool measure_one(const economy *e, const bench_scene *b, economy_whole *o
             out->draws[i] = counts.draws + counts.elements + counts.dispatches;
         }
     for (int i = 0; done && i < 2; i++)
-        out->ms[i] = measure_percentile(ms + i * frames, frames, 50);
+        out->ms[i] = statistics_percentile(ms + i * frames, frames, 50);
     out->skipped = done ? economy_skipped_share(players[PLANNED].effect) : 0;
     for (int i = 0; i < 2; i++)
         economy_player_close(&players[i]);

@@ -59,7 +59,8 @@ static bool clip_draw(clip *k, const bench_scene *b, motion how, int width, int 
         float *normals;
         const camera start = bench_scene_camera(b, s, (float)width / (float)height);
         const float angle = step_rad[how] * (float)i;
-        const camera now = how == TURNS ? camera_turned(&start, angle) : rolled(&start, angle);
+        const float up[3] = {0.0f, 1.0f, 0.0f};
+        const camera now = how == TURNS ? camera_turned(&start, start.target, up, angle) : rolled(&start, angle);
         view = camera_view(&now, width, height);
         drawn = gbuffer_draw(&k->frames[i], s, &view, 0, error, error_size);
         if (drawn) {

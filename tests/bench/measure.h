@@ -36,7 +36,4 @@ double fit_rmse(const fit_sum *f, double exponent);
 /* The exponent in 0.1 to 8 with the smallest RMSE. */
 double fit_exponent(const fit_sum *f);
 
-/* The value that `percent` of them do not exceed (nearest rank); sorts them. */
-double measure_percentile(double *values, int count, int percent);
-
 #endif

@@ -7,6 +7,7 @@
 #include "clock.h"
 #include "peers.h"
 #include "progress.h"
+#include "statistics.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -75,11 +76,11 @@ static bool time_frame(bool software, effects *e, effects *plain, const gbuffer 
 static timing summarise(double *values, int frames)
 {
     timing t;
-    t.median_ms = measure_percentile(values, frames, 50);
-    t.p95_ms = measure_percentile(values, frames, 95);
-    t.cpu_ms = measure_percentile(values + frames, frames, 50);
+    t.median_ms = statistics_percentile(values, frames, 50);
+    t.p95_ms = statistics_percentile(values, frames, 95);
+    t.cpu_ms = statistics_percentile(values + frames, frames, 50);
     for (int i = 0; i < GLSSAO_PASS_COUNT; i++)
-        t.pass_ms[i] = measure_percentile(values + (ptrdiff_t)(2 + i) * frames, frames, 50);
+        t.pass_ms[i] = statistics_percentile(values + (ptrdiff_t)(2 + i) * frames, frames, 50);
     return t;
 }
 

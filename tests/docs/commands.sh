@@ -37,7 +37,7 @@ grep -v '^#' "$here/foreign.txt" >"$scratch/foreign"
 find tests docs examples third_party lib glsl >"$scratch/paths"
 (cd "$build" && find examples tests -type f -executable) >"$scratch/built"
 git ls-files >"$scratch/files" 2>/dev/null || find . -type f -not -path './build*' -not -path './.git/*' >"$scratch/files"
-grep -vE '\.(md|png|jpg)$' "$scratch/files" | xargs cat | grep -oE '[A-Za-z_][A-Za-z0-9_]*' | sort -u >"$scratch/words"
+grep -vE '\.(md|png|jpg|glb)$' "$scratch/files" | xargs cat | grep -aoE '[A-Za-z_][A-Za-z0-9_]*' | sort -u >"$scratch/words"
 
 awk -F '\t' -v folder="$scratch" '
     function load(file, set, line) { while ((getline line < file) > 0) set[line] = 1; close(file) }

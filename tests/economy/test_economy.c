@@ -321,11 +321,11 @@ static gl_counts count_frame(const scene *s, const struct scene_row *row)
     char error[1024] = "";
     options o;
     char *arguments[] = {"test", "-s", "64x48", "-q", "medium", "--path", "fragment", "-o", "unused.png"};
-    assert_int_equal(options_parse(9, arguments, &o, error, sizeof error), OPTIONS_RUN);
+    assert_int_equal(options_parse(9, arguments, &o, FAULT(error)), OPTIONS_RUN);
     pipeline p;
     const pipeline_wants wants = {.picture = true, .ao = true, .prepass = true, .normals = true};
     (void)gl_counter_take();
-    if (!pipeline_create(&p, s, gl_counter_load, NULL, &o, wants, error, sizeof error))
+    if (!pipeline_create(&p, s, gl_counter_load, NULL, &o, wants, FAULT(error)))
         fail_msg("%s", error);
     if (row->dark)
         for (int k = 0; k < 3; ++k)
@@ -337,7 +337,7 @@ static gl_counts count_frame(const scene *s, const struct scene_row *row)
     }
     const scene_view view = camera_view(&c, W, H);
     stopwatch times = {.finish = false};
-    if (!pipeline_draw(&p, &view, &times, error, sizeof error))
+    if (!pipeline_draw(&p, &view, &times, FAULT(error)))
         fail_msg("%s", error);
     const gl_counts counts = gl_counter_take();
     pipeline_destroy(&p);
@@ -373,14 +373,14 @@ static int drawn_normals(fixture *f, const scene *s, bool wanted)
     char error[1024] = "";
     options o;
     char *arguments[] = {"test", "-s", "64x48", "-o", "unused.png"};
-    assert_int_equal(options_parse(5, arguments, &o, error, sizeof error), OPTIONS_RUN);
+    assert_int_equal(options_parse(5, arguments, &o, FAULT(error)), OPTIONS_RUN);
     pipeline p;
     const pipeline_wants wants = {.picture = true, .ao = true, .prepass = true, .normals = true, .normal_map = wanted};
     const camera c = camera_frame_scene(s, (float)W / H);
     const scene_view view = camera_view(&c, W, H);
     stopwatch times = {.finish = false};
-    if (!pipeline_create(&p, s, fixture_load, f->context, &o, wants, error, sizeof error) ||
-        !pipeline_draw(&p, &view, &times, error, sizeof error))
+    if (!pipeline_create(&p, s, fixture_load, f->context, &o, wants, FAULT(error)) ||
+        !pipeline_draw(&p, &view, &times, FAULT(error)))
         fail_msg("%s", error);
     float *normals = fixture_read_texture(glssao_map(p.effect, GLSSAO_MAP_NORMAL, NULL, NULL), W, H, 4);
     int drawn = 0;

@@ -41,7 +41,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (!file || fwrite(data, 1, size, file) != size || fclose(file) != 0)
         abort();
     char error[1024] = "";
-    scene *s = scene_load(path, error, sizeof error);
+    const scene_load_options little = {.memory_bytes = 64 << 20}; /* so that no run takes long */
+    scene *s = scene_load_with(path, &little, error, sizeof error);
     const char *flaw = NULL;
     if (s)
         flaw = scene_find_flaw(s);

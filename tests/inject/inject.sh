@@ -39,7 +39,7 @@ done
 # Wrong values are named and not used.
 GLSSAO_INJECT_FOV=200 GLSSAO_INJECT_NEAR=0.1 GLSSAO_INJECT_FAR=50 GLSSAO_INJECT_POWER=65 GLSSAO_INJECT_QUALITY=best \
     inject wrong "$folder/dropin-legacy" --no-ao --frames 5
-for words in 'FOV=200 is not a number from 1 to 179' 'a projection needs all of' 'POWER=65 is not a number from 0 to 64' 'QUALITY=best is not low'; do
+for words in 'FOV=200 is not a number from 1 to 179' 'a projection needs all of' 'POWER=65 is not a number from 0 to 64' 'QUALITY=best is none of'; do
     grep -q "$words" log || fail "wrongly told: nothing says \"$words\""
 done
 cmp wrong-after.ppm legacy-after.ppm || fail "what was told wrongly is used"

@@ -93,7 +93,7 @@ LIST
 want 1 "standard input: 2 of 11 jobs done, 9 failed; 2 pictures" -s 16x16 --batch - <bad
 sed -n 's/^glssao-render: standard input:\([0-9]*\): .*/\1/p' err >lines
 [ "$(tr '\n' ' ' <lines)" = "2 3 4 5 6 7 8 9 10 " ] || fail "other lines failed"
-for words in ":2: missing.glb" ":3: full.png: No space left" ":4: $(realpath none)/1.png: line 1 writes it too" \
+for words in ":2: missing.glb" ":3: full.png: No space left" ":4: $(realpath none)/1.png: line 1 also writes this file" \
     ':5: a " without' ":6: --shard" ":8: nowhere/x.png" ":9: --samples" ":10: --camera 2"; do
     grep -qF -- "$words" err || fail "stderr does not say \"$words\""
 done
@@ -111,6 +111,6 @@ for bad in 2/2 1 1/ /2 -1/2 0/0 1/2/3; do
 done
 want 2 "--batch and --bench" --batch empty --bench 3
 printf -- '-o a.png\0\n' >zero
-want 1 "no text" --batch zero
+want 1 "not text" --batch zero
 
 finish

@@ -48,7 +48,7 @@ size="-s 65x37"
     want 2 "--no-such-option" --no-such-option
     want 2 "-z" -z
     want 2 "--output" -o
-    want 2 "--output" -o a.jpg
+    want 2 "--output" -o a.gif
     want 2 ".png" -o .png
     want 2 "--depth" --depth d.png
     want 2 "--ao" --ao a.exr
@@ -153,7 +153,7 @@ size="-s 65x37"
         want 0 "" $size --seed=7 -o p3.png $options
         cmp a1.png p3.png || fail "$options changes a matte scene without normal maps"
     done
-    want 2 "--no-shadows excludes" --no-shadows --shadow-size 64 -o b.png
+    want 2 "--no-shadows cannot be used" --no-shadows --shadow-size 64 -o b.png
     want 2 "--debug-map" --debug-map ao --no-ao -o b.png
     want 2 "--debug-map" --debug-map ao --ao b.png
     want 2 '"stencil"' --debug-map stencil -o b.png
@@ -207,8 +207,8 @@ size="-s 65x37"
     [ "$(estimates e3.json)" = 1 ] || fail "a budget that is spent at once takes more than one estimate"
     grep -q "estimates in .* (budget 0.001 ms)" out || fail "--budget does not say what was reached"
     want 2 "--error 0.01: only the horizon technique" -t classic --error 0.01 --ao e4.pfm
-    want 2 "--budget and --bench exclude each other" --budget 10 --bench 3
-    want 2 "--error and --no-ao exclude each other" --error 0.01 --no-ao -o e4.png
+    want 2 "--budget and --bench cannot be used together" --budget 10 --bench 3
+    want 2 "--error and --no-ao cannot be used together" --error 0.01 --no-ao -o e4.png
 
     # Programs kept for the next run, which draws the same; a folder that is not there is told.
     mkdir programs
@@ -220,7 +220,7 @@ size="-s 65x37"
         done
     done
     cmp c1.pfm c2.pfm || fail "--program-cache changes the picture"
-    want 1 "--program-cache no-folder: there is no folder" $size --ao c3.pfm --program-cache no-folder
+    want 1 "--program-cache no-folder: no such folder" $size --ao c3.pfm --program-cache no-folder
 
     # Built-in scenes and both kinds of context.
     for scene in columns cornell steps plane; do

@@ -40,7 +40,7 @@ int small_scene_add_material(small_scene *s, scene_material material)
 int small_scene_add_texture(small_scene *s, int width, int height, const uint8_t *rgba)
 {
     int index = (int)s->scene.image_count;
-    s->images[index] = (scene_image){width, height, (uint8_t *)(uintptr_t)rgba};
+    s->images[index] = (scene_image){width, height, (uint8_t *)(uintptr_t)rgba, false};
     s->textures[index] = (scene_texture){.image = index, .min_nearest = true, .mag_nearest = true};
     s->scene.image_count++;
     s->scene.texture_count++;

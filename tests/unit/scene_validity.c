@@ -31,7 +31,8 @@ static const char *find_primitive_flaw(const scene *s)
 {
     for (uint32_t i = 0; i < s->primitive_count; ++i) {
         const scene_primitive *p = &s->primitives[i];
-        if (p->index_count == 0 || p->index_count % 3 || p->first_index > s->index_count ||
+        const uint32_t corners = p->topology == SCENE_TRIANGLES ? 3 : p->topology == SCENE_LINES ? 2 : 1;
+        if (p->index_count == 0 || p->index_count % corners || p->first_index > s->index_count ||
             p->index_count > s->index_count - p->first_index)
             return "a primitive's indices are not there";
         if (p->material < 0 || (uint32_t)p->material >= s->material_count)
@@ -50,8 +51,8 @@ static const char *find_primitive_flaw(const scene *s)
 
 static bool is_sound_map(const scene *s, const scene_map *map)
 {
-    return !map->used || (map->texture >= 0 && map->texture < (int)s->texture_count && map->uv >= 0 && map->uv <= 1 &&
-                          all_finite(map->uv_from_uv, 6));
+    return !map->used || (map->texture >= 0 && map->texture < (int)s->texture_count && map->uv >= 0 &&
+                          map->uv < (s->more_uvs ? SCENE_UV_COUNT : 2) && all_finite(map->uv_from_uv, 6));
 }
 
 /* Where a normal map is read, each corner has a unit tangent and a sign. */
@@ -59,7 +60,7 @@ static const char *find_tangent_flaw(const scene *s)
 {
     for (uint32_t i = 0; i < s->primitive_count; ++i) {
         const scene_primitive *p = &s->primitives[i];
-        if (!s->materials[p->material].normal_map.used)
+        if (!s->materials[p->material].normal_map.used || p->topology != SCENE_TRIANGLES)
             continue;
         if (!s->tangents)
             return "a normal map has no tangents";
@@ -162,6 +163,11 @@ const char *scene_find_flaw(const scene *s)
     flaw = flaw ? flaw : find_instance_flaw(s);
     if (!flaw && (!all_finite(s->bounds_min, 3) || !all_finite(s->bounds_max, 3)))
         flaw = "the bounds are not finite";
+    if (!flaw && !isfinite(s->origin[0] + s->origin[1] + s->origin[2]))
+        flaw = "the origin is not finite";
+    for (size_t i = 0; !flaw && i < s->warning_count; ++i)
+        if (!*s->warnings[i])
+            flaw = "a warning is empty";
     for (uint32_t i = 0; !flaw && i < s->camera_count; ++i)
         if (!all_finite(s->cameras[i].world_from_view, 16))
             flaw = "a camera is not finite";
@@ -173,7 +179,8 @@ uint64_t scene_count_triangles(const scene *s)
     uint64_t triangles = 0;
     for (uint32_t m = 0; m < s->mesh_count; ++m)
         for (uint32_t p = 0; p < s->meshes[m].primitive_count; ++p)
-            triangles += (uint64_t)s->meshes[m].instance_count *
-                         (s->primitives[s->meshes[m].first_primitive + p].index_count / 3);
+            if (s->primitives[s->meshes[m].first_primitive + p].topology == SCENE_TRIANGLES)
+                triangles += (uint64_t)s->meshes[m].instance_count *
+                             (s->primitives[s->meshes[m].first_primitive + p].index_count / 3);
     return triangles;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Invariants of every scene, whatever file it came from.
+ * The invariants of every scene.
  */
 #ifndef GLSSAO_TESTS_SCENE_VALIDITY_H
 #define GLSSAO_TESTS_SCENE_VALIDITY_H

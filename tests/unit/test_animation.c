@@ -36,7 +36,8 @@ static gltf_writer animated(const char *type, size_t count, const float *values)
 static scene *load_at(const gltf_writer *w, const char *rest, double time_s)
 {
     char error[1024] = "";
-    scene *s = scene_load_at(gltf_write(w, "animated.gltf", rest), time_s, error, sizeof error);
+    const scene_load_options timed = {.timed = true, .time_s = time_s};
+    scene *s = scene_load_with(gltf_write(w, "animated.gltf", rest), &timed, error, sizeof error);
     if (!s)
         fail_msg("%s", error);
     const char *flaw = scene_find_flaw(s);
@@ -204,7 +205,8 @@ static void wrong_animations_are_named(void **state)
     gltf_put_floats(&w, "VEC3", 3, huge);
     for (size_t i = 0; i < sizeof faults / sizeof faults[0]; i++) {
         char error[1024] = "";
-        scene *s = scene_load_at(gltf_write(&w, "wrong.gltf", faults[i][0]), 2.5, error, sizeof error);
+        const scene_load_options timed = {.timed = true, .time_s = 2.5};
+        scene *s = scene_load_with(gltf_write(&w, "wrong.gltf", faults[i][0]), &timed, error, sizeof error);
         if (s || !strstr(error, faults[i][1]) || strchr(error, '\n') || !strstr(error, "wrong.gltf: "))
             fail_msg("\"%s\" instead of \"%s\"", s ? "loaded" : error, faults[i][1]);
         s = scene_load(gltf_write(&w, "wrong.gltf", faults[i][0]), error, sizeof error);

@@ -283,7 +283,9 @@ static void baked_file_can_be_baked_again(void **state)
     (void)state;
     const char *out = output_path("out.glb");
     assert_int_equal(run("--distance 50 --accessibility-only", write_room("in.gltf", floor_x, true), out), 0);
-    assert_int_equal(run("--distance 50 --accessibility-only", out, out), 0); /* onto itself */
+    assert_int_equal(run("--distance 50 --accessibility-only", out, out), 1);
+    assert_says("would overwrite");
+    assert_int_equal(run("--distance 50 --accessibility-only --in-place", out, out), 0);
     scene *s = load(out);
     assert_true(red_at(s, 5, true) == 1);
     scene_destroy(s);

@@ -9,20 +9,69 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
 
-static scene_instance one_instance;
+static const float pi = 3.14159265f;
 
-static scene box(float x0, float y0, float z0, float x1, float y1, float z1)
+/* Scenes of points: one mesh of up to 64 vertices, in the world as it is. */
+typedef struct cloud {
+    scene_vertex vertices[64];
+    uint32_t indices[64];
+    scene_primitive primitive;
+    scene_mesh mesh;
+    scene_instance instance;
+} cloud;
+
+static scene make(cloud *c, const float (*points)[3], uint32_t count)
 {
-    return (scene){
-        .instances = &one_instance, .instance_count = 1, .bounds_min = {x0, y0, z0}, .bounds_max = {x1, y1, z1}};
+    *c = (cloud){.primitive = {.index_count = count},
+                 .mesh = {.primitive_count = 1, .instance_count = 1},
+                 .instance = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}};
+    scene s = {.vertices = c->vertices,
+               .vertex_count = count,
+               .indices = c->indices,
+               .index_count = count,
+               .primitives = &c->primitive,
+               .primitive_count = 1,
+               .meshes = &c->mesh,
+               .mesh_count = 1,
+               .instances = &c->instance,
+               .instance_count = 1,
+               .bounds_min = {INFINITY, INFINITY, INFINITY},
+               .bounds_max = {-INFINITY, -INFINITY, -INFINITY}};
+    for (uint32_t i = 0; i < count; i++) {
+        c->indices[i] = i;
+        for (int k = 0; k < 3; k++) {
+            c->vertices[i].position[k] = points[i][k];
+            s.bounds_min[k] = fminf(s.bounds_min[k], points[i][k]);
+            s.bounds_max[k] = fmaxf(s.bounds_max[k], points[i][k]);
+        }
+    }
+    return s;
 }
 
+/* A box of eight vertices. Its arrays live until the next call. */
+static scene box(float x0, float y0, float z0, float x1, float y1, float z1)
+{
+    static cloud c;
+    float corners[8][3];
+    for (int k = 0; k < 8; k++) {
+        corners[k][0] = k & 1 ? x1 : x0;
+        corners[k][1] = k & 2 ? y1 : y0;
+        corners[k][2] = k & 4 ? z1 : z0;
+    }
+    return make(&c, (const float(*)[3])corners, 8);
+}
+
+/* Changes the vertices that the scene shares with the box it comes from. */
 static scene scaled(scene s, float scale)
 {
+    for (uint32_t i = 0; i < s.vertex_count; i++)
+        for (int k = 0; k < 3; k++)
+            s.vertices[i].position[k] *= scale;
     for (int i = 0; i < 3; i++) {
         s.bounds_min[i] *= scale;
         s.bounds_max[i] *= scale;
@@ -105,22 +154,155 @@ static void frame_fills_the_picture(void **state)
     }
 }
 
-static void frame_of_an_empty_scene_is_at_one_on_z(void **state)
+/* Left, right, bottom and top of the vertices in normalised device coordinates. */
+static void edges(const scene *s, const camera *c, float aspect, double out[4])
+{
+    const scene_view view = camera_view(c, (int)(1000 * aspect), 1000);
+    out[0] = out[2] = INFINITY;
+    out[1] = out[3] = -INFINITY;
+    for (uint32_t k = 0; k < s->vertex_count; k++) {
+        const float *v = s->vertices[k].position;
+        const double world[4] = {(double)v[0], (double)v[1], (double)v[2], 1};
+        double in_view[4], clip[4];
+        transform(view.view_from_world, world, in_view);
+        transform(view.clip_from_view, in_view, clip);
+        assert_true(clip[3] > 0);
+        for (int i = 0; i < 2; i++) {
+            out[2 * i] = fmin(out[2 * i], clip[i] / clip[3]);
+            out[2 * i + 1] = fmax(out[2 * i + 1], clip[i] / clip[3]);
+        }
+    }
+}
+
+static const float skewed[][3] = {{0, 0, 0}, {9, 0, 1}, {9, 0.2f, -3}, {1, 4, -2}, {0, 1, 2}, {8, 0, 3}};
+
+/* Opposite margins differ by less than 2 % of the picture, and the narrower pair is the one asked for. */
+static void check_margins(const scene *s, const camera_framing *how, const char *what)
+{
+    const camera c = camera_frame(s, how);
+    char error[200];
+    if (!camera_check(&c, error, sizeof error))
+        fail_msg("%s: %s", what, error);
+    double at[4];
+    edges(s, &c, how->aspect, at);
+    const double left = at[0] - (2 * (double)how->free_left - 1), right = 2 * (double)how->free_right - 1 - at[1];
+    const double bottom = at[2] + 1, top = 1 - at[3];
+    if (!(fabs(left - right) < 0.04 && fabs(bottom - top) < 0.04))
+        fail_msg("%s: margins %g %g, %g %g", what, left, right, bottom, top);
+    const double share = (double)how->free_right - (double)how->free_left;
+    if (!(fmin(left / share, bottom) > 0.049 && fmin(left / share, bottom) < 0.06))
+        fail_msg("%s: the narrower margins are %g, %g", what, left / share, bottom);
+}
+
+static void opposite_margins_are_equal(void **state)
+{
+    (void)state;
+    const float aspects[] = {1, 16.0f / 9, 0.3f};
+    const float ups[][3] = {{0, 1, 0}, {0, 0, 1}, {0, 0, -2}, {0, -1, 0}, {1, 0, 0}, {0.3f, 0.5f, -0.2f}};
+    const float angles[][2] = {{0.30f, 0.35f}, {0, 0}, {2, -0.7f}, {0, pi / 2}, {1, -pi / 2}};
+    for (size_t a = 0; a < sizeof aspects / sizeof aspects[0]; a++)
+        for (size_t u = 0; u < sizeof ups / sizeof ups[0]; u++)
+            for (size_t d = 0; d < 2 * sizeof angles / sizeof angles[0]; d++) {
+                cloud c;
+                const scene s = make(&c, skewed, sizeof skewed / sizeof skewed[0]);
+                camera_framing how = camera_default_framing(aspects[a]);
+                memcpy(how.up, ups[u], sizeof how.up);
+                how.azimuth_rad = angles[d / 2][0];
+                how.elevation_rad = angles[d / 2][1];
+                how.orthographic = d % 2;
+                char what[64];
+                snprintf(what, sizeof what, "aspect %zu, up %zu, direction %zu", a, u, d);
+                check_margins(&s, &how, what);
+            }
+}
+
+static void scene_stays_in_the_free_part(void **state)
+{
+    (void)state;
+    for (int orthographic = 0; orthographic < 2; orthographic++) {
+        cloud c;
+        const scene s = make(&c, skewed, sizeof skewed / sizeof skewed[0]);
+        camera_framing how = camera_default_framing(16.0f / 9);
+        how.free_left = 0.3f;
+        how.orthographic = orthographic;
+        check_margins(&s, &how, "free part");
+    }
+}
+
+/* The scene turned so that its +y becomes +z looks the same with that up. */
+static void another_up_gives_the_same_picture(void **state)
+{
+    (void)state;
+    cloud c, d;
+    float turned[6][3];
+    for (int i = 0; i < 6; i++) {
+        turned[i][0] = skewed[i][0];
+        turned[i][1] = -skewed[i][2];
+        turned[i][2] = skewed[i][1];
+    }
+    const scene y_up = make(&c, skewed, 6), z_up = make(&d, (const float(*)[3])turned, 6);
+    camera_framing how = camera_default_framing(1.5f);
+    const camera of_y = camera_frame(&y_up, &how);
+    how.up[1] = 0;
+    how.up[2] = 7;
+    const camera of_z = camera_frame(&z_up, &how);
+    const float want[3] = {of_y.eye[0], -of_y.eye[2], of_y.eye[1]};
+    for (int i = 0; i < 3; i++)
+        assert_float_equal(of_z.eye[i], want[i], 1e-4f);
+}
+
+/* A row far longer than it is deep, which a camera that fits its front alone cuts when it turns. */
+static void scene_stays_in_the_picture_while_it_turns(void **state)
+{
+    (void)state;
+    cloud c;
+    const float row[][3] = {{-10, 0, 0}, {10, 0, 0}, {10, 3, 1}, {-10, 3, 1}};
+    const scene s = make(&c, row, 4);
+    camera_framing how = camera_default_framing(1.5f);
+    how.turns = true;
+    how.up[0] = 0.5f;
+    const float up[3] = {0.4472136f, 0.8944272f, 0}, middle[3] = {0, 1.5f, 0.5f};
+    const camera first = camera_frame(&s, &how);
+    double most = 0;
+    for (int i = 0; i < 36; i++) {
+        const camera turned = camera_turned(&first, middle, up, pi / 18 * (float)i);
+        double at[4];
+        edges(&s, &turned, 1.5f, at);
+        for (int k = 0; k < 4; k++)
+            most = fmax(most, fabs(at[k]));
+    }
+    assert_true(most > 0.9 && most < 0.96);
+}
+
+static void a_turn_is_about_the_axis_given(void **state)
+{
+    (void)state;
+    const camera c = {.eye = {3, 1, 1}, .target = {1, 1, 1}, .up = {0, 0, 1}};
+    const camera d = camera_turned(&c, (float[]){1, 0, 5}, (float[]){0, 0, 1}, pi / 2);
+    const float eye[3] = {0, 2, 1}, up[3] = {0, 0, 1};
+    for (int i = 0; i < 3; i++) {
+        assert_float_equal(d.eye[i], eye[i], 1e-6f);
+        assert_float_equal(d.up[i], up[i], 1e-6f);
+    }
+}
+
+static void frame_of_an_empty_scene_is_at_distance_one(void **state)
 {
     (void)state;
     const scene s = {0};
     const camera c = camera_frame_scene(&s, 1);
-    const float eye[3] = {0, 0, 1};
     char error[200];
-    assert_memory_equal(c.eye, eye, sizeof eye);
+    assert_float_equal(hypot(hypot((double)c.eye[0], (double)c.eye[1]), (double)c.eye[2]), 1, 1e-6f);
     assert_true(camera_check(&c, error, sizeof error));
 }
 
 static void frame_scales_with_the_scene(void **state)
 {
     (void)state;
-    const scene s = box(-1, 0, -2, 3, 4, 1), large = scaled(s, 8192);
-    const camera c = camera_frame_scene(&s, 1.5f), d = camera_frame_scene(&large, 1.5f);
+    const scene s = box(-1, 0, -2, 3, 4, 1);
+    const camera c = camera_frame_scene(&s, 1.5f);
+    const scene large = scaled(s, 8192);
+    const camera d = camera_frame_scene(&large, 1.5f);
     for (int i = 0; i < 3; i++)
         assert_float_equal(d.eye[i], 8192 * c.eye[i], 8192 * 1e-5f);
     assert_float_equal(d.near_plane, 8192 * c.near_plane, 8192 * c.near_plane * 1e-5f);
@@ -177,7 +359,7 @@ static void turned_keeps_the_distance_and_the_height(void **state)
 {
     (void)state;
     const camera c = {.eye = {3, 4, 5}, .target = {1, 1, 1}, .up = {0, 1, 0}, .fov_y_rad = 1};
-    const camera d = camera_turned(&c, 1.2f);
+    const camera d = camera_turned(&c, c.target, (float[]){0, 1, 0}, 1.2f);
     double before = 0, after = 0;
     for (int i = 0; i < 3; i++) {
         before += pow((double)c.eye[i] - c.target[i], 2);
@@ -193,7 +375,7 @@ static void turned_a_quarter_goes_from_front_to_right(void **state)
 {
     (void)state;
     const camera c = {.eye = {0, 0, 2}, .up = {0, 0.5f, 0.5f}};
-    const camera d = camera_turned(&c, 1.57079633f);
+    const camera d = camera_turned(&c, c.target, (float[]){0, 1, 0}, pi / 2);
     assert_float_equal(d.eye[0], 2, 1e-6f);
     assert_float_equal(d.eye[2], 0, 1e-6f);
     assert_float_equal(d.up[0], 0.5f, 1e-6f);
@@ -265,7 +447,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frame_sees_the_whole_bounds),
         cmocka_unit_test(frame_fills_the_picture),
-        cmocka_unit_test(frame_of_an_empty_scene_is_at_one_on_z),
+        cmocka_unit_test(opposite_margins_are_equal),
+        cmocka_unit_test(scene_stays_in_the_free_part),
+        cmocka_unit_test(another_up_gives_the_same_picture),
+        cmocka_unit_test(scene_stays_in_the_picture_while_it_turns),
+        cmocka_unit_test(a_turn_is_about_the_axis_given),
+        cmocka_unit_test(frame_of_an_empty_scene_is_at_distance_one),
         cmocka_unit_test(frame_scales_with_the_scene),
         cmocka_unit_test(planes_hug_bounds_in_front),
         cmocka_unit_test(planes_inside_the_bounds_keep_their_ratio),

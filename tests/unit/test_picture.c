@@ -21,6 +21,11 @@
 
 #include <cmocka.h>
 
+#include <jpeglib.h> /* after stdio.h, which it needs */
+#if GLSSAO_HAS_WEBP
+#include <webp/decode.h>
+#endif
+
 static const char path[] = "test_picture.tmp";
 static char error[256];
 
@@ -304,6 +309,101 @@ static void broken_png_is_refused(void **state)
     }
 }
 
+/* The top half red, the bottom half blue; a column of alpha 0 on the left where there are four channels. */
+static uint8_t *two_colors(int width, int height, int channels)
+{
+    uint8_t *pixels = calloc((size_t)width * (size_t)height, (size_t)channels);
+    assert_non_null(pixels);
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            uint8_t *p = pixels + (y * width + x) * channels;
+            p[2 * y >= height ? 0 : 2] = 255; /* rows come bottom to top */
+            if (channels == 4)
+                p[3] = x < width / 2 ? 0 : 255;
+        }
+    return pixels;
+}
+
+static void jpeg_is_upright_and_close(void **state)
+{
+    (void)state;
+    const char name[] = "test_picture.jpg";
+    uint8_t *pixels = two_colors(40, 30, 3), row[3 * 40];
+    assert_true(picture_write(name, 40, 30, 3, pixels, error, sizeof error));
+    free(pixels);
+    struct jpeg_decompress_struct jpeg;
+    struct jpeg_error_mgr handler;
+    FILE *file = fopen(name, "rb");
+    assert_non_null(file);
+    jpeg.err = jpeg_std_error(&handler);
+    jpeg_create_decompress(&jpeg);
+    jpeg_stdio_src(&jpeg, file);
+    assert_int_equal(jpeg_read_header(&jpeg, TRUE), JPEG_HEADER_OK);
+    assert_true(jpeg_start_decompress(&jpeg));
+    assert_int_equal(jpeg.output_width, 40);
+    assert_int_equal(jpeg.output_height, 30);
+    for (int y = 0; y < 30; y++) {
+        JSAMPROW rows = row;
+        jpeg_read_scanlines(&jpeg, &rows, 1);
+        if (y == 2 || y == 27) {
+            assert_true(row[3 * 20 + (y == 2 ? 0 : 2)] > 245);
+            assert_true(row[3 * 20 + (y == 2 ? 2 : 0)] < 10);
+        }
+    }
+    jpeg_finish_decompress(&jpeg);
+    jpeg_destroy_decompress(&jpeg);
+    fclose(file);
+    remove(name);
+}
+
+static void webp_keeps_its_alpha(void **state)
+{
+    (void)state;
+#if GLSSAO_HAS_WEBP
+    const char name[] = "test_picture.webp";
+    static uint8_t bytes[65536];
+    uint8_t *pixels = two_colors(40, 30, 4);
+    assert_true(picture_has_webp());
+    assert_true(picture_write(name, 40, 30, 4, pixels, error, sizeof error));
+    free(pixels);
+    FILE *file = fopen(name, "rb");
+    assert_non_null(file);
+    const size_t size = fread(bytes, 1, sizeof bytes, file);
+    fclose(file);
+    remove(name);
+    int width = 0, height = 0;
+    uint8_t *read = WebPDecodeRGBA(bytes, size, &width, &height);
+    assert_non_null(read);
+    assert_int_equal(width, 40);
+    assert_int_equal(height, 30);
+    const uint8_t *top = read + 4 * (2 * 40 + 35), *bottom = read + 4 * (27 * 40 + 35);
+    assert_true(top[0] > 230 && top[2] < 25 && top[3] == 255);
+    assert_true(bottom[2] > 230 && bottom[0] < 25 && bottom[3] == 255);
+    assert_int_equal(read[4 * (2 * 40 + 3) + 3], 0);
+    WebPFree(read);
+#else
+    assert_false(picture_has_webp());
+    assert_false(picture_write_webp("a.webp", 1, 1, 3, (uint8_t[3]){0}, error, sizeof error));
+    assert_non_null(strstr(error, "libwebp"));
+    assert_false(file_exists("a.webp"));
+#endif
+}
+
+static void lossy_formats_refuse_what_they_cannot_hold(void **state)
+{
+    (void)state;
+    const uint8_t pixel[4] = {0};
+    assert_false(picture_write("a.jpg", 1, 1, 4, pixel, error, sizeof error));
+    assert_non_null(strstr(error, "a.jpg"));
+    assert_false(picture_write("a.jpeg", 65501, 1, 3, pixel, error, sizeof error));
+    assert_non_null(strstr(error, "65500"));
+    assert_false(picture_write("a.webp", 1, 1, 1, pixel, error, sizeof error));
+    assert_false(picture_write("no-folder/a.jpg", 1, 1, 3, pixel, error, sizeof error));
+    assert_non_null(strstr(error, "no-folder/a.jpg"));
+    assert_false(picture_write("/dev/full", 1, 1, 3, pixel, error, sizeof error));
+    assert_false(file_exists("a.jpg") || file_exists("a.jpeg") || file_exists("a.webp"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -319,6 +419,9 @@ int main(void)
         cmocka_unit_test_teardown(old_file_is_replaced_where_it_is, remove_file),
         cmocka_unit_test_teardown(hostile_pfm_is_refused, remove_file),
         cmocka_unit_test_teardown(broken_png_is_refused, remove_file),
+        cmocka_unit_test(jpeg_is_upright_and_close),
+        cmocka_unit_test(webp_keeps_its_alpha),
+        cmocka_unit_test(lossy_formats_refuse_what_they_cannot_hold),
     };
     return cmocka_run_group_tests_name("picture", tests, NULL, NULL);
 }

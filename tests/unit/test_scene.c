@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The meaning of a glTF file, by small files written here.
+ * The meaning of glTF files, tested with small files made here.
  */
 #include "gltf_writer.h"
 #include "scene_validity.h"
@@ -170,10 +170,12 @@ static void interleaved_and_normalized_attributes_are_read(void **state)
     gltf_put_accessor(&w, view, 5126, "VEC3", 3, "");
     gltf_put_accessor(&w, view, 5123, "VEC2", 3, ",\"normalized\":true,\"byteOffset\":12");
     gltf_put_accessor(&w, view, 5121, "VEC3", 3, ",\"normalized\":true,\"byteOffset\":16");
-    scene *s = load_valid(gltf_write(&w, "interleaved.gltf",
-                                     "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_1\":1,"
-                                     "\"COLOR_0\":2}}]}]," ONE_NODE));
-    assert_floats_equal(s->vertices[0].uv[1], (float[2]){1, 0}, 2);
+    scene *s = load_valid(
+        gltf_write(&w, "interleaved.gltf",
+                   "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_1\":1,"
+                   "\"COLOR_0\":2},\"material\":0}]}],\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":{"
+                   "\"index\":0,\"texCoord\":1}}}],\"textures\":[{}]," ONE_NODE));
+    assert_floats_equal(s->vertices[0].uv[0], (float[2]){1, 0}, 2);
     assert_floats_equal(s->vertices[0].color, (float[4]){1, 0.2f, 0, 1}, 4);
     assert_floats_equal(s->bounds_max, (float[3]){1, 1, 0}, 3);
     scene_destroy(s);
@@ -205,6 +207,14 @@ static void all_index_types_mean_the_same(void **state)
     }
 }
 
+/* Of the triangle that begins with index `first`, as it lies in the plane of x and y; positive: counter-clockwise. */
+static float doubled_area_xy(const scene *s, uint32_t first)
+{
+    const float *a = s->vertices[s->indices[first]].position, *b = s->vertices[s->indices[first + 1]].position,
+                *c = s->vertices[s->indices[first + 2]].position;
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
 /* A square as a strip (5) and as a fan (6): both triangles face the same way. */
 static void strips_and_fans_keep_their_winding(void **state)
 {
@@ -218,25 +228,37 @@ static void strips_and_fans_keep_their_winding(void **state)
                  "\"meshes\":[{\"primitives\":[{\"mode\":%d,\"attributes\":{\"POSITION\":0}}]}]," ONE_NODE, mode);
         scene *s = load_valid(gltf_write(&w, "strip.gltf", json));
         assert_int_equal(s->index_count, 6);
-        for (uint32_t i = 0; i < 6; ++i) /* no normals in the file: they come from the winding */
-            assert_floats_equal(s->vertices[s->indices[i]].normal, (float[3]){0, 0, 1}, 3);
+        assert_float_equal(doubled_area_xy(s, 0), 1, 0); /* counter-clockwise from the front, which is at +z */
+        assert_float_equal(doubled_area_xy(s, 3), 1, 0);
         scene_destroy(s);
     }
 }
 
-static void points_and_lines_draw_nothing(void **state)
+static void points_and_lines_are_kept_unlit(void **state)
 {
     (void)state;
+    static const struct {
+        scene_topology topology;
+        uint32_t index_count, indices[6];
+    } modes[] = {{SCENE_POINTS, 3, {0, 1, 2}},
+                 {SCENE_LINES, 2, {0, 1}},
+                 {SCENE_LINES, 6, {0, 1, 1, 2, 2, 0}},
+                 {SCENE_LINES, 4, {0, 1, 1, 2}}};
     for (int mode = 0; mode <= 3; ++mode) {
         char primitive[32];
         snprintf(primitive, sizeof primitive, ",\"mode\":%d", mode);
         scene *s = load_triangle(primitive, ONE_NODE);
+        assert_int_equal(s->primitive_count, 1);
+        assert_int_equal(s->primitives[0].topology, modes[mode].topology);
+        assert_int_equal(s->index_count, modes[mode].index_count);
+        assert_memory_equal(s->indices, modes[mode].indices, s->index_count * sizeof *s->indices);
+        assert_true(s->materials[s->primitives[0].material].unlit);
         assert_int_equal(scene_count_triangles(s), 0);
-        assert_floats_equal(s->bounds_max, (float[3]){0, 0, 0}, 3);
         scene_destroy(s);
     }
 }
 
+/* No vertex is split: shaders and rays take the triangle's own normal. */
 static void missing_normals_are_flat(void **state)
 {
     (void)state;
@@ -246,9 +268,8 @@ static void missing_normals_are_flat(void **state)
     gltf_put_accessor(&w, gltf_put_view(&w, indices, 6, 0), 5121, "SCALAR", 6, "");
     scene *s = load_valid(gltf_write(
         &w, "flat.gltf", "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1}]}]," ONE_NODE));
-    assert_int_equal(s->vertex_count, 6);
-    assert_floats_equal(s->vertices[1].normal, (float[3]){0, 0, 1}, 3);
-    assert_true(s->vertices[s->indices[4]].normal[0] > 0.5f); /* the same corner, the other face */
+    assert_int_equal(s->vertex_count, 4);
+    assert_true(s->primitives[0].flat);
     scene_destroy(s);
 }
 
@@ -361,8 +382,9 @@ static void factors_and_alpha_modes_are_kept(void **state)
     assert_true(m->double_sided && m->unlit);
     assert_int_equal(m->base_color_texture, -1);
     scene_destroy(s);
-    s = load_material("{\"alphaMode\":\"BLEND\"}", PNG_RED_BLUE);
-    assert_int_equal(s->materials[0].alpha, SCENE_ALPHA_BLEND);
+    s = load_material("{\"alphaMode\":\"BLEND\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,1,1,0.5]}}",
+                      PNG_RED_BLUE);
+    assert_int_equal(s->materials[s->primitives[0].material].alpha, SCENE_ALPHA_BLEND);
     assert_false(s->materials[0].double_sided || s->materials[0].unlit);
     scene_destroy(s);
 }
@@ -373,7 +395,7 @@ static void textures_and_samplers_are_kept(void **state)
     scene *s =
         load_material("{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0,\"texCoord\":1}}}", PNG_RED_BLUE);
     assert_int_equal(s->materials[0].base_color_texture, 0);
-    assert_int_equal(s->materials[0].base_color_uv, 1);
+    assert_int_equal(s->materials[0].base_color_uv, 0); /* the only set that is kept */
     assert_int_equal(s->textures[0].wrap_u, SCENE_WRAP_MIRROR);
     assert_int_equal(s->textures[0].wrap_v, SCENE_WRAP_REPEAT);
     assert_true(s->textures[0].mag_nearest && !s->textures[0].min_nearest && !s->textures[0].mipmaps);
@@ -399,7 +421,6 @@ static void texture_transforms_scale_turn_and_move(void **state)
                              "\"texCoord\":1}}}}}",
                              PNG_RED_BLUE);
     const float c = 0.8660254f;
-    assert_int_equal(s->materials[0].base_color_uv, 1);
     assert_floats_equal(s->materials[0].base_color_uv_from_uv, (float[6]){2 * c, 1.5f, 0.5f, -1, 3 * c, 0.25f}, 6);
     scene_destroy(s);
 }
@@ -425,7 +446,7 @@ int main(void)
         cmocka_unit_test(interleaved_and_normalized_attributes_are_read),
         cmocka_unit_test(all_index_types_mean_the_same),
         cmocka_unit_test(strips_and_fans_keep_their_winding),
-        cmocka_unit_test(points_and_lines_draw_nothing),
+        cmocka_unit_test(points_and_lines_are_kept_unlit),
         cmocka_unit_test(missing_normals_are_flat),
         cmocka_unit_test(bad_normals_come_from_their_faces),
         cmocka_unit_test(triangles_without_area_do_no_harm),

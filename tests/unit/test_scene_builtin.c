@@ -28,7 +28,7 @@ static void built_in_scenes_are_valid_and_suggest_a_camera(void **state)
     }
 }
 
-/* Triangles face the way of their normals, which back-face culling relies on. */
+/* Triangles face along their normals, as back-face culling requires. */
 static void built_in_scenes_wind_counter_clockwise(void **state)
 {
     (void)state;

@@ -69,14 +69,15 @@ static void factors_have_gltfs_defaults_and_are_kept(void **state)
     m = &s->materials[0];
     assert_float_equal(m->metallic, 0.25f, 0);
     assert_float_equal(m->roughness, 0.5f, 0);
-    assert_true(m->metallic_roughness_map.used && m->metallic_roughness_map.uv == 1);
-    assert_true(m->occlusion_map.used && m->occlusion_map.uv == 0 && m->emissive_map.used);
+    assert_true(m->metallic_roughness_map.used);
+    assert_true(m->occlusion_map.used && m->occlusion_map.uv != m->metallic_roughness_map.uv);
+    assert_true(m->emissive_map.used && m->emissive_map.uv == m->occlusion_map.uv);
     assert_float_equal(m->occlusion_strength, 0.75f, 0);
     assert_float_equal(m->emissive[2], 3, 1e-6f);
     assert_int_equal(s->image_count, 1); /* one image for any number of maps */
     assert_null(s->tangents);
     scene_destroy(s);
-    /* Unlit, or a factor of 0: the map would not show. */
+    /* The map has no effect on an unlit material, or with a factor of 0. */
     s = load(&w, "", "\"emissiveTexture\":{\"index\":0}", ONE_NODE);
     assert_int_equal(s->image_count, 0);
     scene_destroy(s);

@@ -174,6 +174,37 @@ draw -s 320x200 -o resting.png moving.gltf
 different "the file at half a second and as it stands" 500 saved.png resting.png
 stop
 
+# It overwrites nothing that it reads, and saves in the formats that glssao-render has.
+draw -s 64x32 --scene plane -o sky.png
+cp sky.png sky-kept.png
+start -s 320x160 --scene plane --environment sky.png -o sky.png
+press ctrl+s
+await grep -q 'sky.png: would overwrite' view.err
+cmp sky.png sky-kept.png || fail "the viewer overwrote the picture that lights the scene"
+stop
+start -s 320x160 --scene plane -o saved.jpg
+press ctrl+s
+await test -s saved.jpg
+stop
+
+# The panel leaves a part of the window free, and the scene is in it; the command line says where the camera stands.
+start -s 800x400 --camera none --scene cornell -o saved.png
+save
+[[ $command = *" --eye "*" --target "* ]] || fail "with the panel, the command line has no camera: $command"
+draw -s 800x400 --camera none --scene cornell -o whole.png
+different "framed beside the panel" 20000 saved.png whole.png
+press g
+save
+[[ $command = *" --eye "* ]] && fail "without the panel, the command line has a camera: $command"
+same "framed without the panel" saved.png whole.png
+stop
+start -s 800x400 --view 60,40 --ortho --scene steps -o saved.png
+save
+press g
+save
+[[ $command = *" --view 60,40 --ortho"* ]] || fail "left out: $command"
+stop
+
 # Options that it has not are refused, as its help says.
 "$view" --help >help
 for option in --ao --normals --depth --frames --stats --plan --bench --context --margin --batch; do

@@ -15,7 +15,7 @@ uniform vec4 u_base_color;
 
 #if BASE_MAPPED
 uniform sampler2D u_base_color_map; // sRGB texture: sampled as linear
-uniform vec4 u_base_color_uv[3];
+uniform vec4 u_base_color_uv[UV_ROWS];
 #endif
 #if COLORED
 in vec4 v_color;
@@ -30,7 +30,7 @@ const float pi = 3.14159265;
 uniform vec3 u_irradiance[9]; // irradiance / pi times: 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2 of the normal in the world
 uniform mat3 u_world_from_view;
 #if REFLECTIVE
-uniform sampler2D u_environment_map; // what mirrors show, a level for each fifth of roughness
+uniform sampler2D u_environment_map; // reflections; level i is for roughness i / 5
 #endif
 #else
 uniform vec3 u_ambient;      // radiance from the side; irradiance / pi on a surface that faces sideways
@@ -41,11 +41,11 @@ uniform vec3 u_directional;  // irradiance / pi
 uniform vec3 u_to_light_view;
 #if !BLENDED
 uniform sampler2D u_ambient_map; // accessibility in red
-uniform vec2 u_pixel_uv;         // one pixel of what the ambient map covers
+uniform vec2 u_pixel_uv;         // size of a pixel in the ambient map's uv
 uniform vec2 u_origin;           // its lower left corner, in pixels
 #endif
 
-#if REFLECTIVE || LIGHTS
+#if (REFLECTIVE || LIGHTS) && !FLAT // else surface.glsl has it
 in vec3 v_position_view;
 #endif
 #if REFLECTIVE
@@ -54,18 +54,18 @@ uniform bool u_is_orthographic;
 #endif
 #if ROUGHNESS_MAPPED
 uniform sampler2D u_metallic_roughness_map; // roughness in green, metallic in blue
-uniform vec4 u_metallic_roughness_uv[3];
+uniform vec4 u_metallic_roughness_uv[UV_ROWS];
 #endif
 #if BAKED
 uniform sampler2D u_occlusion_map; // accessibility in red
-uniform vec4 u_occlusion_uv[3];
+uniform vec4 u_occlusion_uv[UV_ROWS];
 uniform float u_occlusion_strength;
 #endif
 #if EMISSIVE
 uniform vec3 u_emission;
 #if EMISSION_MAPPED
 uniform sampler2D u_emission_map;
-uniform vec4 u_emission_uv[3];
+uniform vec4 u_emission_uv[UV_ROWS];
 #endif
 #endif
 
@@ -88,7 +88,7 @@ float light_share()
 // A surface that light falls on.
 struct surface {
     vec3 normal_view, to_eye_view;
-    vec3 diffuse, reflectance; // albedo of what goes in; reflectance head-on
+    vec3 diffuse, reflectance; // diffuse albedo; reflectance at normal incidence
     float roughness;
 };
 
@@ -151,7 +151,7 @@ vec3 lit_by_lights(surface s)
 }
 #endif
 
-// Irradiance / pi of a surface that faces that way, and what a mirror shows there.
+// Irradiance / pi on a surface with that normal, and the radiance that a mirror reflects.
 #if ENVIRONMENT
 vec3 matte_light(vec3 normal_view)
 {
@@ -217,6 +217,9 @@ layout(location = 0) out vec4 o_color;
 
 void main()
 {
+#if LIT
+    vec3 normal_view = shading_normal(); // before any discard, since it may take derivatives
+#endif
     vec4 color = u_base_color;
 #if BASE_MAPPED
     color *= texture(u_base_color_map, map_uv(u_base_color_uv));
@@ -231,7 +234,7 @@ void main()
 #endif
 
 #if LIT
-    surface s = surface(shading_normal(), vec3(0.0, 0.0, 1.0), color.rgb, vec3(0.0), 1.0);
+    surface s = surface(normal_view, vec3(0.0, 0.0, 1.0), color.rgb, vec3(0.0), 1.0);
 #if REFLECTIVE
     vec2 metallic_roughness = u_metallic_roughness;
 #if ROUGHNESS_MAPPED

@@ -1,7 +1,7 @@
 #version 330
 // SPDX-License-Identifier: MIT
 //
-// Pre-pass: the normal map, and with it the depth map.
+// Pre-pass: writes normals, and with them depth.
 // Macros, 0 or 1: MASKED, and where it is 1 COLORED; TEXTURED (MASKED with a base colour map, or NORMAL_MAPPED);
 // BASE_MAPPED; NORMAL_MAPPED; DOUBLE_SIDED; LIT, which the shadow pass and the layers set to 0: they want depth alone;
 // BEHIND: a layer, of what lies behind the surfaces that the pre-pass left.
@@ -13,7 +13,7 @@ uniform vec4 u_base_color;
 uniform float u_alpha_cutoff;
 #if BASE_MAPPED
 uniform sampler2D u_base_color_map;
-uniform vec4 u_base_color_uv[3];
+uniform vec4 u_base_color_uv[UV_ROWS];
 #endif
 #if COLORED
 in vec4 v_color;
@@ -22,7 +22,7 @@ in vec4 v_color;
 
 #if BEHIND
 uniform sampler2D u_first_depth_map; // the pre-pass's window depth
-uniform float u_depth_offset;        // what lies no farther than this behind is dropped
+uniform float u_depth_offset;        // fragments no farther than this behind it are discarded
 #endif
 
 #if LIT
@@ -31,6 +31,9 @@ layout(location = 0) out vec4 o_normal_view;
 
 void main()
 {
+#if LIT
+    vec3 normal_view = shading_normal(); // before any discard, since it may take derivatives
+#endif
 #if BEHIND
     if (gl_FragCoord.z <= texelFetch(u_first_depth_map, ivec2(gl_FragCoord.xy), 0).r + u_depth_offset)
         discard;
@@ -49,6 +52,6 @@ void main()
 #endif
 
 #if LIT
-    o_normal_view = vec4(shading_normal(), 0.0);
+    o_normal_view = vec4(normal_view, 0.0);
 #endif
 }

@@ -1,10 +1,10 @@
 #version 330
 // SPDX-License-Identifier: MIT
 //
-// Every triangle of the scene, in every pass. The expression for gl_Position stands here once, is invariant, and
-// sees the same inputs in each variant, so that the main pass finds the pre-pass's depth with EQUAL.
-// Macros, 0 or 1: TEXTURED (any map is read), COLORED, LIT (normals are wanted), and where LIT: NORMAL_MAPPED,
-// REFLECTIVE, LIGHTS, SHADOWED.
+// Draws the scene in every pass. gl_Position is invariant and computed by the same expression from the same inputs in
+// each variant, so that the main pass can compare with the pre-pass's depth by EQUAL.
+// Macros, 0 or 1: TEXTURED (any map is read), MORE_UVS, COLORED, LIT (normals are wanted), and where LIT: FLAT,
+// NORMAL_MAPPED, REFLECTIVE, LIGHTS, SHADOWED.
 // In:  mesh-space vertex; per instance, world_from_mesh and the inverse transpose of its upper 3x3.
 // Out: clip position; unit normal and tangent in view space; both uv sets; vertex colour, linear; position in view
 //      space and in the shadow map (uv and depth, 0..1).
@@ -21,7 +21,9 @@ invariant gl_Position;
 layout(location = 1) in vec3 a_normal_mesh;
 layout(location = 8) in mat3 a_normal_world_from_mesh;
 uniform mat3 u_normal_view_from_world;
+#if !FLAT
 out vec3 v_normal_view;
+#endif
 
 // Scaled by the largest component first: uneven scales give normals whose square would leave the range of a float.
 vec3 unit_or_zero(vec3 v)
@@ -36,7 +38,7 @@ layout(location = 11) in vec4 a_tangent_mesh;
 uniform float u_handedness; // -1 where the instance mirrors
 out vec4 v_tangent_view;    // and the bitangent's sign
 #endif
-#if REFLECTIVE || LIGHTS
+#if REFLECTIVE || LIGHTS || FLAT
 out vec3 v_position_view;
 #endif
 #if SHADOWED
@@ -48,6 +50,10 @@ out vec3 v_position_shadow;
 #if TEXTURED
 layout(location = 2) in vec4 a_uvs;
 out vec4 v_uvs;
+#if MORE_UVS
+layout(location = 12) in vec4 a_more_uvs;
+out vec4 v_more_uvs;
+#endif
 #endif
 
 #if COLORED
@@ -62,13 +68,15 @@ void main()
     gl_Position = u_clip_from_view * position_view;
 
 #if LIT
+#if !FLAT
     // Unit at each vertex, so that an instance interpolates as the same triangle baked into world space would.
     v_normal_view = unit_or_zero(u_normal_view_from_world * (a_normal_world_from_mesh * a_normal_mesh));
+#endif
 #if NORMAL_MAPPED
     vec3 tangent_world = mat3(a_world_from_mesh) * a_tangent_mesh.xyz;
     v_tangent_view = vec4(unit_or_zero(mat3(u_view_from_world) * tangent_world), a_tangent_mesh.w * u_handedness);
 #endif
-#if REFLECTIVE || LIGHTS
+#if REFLECTIVE || LIGHTS || FLAT
     v_position_view = position_view.xyz;
 #endif
 #if SHADOWED
@@ -77,6 +85,9 @@ void main()
 #endif
 #if TEXTURED
     v_uvs = a_uvs;
+#if MORE_UVS
+    v_more_uvs = a_more_uvs;
+#endif
 #endif
 #if COLORED
     v_color = a_color;

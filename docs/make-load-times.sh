@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# make-load-times.sh GLSSAO_RENDER WORK_FOLDER: times glssao-render and F3D on files of 10 million triangles, with and without
+# normals, side by side, and writes docs/data/load-times.tsv. Needs f3d, xvfb, python3 and GNU time. Seconds are the least of
+# three runs. F3D loads alone with --no-render; glssao-render tells its loading time in --stats.
+set -euo pipefail
+render=$(realpath "$1") work=$2
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+table=$here/data/load-times.tsv
+mkdir -p "$work"
+cd "$work"
+for normals in 0 1; do
+    [ -f grid-$normals.glb ] || python3 - $normals grid-$normals.glb <<'PYTHON'
+import array, json, math, struct, sys
+normals, n = int(sys.argv[1]), 2237
+height = lambda x, y: 0.3 * math.sin(x * 0.01) * math.cos(y * 0.013)
+positions, indices = array.array('f'), array.array('I')
+for y in range(n):
+    for x in range(n):
+        positions.extend((x * 10 / n, height(x, y), y * 10 / n))
+for y in range(n - 1):
+    for x in range(n - 1):
+        a = y * n + x
+        indices.extend((a, a + n, a + 1, a + 1, a + n, a + n + 1))
+parts = [positions.tobytes(), indices.tobytes()]
+if normals:
+    parts.append(array.array('f', (0, 1, 0)).tobytes() * (n * n))
+views, at = [], 0
+for part in parts:
+    views.append({'buffer': 0, 'byteOffset': at, 'byteLength': len(part)})
+    at += len(part)
+accessors = [{'bufferView': 0, 'componentType': 5126, 'type': 'VEC3', 'count': n * n, 'min': [0, -1, 0], 'max': [10, 1, 10]},
+             {'bufferView': 1, 'componentType': 5125, 'type': 'SCALAR', 'count': len(indices)}]
+attributes = {'POSITION': 0}
+if normals:
+    accessors.append({'bufferView': 2, 'componentType': 5126, 'type': 'VEC3', 'count': n * n})
+    attributes['NORMAL'] = 2
+text = json.dumps({'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': [0]}], 'nodes': [{'mesh': 0}],
+                   'meshes': [{'primitives': [{'attributes': attributes, 'indices': 1}]}], 'accessors': accessors,
+                   'bufferViews': views, 'buffers': [{'byteLength': at}]}).encode()
+text += b' ' * (-len(text) % 4)
+with open(sys.argv[2], 'wb') as file:
+    file.write(b'glTF' + struct.pack('<II', 2, 28 + len(text) + at) + struct.pack('<I', len(text)) + b'JSON' + text +
+               struct.pack('<I', at) + b'BIN\0')
+    for part in parts:
+        file.write(part)
+PYTHON
+done
+
+# Least seconds, processor seconds and largest MiB of three runs of a command.
+measure() {
+    for _ in 1 2 3; do
+        /usr/bin/time -a -o times -f '%e %U %S %M' "$@" >/dev/null 2>&1
+    done
+    awk '{ c = $2 + $3; if (NR == 1 || $1 < s) s = $1; if (NR == 1 || c < p) p = c; if ($4 > m) m = $4 }
+        END { printf "%.2f\t%.2f\t%.0f", s, p, m / 1024 }' times
+    rm times
+}
+{
+    printf '# docs/make-load-times.sh build/examples/render/glssao-render /tmp/load-times\n'
+    printf 'file\tprogram\tseconds\tprocessor_seconds\tmib\n'
+    for normals in 1 0; do
+        file=grid-$normals.glb
+        printf '%s\tf3d --no-render\t%s\n' $file "$(measure f3d --no-render $file)"
+        printf '%s\tf3d\t%s\n' $file "$(measure xvfb-run -a f3d $file --output=f3d.png --resolution=640,360)"
+        printf '%s\tglssao-render --no-ao --no-shadows\t%s\n' $file \
+            "$(measure "$render" -s 640x360 --no-ao --no-shadows -o a.png --stats stats.json $file)"
+        printf '%s\tglssao-render, loading\t%s\t\t\n' $file "$(awk -F'[:,]' '/"load"/ { for (i = 1; i < NF; i++) if ($i ~ /"load"/) printf "%.2f", $(i + 1) / 1000 }' stats.json)"
+        printf '%s\tglssao-render\t%s\n' $file "$(measure "$render" -s 640x360 -o a.png $file)"
+    done
+} >"$table.part"
+mv "$table.part" "$table"

@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# make-real-files.sh GLSSAO_RENDER WORK_FOLDER: draws the glTF files of Debian's assimp-testmodels and of two npm packages, and
+# versions of some that gltf-transform packs, and writes what became of each to docs/data/real-files.tsv. Needs npm, ImageMagick
+# and assimp-testmodels. WORK_FOLDER keeps the pictures, and sheet-*.jpg to look at.
+set -euo pipefail
+render=$(realpath "$1") work=$2
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+table=$here/data/real-files.tsv
+mkdir -p "$work/pictures" "$work/packed"
+cd "$work"
+if [ ! -d node_modules/@webxr-input-profiles ]; then
+    npm install --no-audit --no-fund --ignore-scripts --silent @webxr-input-profiles/assets@1.0.20 @gltf-transform/cli@4.5.1
+fi
+
+# draw FILE PICTURE: "drawn", or the message; then the warnings and the triangles, tab between them.
+draw() {
+    local status=0
+    rm -f "$2" stats.json
+    timeout 120 "$render" -s 640x360 --samples-per-pixel 4 -o "$2" --stats stats.json "$1" 2>log || status=$?
+    local warnings
+    warnings=$(sed -n "s|^.*: warning: ||p" log | paste -sd';' | sed 's/;/; /g')
+    if [ $status = 0 ]; then
+        printf 'drawn\t%s\t%s' "$warnings" "$(grep -o '"triangles": [0-9]*' stats.json | grep -o '[0-9]*$')"
+    else
+        printf 'exit %d: %s\t%s\t' $status "$(tail -n 1 log | sed "s|^glssao-render: ||; s|$1: ||; s|$work/||g")" "$warnings"
+    fi
+}
+
+{
+    printf '# docs/make-real-files.sh build/examples/render/glssao-render /tmp/real-files\n'
+    printf 'source\tfile\tbytes\tversion\trmse\tresult\twarnings\ttriangles\n'
+    n=0
+    while IFS=$'\t' read -r source root file; do
+        n=$((n + 1))
+        picture=pictures/$(printf '%03d' $n).png
+        printf '%s\t%s\t%d\tas it is\t\t%s\n' "$source" "$file" "$(stat -c %s "$root/$file")" "$(draw "$root/$file" "$picture")"
+        # Every eighth file of those that are drawn is packed in six ways.
+        if [ $((n % 8)) = 0 ] && [ -s "$picture" ]; then
+            for way in draco meshopt 'meshopt --level high' quantize webp 'webp --lossless true'; do
+                packed=packed/$n-${way// /}.glb
+                # shellcheck disable=SC2086 # the way's words
+                node_modules/.bin/gltf-transform $way "$root/$file" "$packed" >/dev/null 2>&1 || continue
+                result=$(draw "$packed" "pictures/$(printf '%03d' $n)-${way// /}.png")
+                rmse=$(compare -metric RMSE "$picture" "pictures/$(printf '%03d' $n)-${way// /}.png" null: 2>&1 | grep -o '([^)]*)' | tr -d '()' || true)
+                printf '%s\t%s\t%d\t%s\t%s\t%s\n' "$source" "$file" "$(stat -c %s "$packed")" "$way" "$rmse" "$result"
+            done
+        fi
+    done < <(
+        find /usr/share/assimp/models/glTF2 \( -name '*.gltf' -o -name '*.glb' \) -printf 'assimp-testmodels\t/usr/share/assimp/models/glTF2\t%P\n' | sort
+        find node_modules/@webxr-input-profiles/assets/dist -name '*.gl*' -printf 'webxr-input-profiles\tnode_modules/@webxr-input-profiles/assets/dist\t%P\n' | sort
+    )
+} >"$table.part"
+mv "$table.part" "$table"
+montage pictures/*.png -tile 12x -geometry 160x90+1+1 sheet-%d.jpg
+awk -F'\t' 'NR > 2 { n[$6 == "drawn" ? "drawn" : "refused"]++; if ($5 > worst) worst = $5 }
+    END { printf "%d drawn, %d refused; the worst RMSE of a packed version is %s\n", n["drawn"], n["refused"], worst }' "$table"

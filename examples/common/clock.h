@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Times in milliseconds.
+ */
+#ifndef GLSSAO_EXAMPLES_CLOCK_H
+#define GLSSAO_EXAMPLES_CLOCK_H
+
+double clock_wall_ms(void); /* since a fixed moment; never goes backwards */
+double clock_cpu_ms(void);  /* processor time of all threads of the process */
+
+#endif

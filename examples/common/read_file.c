@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+#include "read_file.h"
+
+#include "inputs.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Room for `size` bytes and the 0 behind them. */
+static bool make_room(uint8_t **data, size_t size)
+{
+    uint8_t *grown = size < SIZE_MAX ? realloc(*data, size + 1) : NULL;
+    *data = grown ? grown : *data;
+    return grown;
+}
+
+/* Reads until the end; `expected` bytes of room to begin with save copies. */
+static uint8_t *read_all(int descriptor, size_t expected, size_t limit, size_t *out_size, const char **out_reason)
+{
+    uint8_t *data = NULL;
+    size_t size = 0, room = expected;
+    *out_reason = make_room(&data, room) ? NULL : "not enough memory";
+    while (!*out_reason) {
+        if (size == room) { /* one byte more than the limit tells that there is more */
+            room = room > limit ? room : room < 65536 ? 65536 : room < limit / 2 ? 2 * room : limit + 1;
+            if (!make_room(&data, room)) {
+                *out_reason = "not enough memory";
+                break;
+            }
+        }
+        const ssize_t got = read(descriptor, data + size, room - size);
+        if (got == 0)
+            break;
+        if (got < 0 && errno != EINTR)
+            *out_reason = strerror(errno);
+        size += got > 0 ? (size_t)got : 0;
+        if (size > limit)
+            *out_reason = "too large";
+    }
+    if (*out_reason) {
+        free(data);
+        return NULL;
+    }
+    data[size] = '\0';
+    *out_size = size;
+    return data;
+}
+
+uint8_t *read_file(const char *path, size_t limit, size_t *out_size, const char **out_reason)
+{
+    const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC); /* a FIFO without a writer would block */
+    struct stat about;
+    uint8_t *data = NULL;
+    if (file < 0 || fstat(file, &about) != 0)
+        *out_reason = strerror(errno);
+    else if (!S_ISREG(about.st_mode))
+        *out_reason = "not a regular file";
+    else if ((uintmax_t)about.st_size > limit)
+        *out_reason = "too large";
+    else if ((data = read_all(file, (size_t)about.st_size + 1, limit, out_size, out_reason)))
+        inputs_note(file, path);
+    if (file >= 0)
+        close(file);
+    return data;
+}
+
+uint8_t *read_stream(int descriptor, size_t limit, size_t *out_size, const char **out_reason)
+{
+    inputs_note(descriptor, "standard input");
+    return read_all(descriptor, 0, limit, out_size, out_reason);
+}

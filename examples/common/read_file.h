@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Reads whole files. The caller frees what is returned; a byte of 0, not counted in the size, follows the last one.
+ */
+#ifndef GLSSAO_EXAMPLES_READ_FILE_H
+#define GLSSAO_EXAMPLES_READ_FILE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Reads a regular file of at most `limit` bytes. Refuses anything else, so that a FIFO cannot block the program. NULL
+ * on failure, with the reason in words. */
+uint8_t *read_file(const char *path, size_t limit, size_t *out_size, const char **out_reason);
+
+/* Reads an open file of any kind to its end: a regular file, a pipe, standard input. NULL on failure, with the reason.
+ */
+uint8_t *read_stream(int descriptor, size_t limit, size_t *out_size, const char **out_reason);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What options.c, options_table.c and options_check.c share.
+ */
+#ifndef GLSSAO_EXAMPLES_OPTIONS_INTERNAL_H
+#define GLSSAO_EXAMPLES_OPTIONS_INTERNAL_H
+
+#include "fault.h"
+#include "option.h"
+#include "options.h"
+
+/* options_table.c: what a program, or a line of a batch, takes. */
+option_set options_set(options_program program);
+
+/* options_check.c: checks what no value alone tells, and the text of --set. False, with one line in `why`. */
+bool options_check(const options *o, options_program program, fault *why);
+
+#endif

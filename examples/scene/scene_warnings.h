@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Warnings: one line for each thing in a file that is drawn differently from what the file asks for, or not at all.
+ * With `strict`, the first warning is a fault instead.
+ */
+#ifndef GLSSAO_EXAMPLES_SCENE_WARNINGS_H
+#define GLSSAO_EXAMPLES_SCENE_WARNINGS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "scene_fault.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct scene_warnings {
+    bool strict;
+    char **lines; /* each once, in the order of their first mention, without the file's name */
+    size_t count;
+} scene_warnings;
+
+/* Adds a line. False, with the fault set, when `strict` is set or there is no memory. After 32 lines the rest is left
+ * out. */
+#ifdef __GNUC__
+__attribute__((format(printf, 3, 4)))
+#endif
+bool scene_warn(scene_warnings *w, scene_fault *fault, const char *format, ...);
+
+void scene_warnings_free(scene_warnings *w);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
