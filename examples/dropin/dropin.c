@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * The smallest foreign program: a window, a few boxes drawn in one forward pass, and ambient occlusion added to it
- * where "glssao" marks it. It is compiled three times: with the prototypes of libGL, with libepoxy and with GLEW, to
- * show that glssao's loader gets in the way of none of them.   dropin [--frames N] [--picture FILE.ppm] [--no-ao]
+ * The smallest host program: a window and a few boxes drawn in one forward pass. Comments with "glssao" mark what adds
+ * ambient occlusion. It is compiled three times, with libGL's prototypes, libepoxy and GLEW, because glssao's loader
+ * must work beside each of them.   dropin [--frames N] [--picture FILE.ppm] [--no-ao]
  */
 #include "support.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * A program of the old kind: fixed-function drawing straight into the window, multisampled if asked. Ambient
- * occlusion is added to it where "glssao" marks it; window_depth.h fetches the window's depth.
+ * A legacy host: fixed-function drawing straight into the window, with --samples multisampled. Comments with "glssao"
+ * mark what adds ambient occlusion; window_depth.h copies the window's depth.
  *   dropin-legacy [--frames N] [--picture FILE.ppm] [--no-ao] [--samples N] [--egl]
  */
 #include "support.h"

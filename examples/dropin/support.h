@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * What the dropin programs share and a program of your own has no use for: which loader brings the OpenGL functions
- * (libGL's prototypes, libepoxy or GLEW), the command line, and the last frame as a file for the test.
+ * Shared by the dropin programs; your own program does not need it. It chooses where the OpenGL functions come from
+ * (libGL's prototypes, libepoxy or GLEW), reads the command line, and writes the last frame to a file for the test.
  */
 #ifndef DROPIN_SUPPORT_H
 #define DROPIN_SUPPORT_H
@@ -21,22 +21,22 @@
 #include <stdbool.h>
 
 typedef struct dropin_options {
-    int frames, samples; /* --frames N: as many, then ends; --samples N of the window */
+    int frames, samples; /* --frames N: draws N frames, then ends; --samples N: samples a pixel of the window */
     bool with_ao, egl;   /* not --no-ao; --egl */
-    bool ended, failed;  /* the last frame was shown; its picture can't be written, or OpenGL had an error */
-    const char *picture; /* --picture FILE.ppm: the last frame */
+    bool ended, failed;  /* the last frame was shown; its picture was not written, or OpenGL had an error */
+    const char *picture; /* --picture FILE.ppm: writes the last frame there */
 } dropin_options;
 
 dropin_options dropin_read_options(int argc, char **argv);
 
-/* A window of 640 x 480 with a current context, and the loader ready; where that fails the program ends. */
+/* Opens a window of 640 x 480, makes its context current and prepares the loader. Ends the program where that fails. */
 GLFWwindow *dropin_open_window(const char *title, const dropin_options *o);
 
-/* True where the framebuffer has another size than *width by *height, which then follow. Minimised, it keeps its size.
- */
+/* True where the framebuffer's size differs from *width by *height, which are then updated. A minimised window keeps
+ * its size. */
 bool dropin_take_size(GLFWwindow *window, int *width, int *height);
 
-/* Swaps the buffers and takes events; counts frames, and writes the last one's picture. */
+/* Swaps the buffers, handles events, counts frames, and writes the picture of the last one. */
 void dropin_show(GLFWwindow *window, dropin_options *o, int width, int height);
 
 #endif

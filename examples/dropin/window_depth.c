@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * A depth blit needs the same format on both sides, so the window's is asked for and the texture made to match; where
- * the driver refuses the blit all the same, glCopyTexSubImage2D converts, which works without multisampling alone.
+ * A depth blit needs the same format on both sides, so the texture gets the window's format. Where the driver still
+ * refuses the blit, glCopyTexSubImage2D converts; that works only without multisampling.
  */
 #include "window_depth.h"
 
@@ -67,7 +67,7 @@ static GLint attachment(const window_depth *d, GLuint framebuffer, bool stencil,
     return value;
 }
 
-/* Of the bound read framebuffer; 0 where it has no depth. */
+/* The depth format of the bound read framebuffer; 0 where it has no depth. */
 static GLenum depth_format(const window_depth *d, GLuint framebuffer)
 {
     if (attachment(d, framebuffer, false, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) == GL_NONE)
@@ -106,20 +106,21 @@ static void fit_texture(window_depth *d, GLenum format, int width, int height)
     d->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     d->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
     d->BindFramebuffer(GL_DRAW_FRAMEBUFFER, d->framebuffer);
-    d->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, 0, 0); /* of before */
+    d->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, 0,
+                            0); /* detaches the old one */
     d->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, has_stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
                             GL_TEXTURE_2D, d->texture, 0);
-    d->DrawBuffer(GL_NONE); /* 3.3 calls it incomplete otherwise */
+    d->DrawBuffer(GL_NONE); /* OpenGL 3.3 calls it incomplete otherwise */
     d->format = format;
     d->width = width;
     d->height = height;
     d->blit_fails = false;
 }
 
-/* The blit, then the copy. Read framebuffer and texture are bound. */
+/* Tries the blit, then the copy. The read framebuffer and the texture are bound. */
 static bool copy(window_depth *d, int width, int height)
 {
-    for (int i = 0; i < 16 && d->GetError() != GL_NO_ERROR; ++i) /* errors of before say nothing about the copy */
+    for (int i = 0; i < 16 && d->GetError() != GL_NO_ERROR; ++i) /* older errors say nothing about the copy */
         ;
     if (!d->blit_fails) {
         d->BindFramebuffer(GL_DRAW_FRAMEBUFFER, d->framebuffer);
@@ -142,7 +143,7 @@ unsigned window_depth_copy(window_depth *d, unsigned framebuffer, int width, int
     d->GetIntegerv(GL_TEXTURE_BINDING_2D, &texture);
     d->GetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &unpack_buffer);
     GLboolean scissor = d->IsEnabled(GL_SCISSOR_TEST);
-    d->Disable(GL_SCISSOR_TEST); /* it would cut the blit */
+    d->Disable(GL_SCISSOR_TEST); /* it would clip the blit */
     d->BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
     d->BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
     GLenum format = depth_format(d, framebuffer);

@@ -24,9 +24,13 @@ inject_context *inject_context_of(void *context)
     while (c && c->context != context)
         c = c->next;
     if (!c && (c = calloc(1, sizeof *c))) {
+        INJECT_REAL(PFNGLGETINTEGERVPROC, GetIntegerv);
+        GLint viewport[4] = {0}; /* the window's size, when a context is new; a widget of it is smaller */
+        GetIntegerv(GL_VIEWPORT, viewport);
         *c = (inject_context){.next = contexts,
                               .context = context,
                               .is_embedded = strncmp(version_text(), "OpenGL ES", 9) == 0,
+                              .largest = (double)viewport[2] * (double)viewport[3] / 3.0,
                               .first = inject_seconds()};
         contexts = c;
     }

@@ -54,7 +54,7 @@ void glProgramUniformMatrix4fv(unsigned program, int location, int count, unsign
     note_uniform(count, transpose, values);
 }
 
-/* The fixed-function stack does the arithmetic; its top is looked at after each change. */
+/* The fixed-function stack does the arithmetic; its top is read after each change. */
 static void note_stack(void)
 {
     REAL(PFNGLGETINTEGERVPROC, glGetIntegerv);
@@ -64,8 +64,7 @@ static void note_stack(void)
         return;
     glGetIntegerv_real(GL_MATRIX_MODE, &mode);
     glGetIntegerv_real(GL_RENDER_MODE, &render_mode);
-    if (mode != GL_PROJECTION ||
-        render_mode != GL_RENDER) /* to find what is under the pointer, a few pixels are drawn */
+    if (mode != GL_PROJECTION || render_mode != GL_RENDER) /* selection draws only a few pixels around the pointer */
         return;
     float m[16];
     glGetFloatv_real(GL_PROJECTION_MATRIX, m);
@@ -141,7 +140,7 @@ void glBufferSubData(unsigned target, ptrdiff_t offset, ptrdiff_t size, const vo
         note_data(size, data);
 }
 
-/* Which kind of buffer it is can't be seen here; vertices seldom look like a projection. */
+/* The kind of buffer is not known here; vertices seldom look like a projection. */
 void glNamedBufferData(unsigned buffer, ptrdiff_t size, const void *data, unsigned usage)
 {
     enum { MOST = 65536 }; /* uniform blocks are not larger on most drivers */
@@ -162,7 +161,7 @@ void glNamedBufferSubData(unsigned buffer, ptrdiff_t offset, ptrdiff_t size, con
         note_data(size, data);
 }
 
-/* What the program wrote into its mapping, before that goes. */
+/* Reads what the program wrote into its mapping before it is unmapped. */
 unsigned char glUnmapBuffer(unsigned target)
 {
     REAL(PFNGLUNMAPBUFFERPROC, glUnmapBuffer);

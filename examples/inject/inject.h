@@ -6,7 +6,7 @@
  *   lookup.c            finds the real functions behind the hooks
  *   hooks*.c            the functions that the program calls instead: each does what was asked and reports an event
  *   scenes.c            decides from these events when the effect is due, and in which framebuffer
- *   seen.c, matrices.c  keep the projections that the program sets; tell a projection by its structure
+ *   seen.c, matrices.c  keep the projections that the program sets; recognise a projection by its structure
  *   contexts.c          one effect for each context of the program
  *   frame.c             draws the effect, with a radius from radius.c
  *   picture.c, options.c  pictures for tests; the environment, the clock and the messages

@@ -12,7 +12,7 @@ typedef void (*function)(void);
 
 static struct hook {
     const char *name;
-    void *real; /* as last seen in a lookup of the program's; else NULL until it is needed */
+    void *real; /* from the program's last lookup; else NULL until it is needed */
 } hooks[] = {
     {"dlsym", NULL},
     {"glXGetProcAddress", NULL},

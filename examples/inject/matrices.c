@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * Tells a projection by its structure. Programs set projections alone (fixed function, tidy shaders) or times the
- * model-view matrix (most shaders); both can be told.
+ * Recognises projections by their structure. Programs set a projection alone (fixed function, some shaders) or its
+ * product with the model-view matrix (most shaders). Both are recognised.
  *
  * Let clip = P V, with P a perspective projection whose clip w is view distance, and V a rotation times a scale s, and
  * a translation. Then row 3 of the product is minus row 2 of V, so its first three numbers have length s; rows 0 and 1
  * are P's focal lengths times rows 0 and 1 of V, plus its shifts times row 3; row 2 is made of rows 2 and 3 of V
- * alone. So P follows from dot products, and a product that is anything else gives itself away.
+ * alone. So P follows from dot products, and any other matrix fails the checks below.
  *
  * An orthographic P leaves row 3 as (0, 0, 0, 1), and rows 0 to 2 are those of V, scaled; z is turned about.
  */
@@ -32,7 +32,7 @@ static bool read_rows(const float m[16], rows out)
     return true;
 }
 
-/* The view distance that has this depth in clip space; infinite where it has none, to rounding. */
+/* The view distance of this depth in clip space; infinite where there is none but for rounding. */
 static double distance_at(double ndc, double p10, double p14)
 {
     return fabs(ndc + p10) < 1e-6 ? (double)INFINITY : p14 / (ndc + p10);
@@ -58,7 +58,7 @@ bool inject_perspective_of(const float m[16], bool zero_to_one, float out_matrix
     const double tolerance = 1e-3;
     const bool is_rotation = fabs(dot3(x, y)) <= tolerance * focal_x * focal_y * scale2;
     const bool depth_fits = sqrt(dot3(z, z)) <= tolerance * (1.0 + fabs(p10)) * sqrt(scale2);
-    /* From 5 to 170 degrees, and neither axis stretched more than a window ever is. */
+    /* From 5 to 170 degrees, and no axis stretched more than a window can be. */
     const bool lens_fits = focal_x > 0.08 && focal_x < 25.0 && focal_y > 0.08 && focal_y < 25.0 &&
                            focal_x / focal_y < 8.0 && focal_y / focal_x < 8.0 && fabs(shift_x) < 4.0 &&
                            fabs(shift_y) < 4.0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The environment, and the one voice that speaks to the user: lines on stderr that begin with "glssao-inject:".
+ * Reads the environment and prints all messages to the user: lines on stderr that begin with "glssao-inject:".
  */
 #define _POSIX_C_SOURCE 200809L
 #include "inject.h"
@@ -17,7 +17,7 @@
 static inject_options options;
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 
-/* The program may have chosen one with a decimal comma. */
+/* The C locale; the program's own may have a decimal comma. */
 static locale_t plain;
 
 static void make_plain_locale(void)
@@ -94,8 +94,8 @@ static void read_environment(void)
     options.quality = level < 0 ? GLSSAO_HIGH : level;
     const bool planes = options.near_plane > 0.0f && options.far_plane > options.near_plane;
     if ((options.fov > 0.0f) != planes) {
-        inject_say("a projection takes all of GLSSAO_INJECT_FOV, GLSSAO_INJECT_NEAR above 0 and GLSSAO_INJECT_FAR "
-                   "beyond it, and is not used");
+        inject_say("a projection needs all of GLSSAO_INJECT_FOV, GLSSAO_INJECT_NEAR above 0 and GLSSAO_INJECT_FAR "
+                   "above it, and is not used");
         options.fov = 0.0f;
     }
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Pictures for tests and documents: the window's into a file, and white under the map.
+ * Writes the window to a file for tests and documents, and clears it to white under the map.
  */
 #include "inject.h"
 
@@ -34,7 +34,7 @@ bool inject_write_picture(const char *path, int width, int height)
     INJECT_REAL(PFNGLREADPIXELSPROC, ReadPixels);
     INJECT_REAL(PFNGLREADBUFFERPROC, ReadBuffer);
     const size_t count = (size_t)width * (size_t)height, row = (size_t)width * 3;
-    unsigned char *rgb = malloc(4 * count); /* read as RGBA, which embedded contexts insist on */
+    unsigned char *rgb = malloc(4 * count); /* read as RGBA, the only format that OpenGL ES guarantees */
     FILE *file = fopen(path, "wb");
     if (rgb && file) {
         BindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -50,6 +50,6 @@ bool inject_write_picture(const char *path, int width, int height)
     const bool ok = rgb && file && fclose(file) == 0;
     free(rgb);
     if (!ok)
-        inject_say("%s can't be written", path);
+        inject_say("%s cannot be written", path);
     return ok;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The radius that suits what is seen, from the depth read back.
+ * Reads depth back and finds a radius that suits what is in view.
  */
 #include "inject.h"
 #include "statistics.h"
@@ -11,7 +11,7 @@
 
 enum { SAMPLES = 4096 };
 
-/* Reads the depth texture back, whatever the program set for packing. The caller frees. */
+/* Reads the depth texture back, independent of the program's pixel pack state. The caller frees. */
 static float *read_depth(GLuint texture, int width, int height)
 {
     INJECT_REAL(PFNGLGETINTEGERVPROC, GetIntegerv);

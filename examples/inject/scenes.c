@@ -116,7 +116,7 @@ static void draw(inject_context *c, const scene *s)
 /* A moment has come. `is_last`: there is none after it. */
 static void at_moment(inject_context *c, scene *s, bool is_last)
 {
-    if (is_main(s) && (is_last || (!s->lasts && s->moment == s->last_moment)))
+    if (is_main(s) && (is_last || s->moment == s->last_moment))
         draw(c, s);
     if (s->weight > s->best_weight) {
         s->best_weight = s->weight;
@@ -159,7 +159,8 @@ void inject_before_draw(void *context, int count)
     GetIntegerv(GL_VIEWPORT, viewport);
     c->largest = fmax(c->largest, (double)viewport[2] * (double)viewport[3]);
     for (int i = 0; i < scene_count; ++i) /* drawn from, most likely */
-        if (scenes[i].place.context == context && scenes[i].is_left && scenes[i].place.framebuffer != (unsigned)bound)
+        if (scenes[i].place.context == context && scenes[i].is_left && !scenes[i].lasts &&
+            scenes[i].place.framebuffer != (unsigned)bound)
             at_moment(c, &scenes[i], false);
     GetBooleanv(GL_DEPTH_WRITEMASK, &mask);
     if (mask && IsEnabled(GL_DEPTH_TEST)) {
@@ -246,7 +247,7 @@ void inject_before_switch(void *context)
     GLint bound = 0;
     GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
     scene *const s = bound ? find((inject_place){context, (unsigned)bound}) : NULL;
-    if (s && s->weight > 0.0f) {
+    if (s && s->weight > 0.0f && is_large(c, s->width, s->height)) {
         s->lasts = true;
         draw(c, s);
     }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * check_pictures WITH.ppm WITHOUT.ppm [REFERENCE.ppm]: judges the dropin programs' scene with and without occlusion:
- * dark where boxes meet the floor and each other, as it was in the open and in the sky, brighter nowhere, and, given
- * a reference, close to it everywhere. With --alike in front other views of the scene: darker than without in some
- * places, brighter nowhere, and as the reference.
+ * check_pictures [--alike] WITH.ppm WITHOUT.ppm [REFERENCE.ppm]: checks the dropin programs' scene with and without
+ * occlusion. It must be darker where boxes meet the floor and each other, unchanged in the open and in the sky, nowhere
+ * brighter, and close to the reference everywhere. With --alike, for other views of the scene, it must be darker in
+ * some places, nowhere brighter, and close to the reference.
  */
 #include <stdbool.h>
 #include <stdio.h>

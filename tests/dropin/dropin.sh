@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# dropin.sh CHECK PROGRAM...: runs each foreign program under Xvfb with and without occlusion and judges the pictures;
-# the legacy one with 4 samples a pixel as well. The first program's picture is the reference for the others.
+# dropin.sh CHECK PROGRAM...: runs each program under Xvfb with and without occlusion and checks the pictures; the legacy one
+# also with 4 samples a pixel. The first program's picture is the reference for the others.
 set -euo pipefail
 check=$1
 shift

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# marks.sh FOLDER AMALGAMATION CC CGLM: the dropin programs without the lines from their "glssao" to their "end" marks are
-# whole programs that know nothing of glssao; with them they build by one plain compiler call beside the two files.
+# marks.sh FOLDER AMALGAMATION CC CGLM: without the lines between their "glssao" and "end" marks, the dropin programs compile and
+# do not mention glssao. With these lines they compile in one call together with the amalgamation.
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 . "$here/../packaging/common.sh"
 folder=$1 amalgamation=$2 cc=$3 cglm=$4

@@ -7,6 +7,7 @@
  *   range     glDepthRange(1, 0)
  *   weapon    depth is cleared after the scene, and more is drawn with another projection
  *   icon      a small picture in a corner, which sets more matrices than the scene
+ *   small     a small picture in a framebuffer of its own, blitted into a corner at the end
  *   pick      the scene is drawn twice, first to read a pixel back
  *   post      the scene in a framebuffer of its own, drawn into the window as a texture
  *   shared    as post, with the scene drawn in another context that shares the texture
@@ -133,6 +134,27 @@ static GLuint make_framebuffer(int samples, GLuint *out_texture)
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         exit(3);
     return framebuffer;
+}
+
+enum { SMALL = 96 };
+
+/* The boxes in the lower left corner of a framebuffer of its own, which is then left. */
+static void draw_small(GLuint framebuffer, GLuint program, mat4 clip_from_world)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glUniformMatrix4fv(glGetUniformLocation(program, "clip_from_world"), 1, GL_FALSE, clip_from_world[0]);
+    glViewport(0, 0, SMALL, SMALL);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, 24);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, WIDTH, HEIGHT);
+}
+
+static void blit_small(GLuint framebuffer)
+{
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+    glBlitFramebuffer(0, 0, SMALL, SMALL, 0, 0, SMALL, SMALL, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
 }
 
 /* Brings the scene's picture into the window. */
@@ -279,6 +301,7 @@ int main(int argc, char **argv)
         b.scene = make_framebuffer(resolve ? 4 : 0, post ? &b.texture : NULL);
     if (resolve)
         b.resolved = make_framebuffer(0, NULL);
+    const GLuint small_one = has(argc, argv, "small") ? make_framebuffer(0, NULL) : 0;
 
     glssao_effect *effect = NULL;
     glssao_config config = {.load = find_function, .log = glssao_log_to_stderr, .width = 640, .height = 480};
@@ -305,6 +328,8 @@ int main(int argc, char **argv)
         else
             glUniformMatrix4fv(glGetUniformLocation(program, "clip_from_world"), 1, GL_FALSE, clip_from_world[0]);
         glClearColor(0.3f, 0.4f, 0.6f, 1.0f);
+        if (small_one)
+            draw_small(small_one, program, clip_from_world);
         if (pick) {
             float pixel[4];
             glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -324,6 +349,8 @@ int main(int argc, char **argv)
             if (glssao_compute(effect, &frame, &settings) == GLSSAO_OK)
                 glssao_apply(effect, b.scene);
         }
+        if (small_one)
+            blit_small(small_one);
         if (weapon) {
             glClear(GL_DEPTH_BUFFER_BIT);
             draw_more(program, 1.2f, 1);

@@ -3,8 +3,8 @@
 # inject.sh LIBRARY CHECK FOLDER FOREIGN: the preload library in the dropin programs with their own effect off, under Xvfb: in the
 # fixed-function one, which draws into its window, and in the one that draws into a framebuffer of its own and blits it;
 # switched off by the environment and by a signal; in a program of ours that draws as many others do (foreign.c), where the
-# picture must be the one of a program that hands over its matrix itself. Then in Debian's gears, and in an OpenGL ES
-# program, which must run on and be told why nothing happens.
+# picture must be that of a program that hands over its matrix itself. Then in Debian's gears, and in an OpenGL ES program, which
+# must run on and get one line that says why nothing happens.
 set -euo pipefail
 library=$1 check=$2 folder=$3 foreign=$4
 if ! command -v xvfb-run >/dev/null; then
@@ -36,10 +36,10 @@ for options in "" "--samples 4" "--egl"; do
     grep -q 'glssao-inject: on: 640 x 480, field of view 45.8 degrees, near 0.1, far 50' log || fail "legacy $options: not on"
     "$check" legacy-after.ppm legacy-before.ppm || fail "legacy $options: wrong picture"
 done
-# What is told wrongly is named, and not used.
+# Wrong values are named and not used.
 GLSSAO_INJECT_FOV=200 GLSSAO_INJECT_NEAR=0.1 GLSSAO_INJECT_FAR=50 GLSSAO_INJECT_POWER=65 GLSSAO_INJECT_QUALITY=best \
     inject wrong "$folder/dropin-legacy" --no-ao --frames 5
-for words in 'FOV=200 is not a number from 1 to 179' 'a projection takes all of' 'POWER=65 is not a number from 0 to 64' 'QUALITY=best is none of'; do
+for words in 'FOV=200 is not a number from 1 to 179' 'a projection needs all of' 'POWER=65 is not a number from 0 to 64' 'QUALITY=best is none of'; do
     grep -q "$words" log || fail "wrongly told: nothing says \"$words\""
 done
 cmp wrong-after.ppm legacy-after.ppm || fail "what was told wrongly is used"
@@ -68,13 +68,13 @@ for modes in "ubo ortho" "mapped reversed" range; do
     "$check" --alike modes-after.ppm modes-before.ppm modes-own.ppm || fail "$modes: wrong picture"
 done
 # The effect is drawn before the frame ends, so the picture without it comes from a run that is switched off.
-for mode in weapon icon pick post shared resolve contexts; do
+for mode in weapon icon small pick post shared resolve contexts; do
     inject on "$foreign" $mode --frames 5
     GLSSAO_INJECT_OFF=1 inject off "$foreign" $mode --frames 5
     "$foreign" $mode own --frames 3 --picture own.ppm
     "$check" --alike on-after.ppm off-after.ppm own.ppm || fail "$mode: wrong picture"
 done
-# Numbers are read and written with a point, whatever the program's locale.
+# Numbers have a decimal point in every locale.
 mkdir locales
 if localedef -i de_DE -f UTF-8 locales/de_DE.UTF-8 >/dev/null 2>&1; then
     GLSSAO_INJECT_BEFORE=german-before.ppm GLSSAO_INJECT_PICTURE=german.ppm GLSSAO_INJECT_FRAME=3 LOCPATH=$PWD/locales \

@@ -99,3 +99,35 @@ void guest_refused(guest *g, glssao_result result, const char *word, const char 
         fail_msg("%s: the log wants one line with \"%s\": \"%s\"", what, word, g->f->log);
     fixture_clear_log(g->f);
 }
+
+guest_target guest_make_white(void)
+{
+    guest_target t;
+    gl.GenTextures(1, &t.texture);
+    gl.BindTexture(GL_TEXTURE_2D, t.texture);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, GUEST_W, GUEST_H, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    gl.GenFramebuffers(1, &t.framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, t.framebuffer);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, t.texture, 0);
+    gl.ClearBufferfv(GL_COLOR, 0, (const float[4]){1.0f, 1.0f, 1.0f, 1.0f});
+    return t;
+}
+
+int guest_count_dark(const guest_target *t)
+{
+    int count = 0;
+    float *const pixels = fixture_read_texture(t->texture, GUEST_W, GUEST_H, 1);
+    for (int i = 0; i < GUEST_W * GUEST_H; ++i)
+        count += pixels[i] < 0.99f;
+    free(pixels);
+    return count;
+}
+
+void guest_delete_white(guest_target *t)
+{
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    gl.DeleteFramebuffers(1, &t->framebuffer);
+    gl.DeleteTextures(1, &t->texture);
+}
