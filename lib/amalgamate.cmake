@@ -83,11 +83,11 @@ foreach(source IN LISTS SOURCES)
 endforeach()
 expand(code)
 
-# System headers first, so that no macro above reaches them.
-string(REGEX MATCHALL "#include <[^>]+>" system_includes "${code}")
+# System headers first, so that no macro above reaches them; one that not every system has is followed by a comment and stays.
+string(REGEX MATCHALL "#include <[^>]+>\n" system_includes "${code}")
 list(REMOVE_DUPLICATES system_includes)
 list(SORT system_includes)
-string(REPLACE ";" "\n" system_includes "${system_includes}")
+string(REPLACE ";" "" system_includes "${system_includes}")
 string(REGEX REPLACE "#include <[^>]+>\n" "" code "${code}")
 
 file(READ ${LICENSE} license)
@@ -99,6 +99,9 @@ file(WRITE ${OUTPUT}/glssao.c "/* SPDX-License-Identifier: MIT
  * with the maths library (-lm) where there is one.
  *
 ${license}*/
+#if !defined(_WIN32) && !defined(_POSIX_C_SOURCE)
+#define _POSIX_C_SOURCE 200809L
+#endif
 #ifndef GLSSAO_BUILD
 #define GLSSAO_BUILD
 #endif

@@ -19,9 +19,9 @@ bool memory_budget_charge(memory_budget *b, uint64_t bytes, const char *what, sc
 {
     const uint64_t mib = 1 << 20;
     if (bytes > b->left)
-        return scene_fail(fault, "%s: %llu MiB needed, and %llu of the %llu MiB allowed are left (option --memory)", what,
-                          (unsigned long long)(bytes / mib + (bytes % mib != 0)), (unsigned long long)(b->left / mib),
-                          (unsigned long long)(b->total / mib));
+        return scene_fail(fault, "%s: %llu MiB needed, and %llu of the %llu MiB allowed are left (option --memory)",
+                          what, (unsigned long long)(bytes / mib + (bytes % mib != 0)),
+                          (unsigned long long)(b->left / mib), (unsigned long long)(b->total / mib));
     b->left -= bytes;
     return true;
 }

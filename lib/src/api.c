@@ -63,7 +63,8 @@ typedef struct call {
 } call;
 
 /* Fills the uniform blocks, runs the steps and notes what they left. */
-static void run(glssao_effect *effect, const call *c, const glssao__schedule *schedule, const glssao__host_inputs *host)
+static void run_schedule(glssao_effect *effect, const call *c, const glssao__schedule *schedule,
+                         const glssao__host_inputs *host)
 {
     glssao__accumulation *accumulation = &effect->accumulation;
     const glssao__region *delivered = &schedule->delivered;
@@ -122,7 +123,7 @@ static glssao_result run_guarded(glssao_effect *effect, const call *c, const gls
     if (result == GLSSAO_OK) {
         result = glssao__resources_prepare(&effect->resources, schedule);
         if (result == GLSSAO_OK && !c->only_prepares)
-            run(effect, c, schedule, &host);
+            run_schedule(effect, c, schedule, &host);
         glssao__host_textures_restore(gl, &host, UNIT_DEPTH);
     }
     glssao__state_restore(gl, &state);

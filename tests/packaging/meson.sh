@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# meson.sh SOURCE VERSION: a Meson project that takes the library by packaging/meson's wrap from a local archive, as a static and
+# meson.sh SOURCE VERSION: a Meson project that takes the library by third_party/packaging/meson's wrap from a local archive, as a static and
 # as a shared library. The wrap, the port and the recipe name this version.
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 . "$here/common.sh"
-source=$1 version=$2 recipes=$1/packaging
+source=$1 version=$2 recipes=$1/third_party/packaging
 for file in meson/glssao.wrap meson/packagefiles/glssao/meson.build vcpkg/vcpkg.json conan/conanfile.py; do
-    grep -q "$version" "$recipes/$file" || fail "packaging/$file does not name version $version"
+    grep -q "$version" "$recipes/$file" || fail "third_party/packaging/$file does not name version $version"
 done
 command -v meson >/dev/null || skip "no meson (Debian and Ubuntu: apt install meson)"
 mkdir -p "$scratch/glssao-$version" "$scratch/use/subprojects"

@@ -368,8 +368,9 @@ static void what_is_left_out_is_named(void **state)
                                     "\"type\":\"perspective\",\"perspective\":{\"yfov\":0,\"znear\":1}}]"),
                          NULL);
     assert_int_equal(s->warning_count, 2);
-    assert_string_equal(s->warnings[0], "left out: 1 primitive without positions, 1 primitive without a whole triangle, "
-                                        "line or point, 1 camera that cannot see");
+    assert_string_equal(s->warnings[0],
+                        "left out: 1 primitive without positions, 1 primitive without a whole triangle, "
+                        "line or point, 1 camera that cannot see");
     assert_string_equal(s->warnings[1], "the scene has nothing to draw");
     scene_destroy(s);
 }

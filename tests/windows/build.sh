@@ -9,7 +9,7 @@ command -v x86_64-w64-mingw32-gcc-win32 >/dev/null || command -v x86_64-w64-ming
     exit 77
 }
 for kind in static shared; do
-    cmake -S "$source/tests/windows/project" -B "$build/$kind" -G Ninja --toolchain "$source/cmake/mingw-w64.cmake" \
+    cmake -S "$source/tests/windows/project" -B "$build/$kind" -G Ninja --toolchain "$source/.ci/mingw-w64.cmake" \
         -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS="$([ $kind = shared ] && echo ON || echo OFF)" "-DSOURCE=$source" \
         >/dev/null
     cmake --build "$build/$kind" -j2

@@ -109,7 +109,7 @@ static size_t copy(const char *source, const char *at, const char *end, bool is_
 {
     size_t length = 0;
     while (at < end) {
-        const char *head, *next = find_loop(at, end, is_short, &head);
+        const char *head = at, *next = find_loop(at, end, is_short, &head);
         loop l;
         if (next < end && !read_loop(source, head, &l))
             next = end;

@@ -14,11 +14,11 @@
 #include <string.h>
 
 #if defined(_WIN32)
-#include <process.h>
+#include <process.h> /* Windows */
 #else
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include <fcntl.h>    /* POSIX */
+#include <sys/stat.h> /* POSIX */
+#include <unistd.h>   /* POSIX */
 #endif
 
 enum { PATH_LENGTH = 4096, MOST_BYTES = 1 << 26 };

@@ -129,8 +129,8 @@ static bool bind_blocks(const glssao__gl *gl, const glssao__log *log, const glss
 }
 
 /* `second` is 0 where the first is a program of its own. */
-static gl_uint link(const glssao__gl *gl, const glssao__log *log, const char *name, bool keep, gl_uint first,
-                    gl_uint second)
+static gl_uint link_program(const glssao__gl *gl, const glssao__log *log, const char *name, bool keep, gl_uint first,
+                            gl_uint second)
 {
     gl_uint program = gl->CreateProgram();
     gl->AttachShader(program, first);
@@ -157,7 +157,7 @@ static gl_uint build(const glssao__gl *gl, const glssao__log *log, const glssao_
     gl_uint first = compile(gl, log, source->name, drawn ? source->vertex : source->compute,
                             drawn ? GL_VERTEX_SHADER : GL_COMPUTE_SHADER);
     gl_uint second = first && drawn ? compile(gl, log, source->name, source->fragment, GL_FRAGMENT_SHADER) : 0;
-    gl_uint program = first && (second || !drawn) ? link(gl, log, source->name, keep, first, second) : 0;
+    gl_uint program = first && (second || !drawn) ? link_program(gl, log, source->name, keep, first, second) : 0;
     gl->DeleteShader(first); /* OpenGL ignores the name 0 */
     gl->DeleteShader(second);
     return program;

@@ -22,8 +22,7 @@ glssao_result glssao__state_check(const glssao__gl *gl, const glssao__log *log, 
     if (gl->compatibility)
         gl->GetIntegerv(GL_RENDER_MODE, &mode);
     if (mode != GL_RENDER)
-        return glssao__log_refuse(log, "%s: GL_RENDER_MODE is GL_FEEDBACK or GL_SELECT, which draws nothing",
-                                  function);
+        return glssao__log_refuse(log, "%s: GL_RENDER_MODE is GL_FEEDBACK or GL_SELECT, which draws nothing", function);
     if (gl->feedback_query) {
         gl_int active = 0, paused = 0;
         gl->GetIntegerv(GL_TRANSFORM_FEEDBACK_ACTIVE, &active);

@@ -20,18 +20,18 @@ static const struct parameter {
     gl_enum name;
     int count;
     gl_int wanted[4];
-    enum { ALWAYS, STENCIL_TEXTURING, COMPATIBILITY } where;
+    enum { EVERYWHERE, STENCIL_TEXTURING, COMPATIBILITY_PROFILE } where;
 } parameters[HOST_PARAMETERS] = {
-    {GL_TEXTURE_BASE_LEVEL, 1, {0}, ALWAYS},
-    {GL_TEXTURE_SWIZZLE_RGBA, 4, {GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA}, ALWAYS},
+    {GL_TEXTURE_BASE_LEVEL, 1, {0}, EVERYWHERE},
+    {GL_TEXTURE_SWIZZLE_RGBA, 4, {GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA}, EVERYWHERE},
     {GL_DEPTH_STENCIL_TEXTURE_MODE, 1, {GL_DEPTH_COMPONENT}, STENCIL_TEXTURING},
-    {GL_DEPTH_TEXTURE_MODE, 1, {GL_LUMINANCE}, COMPATIBILITY},
+    {GL_DEPTH_TEXTURE_MODE, 1, {GL_LUMINANCE}, COMPATIBILITY_PROFILE},
 };
 
 static bool has_parameter(const glssao__gl *gl, const struct parameter *p)
 {
-    return p->where == ALWAYS || (p->where == STENCIL_TEXTURING && gl->stencil_texturing) ||
-           (p->where == COMPATIBILITY && gl->compatibility);
+    return p->where == EVERYWHERE || (p->where == STENCIL_TEXTURING && gl->stencil_texturing) ||
+           (p->where == COMPATIBILITY_PROFILE && gl->compatibility);
 }
 
 static bool is_wanted(const struct parameter *p, const gl_int value[4])

@@ -6,7 +6,14 @@
  */
 #include "input/projection.h"
 
+#include <float.h>
 #include <math.h>
+
+/* mingw-w64's isfinite converts doubles to float. */
+static bool is_finite(double value)
+{
+    return fabs(value) <= DBL_MAX;
+}
 
 /* Gauss-Jordan with partial pivoting; false where the matrix is singular to working precision. */
 static bool invert(const double m[16], double out[16])
@@ -44,7 +51,7 @@ static bool invert(const double m[16], double out[16])
             out[col * 4 + row] = a[row][col + 4];
             largest = fmax(largest, fabs(a[row][col + 4]));
         }
-    return isfinite(largest) && largest < 3e38; /* the block holds floats */
+    return is_finite(largest) && largest < 3e38; /* the block holds floats */
 }
 
 /* View distance at one end of the depth range, where numerator / denominator is it; infinite where a perspective
@@ -67,7 +74,7 @@ bool glssao__projection_analyse(const float projection[16], bool clip_zero_to_on
     double p[16], inverse[16];
     for (int i = 0; i < 16; ++i) {
         p[i] = (double)projection[i];
-        if (!isfinite(p[i]))
+        if (!is_finite(p[i]))
             return refuse(log, i, p[i], "not finite");
     }
     /* clip.w = p[11] z + p[15], clip.x and clip.y without the other's coordinate, clip.z from z alone. */
@@ -95,7 +102,7 @@ bool glssao__projection_analyse(const float projection[16], bool clip_zero_to_on
         out->distance_from_depth[i] = (float)(out->ends[i] = k[i] * scale);
     bool perspective = p[11] != 0.0;
     double distance_0 = distance_at(k[0], k[2], perspective), distance_1 = distance_at(k[1], k[3], perspective);
-    if (distance_0 == distance_1 || !(isfinite(distance_0) || isfinite(distance_1))) {
+    if (distance_0 == distance_1 || !(is_finite(distance_0) || is_finite(distance_1))) {
         glssao__log_write(log, GLSSAO_LOG_ERROR, "frame.projection: depth 0 and depth 1 lie at the same distance");
         return false;
     }
