@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The horizon estimate: cosine-weighted visibility, slice by slice (J. Jimenez et al., "Practical Realtime Strategies for
-// Accurate Indirect Occlusion", 2016, section 4), gathered in a mask of sectors (O. Therrien et al., "Screen Space Indirect
-// Lighting with Visibility Bitmask", 2023, section 3). The sectors have equal cosine-weighted measure. An occluder counts as
-// being as thick as it is wide along the slice, and the sphere of the radius cuts each sample, as in the traced truth.
+// Accurate Indirect Occlusion", 2016), gathered in a mask of sectors (O. Therrien et al., "Screen Space Indirect Lighting with
+// Visibility Bitmask", 2023). The sectors have equal cosine-weighted measure. An occluder counts as being as thick as it is
+// wide along the slice, and the sphere of the radius cuts each sample, as in the traced truth.
 // in  u_normal_map    view space; point sampled
 // in  u_distance_map  view distance at the estimate's size, with LAYERS 1 thickness and second layer too; point sampled,
 //                     clamped
@@ -11,7 +11,15 @@
 // without an occluder is left early.
 //
 // Coordinates in a slice, in units of the radius: x is the distance from the point along the slice, outwards on either side;
-// y is the height towards the eye. Angles are measured from y. tuned.glsl has the tuned constants.
+// y is the height towards the eye. Angles are measured from y. tuned.glsl has the tuned constants. In each slice:
+//   (1) n' = n without its part across the slice; it leans towards the plus side by g
+//   (2) measure of the angles from 0 to acos(c), for a side towards which n' leans by g:
+//       M(c, g) = (cos g (1 - c^2) + sin g (acos(c) - c sqrt(1 - c^2))) / 2
+//   (3) total = M(sin g, -g) + M(-sin g, g): each side from the eye's direction to the rim of the hemisphere
+//   (4) a sector: 1/31 of the total, counted from the rim of the minus side
+//   (5) an occluder from y - thickness to y hides the cosines between those of its ends, c = y / sqrt(x^2 + y^2), as far as
+//       the sphere, x^2 + y^2 <= 1, and the hemisphere reach
+//   (6) occlusion = |n'| mix(total (sectors hidden) / 31, measure below the two horizons, VEIL)
 
 uniform sampler2D u_distance_map;
 #if OUTPUT == OUTPUT_SUM
@@ -54,9 +62,7 @@ int count_bits(uint mask)
     return int((((mask + (mask >> 4)) & 0x0F0F0F0Fu) * 0x01010101u) >> 24);
 }
 
-// The cosine-weighted measure of the angles from 0 to acos(c) on one side, as a polynomial in c. For a normal that leans
-// towards that side by g it is the integral of cos(t - g) sin(t) over t (Jimenez 2016, equation 7), which is
-// (cos g (1 - c^2) + sin g h(c)) / 2 with h(c) = acos(c) - c sqrt(1 - c^2). The polynomial for h,
+// (2), the integral of cos(t - g) sin(t) over t, as a polynomial in c. That for acos(c) - c sqrt(1 - c^2),
 // pi/2 - c (1.98868 - 0.25869 c^2 - 0.15521 c^4), is off by at most 0.004.
 struct polynomial {
     vec4 low; // coefficients of 1, c, c^2, c^3
@@ -129,14 +135,14 @@ bool occludes(point p, slice_side side, vec3 at)
     return at.x > side.least_x && at.x < 1.0 && at.y > side.tangent * at.x + p.y_step;
 }
 
-// The sectors from a cosine on. The polynomial leaves 0..31 by an eighth at most, which the rounding takes back; a shift by
+// The sectors (4) from a cosine on. The polynomial leaves 0..31 by an eighth at most, which the rounding takes back; a shift by
 // more than 31 would be undefined.
 uint sectors_from(slice_side side, float c)
 {
     return ~0u << (uint(int(value(side.sectors, c))) & 31u);
 }
 
-// The sectors that are hidden at x between two heights, as far as these lie in the sphere, whose half chord is given.
+// (5): the sectors that are hidden at x between two heights, as far as these lie in the sphere, whose half chord is given.
 uint hidden_between(slice_side side, float x2, float chord, float top, float bottom, out float cos_top)
 {
     top = min(top, chord);
@@ -248,12 +254,11 @@ float slice_occlusion(point p, float angle)
     float normal_up = max(dot(p.normal_view, p.up_view), 0.0);
     float normal_along = dot(p.normal_view, along);
     float slope = clamp(dot(p.normal_view, across) / max(normal_up, 1e-3), -STEEPEST, STEEPEST);
-    // The normal projected into the slice leans towards the plus side by g. A normal straight across the slice projects to
-    // nothing.
+    // (1). A normal straight across the slice projects to nothing.
     float projected = sqrt(max(normal_along * normal_along + normal_up * normal_up, 1e-12));
     float cos_g = normal_up / projected;
     float sin_g = normal_along / projected;
-    // The floor is for a normal straight across the slice, which leaves no measure to share out among sectors.
+    // (3). The floor is for a normal straight across the slice, which leaves no measure to share out among sectors.
     float total_minus = value(measure(cos_g, -sin_g, 1.0), sin_g);
     float total = max(value(measure(cos_g, sin_g, 1.0), -sin_g) + total_minus, 1e-6);
     float scale = SECTORS / total;
@@ -282,6 +287,7 @@ float slice_occlusion(point p, float angle)
         mask |= hidden_sectors(p, side, highest);
         veiled -= value(measure(cos_g, sign * sin_g, 1.0), highest);
     }
+    // (6)
     float hidden = total * float(count_bits(mask)) * (1.0 / SECTORS);
     return projected * mix(hidden, veiled, VEIL);
 }

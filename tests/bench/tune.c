@@ -2,11 +2,12 @@
  *
  * glssao-tune: searches the horizon technique's constants against ray-traced truth. With --fold 0 or 1 it searches on
  * one half of the scenes and reports the error on the other half. With --fold 2 it searches on all, for the constants
- * that ship. Scenes for judging are never used. It changes no file: its result is copied into glsl/horizon.frag by
- * hand.
+ * that ship. Scenes for judging are never used. It changes no file: its result is copied into
+ * glsl/shared/tuned.glsl by hand.
  */
 #include "effects.h"
 #include "progress.h"
+#include "tuned.glsl"
 #include "views.h"
 
 #include <glssao/glssao.h>
@@ -16,27 +17,35 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LEVELS = GLSSAO_ULTRA + 1, SHARED = LEVELS, ERROR_LENGTH = 4096, SOURCE_ROOM = 4096 };
+enum { LEVELS = GLSSAO_ULTRA + 1, ERROR_LENGTH = 4096, SOURCE_ROOM = 4096 };
 
-/* A constant of glsl/horizon.frag, written there as `const float NAME = value;`. `level`: the only quality level that
- * uses it, or SHARED. */
+/* A constant of glsl/shared/tuned.glsl, whose value is where the search begins. `levels`: a bit for each quality level
+ * that uses it. */
 typedef struct tuned {
     const char *name;
-    int level;
+    unsigned levels;
     double value, step, least, most;
+    bool found; /* in a shader */
 } tuned;
 
+#define LEVEL(level) (1u << (level))
+#define EVERY_LEVEL (LEVEL(LEVELS) - 1)
+/* The shaders' names are macros here too. */
+#define TUNED(name, levels, step, least, most)                                                                         \
+    {                                                                                                                  \
+#name, levels, name, step, least, most, false                                                                  \
+    }
+
 static tuned table[] = {
-    {"JUMP", SHARED, 0.30, 0.08, 0.05, 2.0},
-    {"ALIKE", SHARED, 0.40, 0.10, 0.0, 2.0},
-    {"OPEN_END", SHARED, 1.25, 0.10, 1.0, 2.0},
-    {"WIDTH", SHARED, 1.0, 0.15, 0.3, 2.0},
-    {"VEIL", SHARED, 0.15, 0.03, 0.0, 0.6},
-    {"VEIL_WIDTH", SHARED, 0.2, 0.08, 0.0, 1.0},
-    {"CALIBRATION", GLSSAO_LOW, 1.10, 0.06, 0.8, 1.5},
-    {"CALIBRATION", GLSSAO_MEDIUM, 1.05, 0.06, 0.8, 1.5},
-    {"CALIBRATION", GLSSAO_HIGH, 1.00, 0.06, 0.8, 1.5},
-    {"CALIBRATION", GLSSAO_ULTRA, 1.00, 0.06, 0.8, 1.5},
+    TUNED(JUMP, EVERY_LEVEL, 0.08, 0.05, 2.0),
+    TUNED(ALIKE, EVERY_LEVEL, 0.10, 0.0, 2.0),
+    TUNED(OPEN_END, EVERY_LEVEL, 0.10, 1.0, 2.0),
+    TUNED(RUN_WIDTH, EVERY_LEVEL, 0.15, 0.3, 2.0),
+    TUNED(VEIL_ONE_LAYER, EVERY_LEVEL, 0.03, 0.0, 0.6),
+    TUNED(VEIL_WIDTH, EVERY_LEVEL, 0.08, 0.0, 1.0),
+    TUNED(CALIBRATION_6, LEVEL(GLSSAO_LOW), 0.06, 0.8, 1.5),
+    TUNED(CALIBRATION_8, LEVEL(GLSSAO_MEDIUM), 0.06, 0.8, 1.5),
+    TUNED(CALIBRATION_12, LEVEL(GLSSAO_HIGH) | LEVEL(GLSSAO_ULTRA), 0.06, 0.8, 1.5),
 };
 enum { TABLE_LENGTH = sizeof table / sizeof table[0] };
 
@@ -59,21 +68,24 @@ static void (*shader_source)(GLuint shader, GLsizei count, const GLchar *const *
 
 static bool applies(const tuned *c, int level)
 {
-    return c->level == SHARED || c->level == level;
+    return c->levels & LEVEL(level);
 }
 
-/* Replaces the value where the source declares the constant. */
-static void substitute(char *source, const tuned *c)
+/* Replaces the value where the source defines the constant. */
+static void substitute(char *source, tuned *c)
 {
-    char declared[64];
-    snprintf(declared, sizeof declared, "const float %s = ", c->name);
-    for (char *at = strstr(source, declared); at; at = strstr(at + 1, declared)) {
-        char *value = at + strlen(declared), *end = strchr(value, ';');
-        char written[32];
-        const int length = snprintf(written, sizeof written, "%.6f", c->value);
-        memmove(value + length, end, strlen(end) + 1);
-        memcpy(value, written, (size_t)length);
-    }
+    char defined[64];
+    snprintf(defined, sizeof defined, "#define %s ", c->name);
+    char *value = strstr(source, defined);
+    if (!value)
+        return;
+    c->found = true;
+    value += strlen(defined);
+    char *end = value + strcspn(value, " \n");
+    char written[32];
+    const int length = snprintf(written, sizeof written, "%.6f", c->value);
+    memmove(value + length, end, strlen(end) + 1);
+    memcpy(value, written, (size_t)length);
 }
 
 /* Replaces glShaderSource for the library. */
@@ -218,6 +230,18 @@ static bool try_constant(tuned *c, fit_sum *fits, double *best, bool *improved)
     return true;
 }
 
+/* A constant that no shader defines would be searched in vain. */
+static bool all_found(void)
+{
+    for (int i = 0; i < TABLE_LENGTH; i++) {
+        if (!table[i].found) {
+            snprintf(t.error, sizeof t.error, "no shader defines %s as glsl/shared/tuned.glsl does", table[i].name);
+            return false;
+        }
+    }
+    return true;
+}
+
 static bool search(fit_sum *fits, int rounds)
 {
     double best = score(t.square);
@@ -272,14 +296,14 @@ static bool tune(void)
     bool done = fits && prepare() && measure_classic(fits);
     for (int level = 0; done && level < LEVELS; level++)
         done = measure_level(level, t.square[level], fits);
+    done = done && all_found();
     if (done)
         print_ratios("before, RMSE as a ratio to classic's with its best exponent:");
     done = done && search(fits, t.options.rounds);
     if (done)
         print_ratios("after:");
     for (int i = 0; done && i < TABLE_LENGTH; i++)
-        printf("  %s%s%.0d = %.4f\n", table[i].name, table[i].level == SHARED ? "" : " of level ",
-               table[i].level == SHARED ? 0 : table[i].level, table[i].value);
+        printf("  %s %.4f\n", table[i].name, table[i].value);
     free(fits);
     return done;
 }

@@ -12,15 +12,16 @@
  *              effects may live in one context, and several contexts may run on several threads. Contexts that share
  *              objects may hand their textures to an effect and read its maps, ordered by glFinish or a fence. The
  *              effect itself stays in its own context, since framebuffers and vertex arrays are not shared.
- *   State      Each call leaves GL state as it found it, unless config.host_restores_state is set. Conditional
- * rendering and transform feedback must be off: OpenGL can't be asked about the first, and the second would record the
- * effect's vertices. An occlusion query that runs counts the effect's fragments too. Errors     A call that fails
- * changes nothing, says why in one line of the log, and leaves the effect usable. A NULL effect gives
- * GLSSAO_INVALID_ARGUMENT, 0 or NULL, as the type allows. No call leaves a GL error behind, and release builds take
- * none of yours: glGetError is called only after a GL call that is known to have failed (no memory, or a texture of
- * another target in a context older than 4.5). Ownership  Structs handed in are copied. The effect deletes only what it
- * created. Growth     Later versions add fields at the end of a struct, whose zero keeps today's meaning. Zero a
- * struct, or use its default function, before you fill it.
+ *   State      Each call leaves GL state as it found it, unless config.host_restores_state is set. Conditional rendering
+ *              and transform feedback must be off: OpenGL can't be asked about the first, and the second would record
+ *              the effect's vertices. An occlusion query that runs counts the effect's fragments too.
+ *   Errors     A call that fails changes nothing, says why in one line of the log, and leaves the effect usable. A NULL
+ *              effect gives GLSSAO_INVALID_ARGUMENT, 0 or NULL, as the type allows. No call leaves a GL error behind,
+ *              and release builds take none of yours: glGetError is called only after a GL call that is known to have
+ *              failed (no memory, or a texture of another target in a context older than 4.5).
+ *   Ownership  Structs handed in are copied. The effect deletes only what it created.
+ *   Growth     Later versions add fields at the end of a struct, whose zero keeps today's meaning. Zero a struct, or use its
+ *              default function, before you fill it.
  *
  * Spaces: view space has the camera at its origin, is right-handed, and looks down -z; view distance is -z.
  * Window depth is what the depth buffer stores, 0 to 1. uv is 0 to 1 with its origin at the bottom left.
@@ -57,13 +58,12 @@ extern "C" {
 typedef struct glssao_effect glssao_effect; /* one per GL context; opaque */
 
 typedef enum glssao_result { /* what a call that can fail gives */
-                             GLSSAO_OK = 0,
-                             GLSSAO_INVALID_ARGUMENT,    /* the log names the field and its value */
-                             GLSSAO_UNSUPPORTED_CONTEXT, /* older than 3.3, or it lacks a function or what config.path
-                                                            asks for */
-                             GLSSAO_OUT_OF_MEMORY,
-                             GLSSAO_SHADER_ERROR,     /* the log holds the driver's text and the numbered source */
-                             GLSSAO_FRAMEBUFFER_ERROR /* the driver refuses one of the formats or attachments */
+    GLSSAO_OK = 0,
+    GLSSAO_INVALID_ARGUMENT,    /* the log names the field and its value */
+    GLSSAO_UNSUPPORTED_CONTEXT, /* older than 3.3, or it lacks a function or what config.path asks for */
+    GLSSAO_OUT_OF_MEMORY,
+    GLSSAO_SHADER_ERROR,        /* the log holds the driver's text and the numbered source */
+    GLSSAO_FRAMEBUFFER_ERROR    /* the driver refuses one of the formats or attachments */
 } glssao_result;
 
 /* How much a message matters. */
@@ -78,216 +78,197 @@ typedef void (*glssao_log_fn)(glssao_log_level level, const char *message, void 
 
 /* ---- config: fixed for the effect's life ---------------------------------------------------------------- */
 
-/* How passes run that can be drawn or dispatched: distance, horizon's estimate, blurs and upsampling. The two ways
- * differ by no more than an eye can see: RMSE at most 1e-4, at most 1 pixel in 10,000 by more than 0.02. */
+/* How passes run that can be drawn or dispatched: distance, horizon's estimate, blurs and upsampling. The two ways differ
+ * by no more than an eye can see: RMSE at most 1e-4, at most 1 pixel in 10,000 by more than 0.02. */
 typedef enum glssao_path {
-    GLSSAO_PATH_AUTO =
-        0, /* compute shaders on GPUs that have and take them; fragment shaders on software rasterisers */
+    GLSSAO_PATH_AUTO = 0, /* compute shaders on GPUs that have and take them; fragment shaders on software rasterisers */
     GLSSAO_PATH_FRAGMENT, /* never compute shaders */
     GLSSAO_PATH_COMPUTE   /* compute shaders, or UNSUPPORTED_CONTEXT where they can't write images */
 } glssao_path;
 
 typedef struct glssao_config { /* zero means default */
-    glssao_load_fn load;       /* this or get_proc is required: finds GL functions */
-    void *load_user;           /* handed to load */
-    glssao_log_fn log;         /* NULL: silent */
-    void *log_user;            /* handed to log */
-    int width, height;         /* full size in pixels: that of the depth maps handed over. 1 to GL_MAX_TEXTURE_SIZE */
-    uint32_t seed;  /* of classic's vectors, hemisphere's kernel and the noise of glssao_accumulate: same seed, same
-                       bits. The horizon technique's tile of noise does not depend on it */
-    bool no_timers; /* true: no timer queries; glssao_stats then holds no times */
-    const char
-        *program_cache; /* a folder where linked programs are kept for the next run, if the driver can; NULL: none. It
-                     must exist, belong to the user who runs the program, and be writable by nobody else, since a
-                     linked program is code that the driver runs. Otherwise the log warns and nothing is kept */
-    glssao_path path;   /* compute shaders or fragment shaders, where both can do it */
-    glssao_proc (*get_proc)(
-        const char *name);    /* instead of load: glfwGetProcAddress, eglGetProcAddress and SDL's fit */
-    bool host_restores_state; /* true: calls neither ask for GL state nor restore it, which spares a threaded driver
-                            every wait. They change: program, vertex array, draw and read framebuffer, viewport, active
-                            texture unit, 2D textures and samplers of units 0 to 7, uniform buffers 0 to 2, image unit
-                            0, pixel store, pack and unpack buffers, blend functions. They leave off: blending, scissor,
-                            depth and stencil test, culling and all that could drop a fragment. They leave on: colour
-                            mask 0, depth mask, filled polygons. A framebuffer for glssao_apply is not checked; a
-                            texture only the first time, until glssao_resize, and its swizzle and base level must be the
-                            default */
+    glssao_load_fn load; /* this or get_proc is required: finds GL functions */
+    void *load_user;     /* handed to load */
+    glssao_log_fn log;   /* NULL: silent */
+    void *log_user;      /* handed to log */
+    int width, height;   /* full size in pixels: that of the depth maps handed over. 1 to GL_MAX_TEXTURE_SIZE */
+    uint32_t seed;       /* of classic's vectors, hemisphere's kernel and the noise of glssao_accumulate: same seed, same
+                            bits. The horizon technique's tile of noise does not depend on it */
+    bool no_timers;      /* true: no timer queries; glssao_stats then holds no times */
+    const char *program_cache; /* a folder where linked programs are kept for the next run, if the driver can; NULL: none. It
+                            must exist, belong to the user who runs the program, and be writable by nobody else, since a
+                            linked program is code that the driver runs. Otherwise the log warns and nothing is kept */
+    glssao_path path;    /* compute shaders or fragment shaders, where both can do it */
+    glssao_proc (*get_proc)(const char *name); /* instead of load: glfwGetProcAddress, eglGetProcAddress and SDL's fit */
+    bool host_restores_state; /* true: calls neither ask for GL state nor restore it, which spares a threaded driver every
+                            wait. They change: program, vertex array, draw and read framebuffer, viewport, active texture
+                            unit, 2D textures and samplers of units 0 to 7, uniform buffers 0 to 2, image unit 0, pixel
+                            store, pack and unpack buffers, blend functions. They leave off: blending, scissor, depth and
+                            stencil test, culling and all that could drop a fragment. They leave on: colour mask 0, depth
+                            mask, filled polygons. A framebuffer for glssao_apply is not checked; a texture only the first
+                            time, until glssao_resize, and its swizzle and base level must be the default */
 } glssao_config;
 
 /* ---- settings: may change every frame ------------------------------------------------------------------- */
 
-typedef enum glssao_technique {                     /* how occlusion is estimated */
-                                GLSSAO_CLASSIC = 0, /* 14 offsets about the point, distance fade, bilateral blur (Luna,
-                                                       D3D12 book, ch. 21) */
-                                GLSSAO_HEMISPHERE,  /* samples in the half ball about the normal, 4x4 tile of rotations
-                                                       (Chapman 2013) */
-                                GLSSAO_HORIZON      /* cosine-weighted visibility by slices: nearest to ray-traced truth
-                                                       (Jimenez 2016, Therrien 2023) */
+typedef enum glssao_technique { /* how occlusion is estimated */
+    GLSSAO_CLASSIC = 0, /* 14 offsets about the point, distance fade, bilateral blur (Luna, D3D12 book, ch. 21) */
+    GLSSAO_HEMISPHERE,  /* samples in the half ball about the normal, 4x4 tile of rotations (Chapman 2013) */
+    GLSSAO_HORIZON      /* cosine-weighted visibility by slices: nearest to ray-traced truth (Jimenez 2016, Therrien 2023) */
 } glssao_technique;
 
 /* Default settings by cost: see docs/accuracy.md. */
 typedef enum glssao_quality { GLSSAO_LOW = 0, GLSSAO_MEDIUM, GLSSAO_HIGH, GLSSAO_ULTRA } glssao_quality;
 
-typedef enum glssao_blur { /* how noise is taken out of the estimate */
-                           GLSSAO_BLUR_NONE = 0,
-                           GLSSAO_BLUR_GAUSSIAN,  /* separable, 11 taps, crosses edges */
-                           GLSSAO_BLUR_BILATERAL, /* the same taps, kept only where normal and view distance agree */
-                           GLSSAO_BLUR_BOX, /* separable, 4 x 4: one period of the hemisphere technique's tile; crosses
-                                               edges */
-                           GLSSAO_BLUR_PLANAR /* separable box over a 4 x 4 tile that follows surfaces: the horizon
-                                                 technique's own */
+typedef enum glssao_blur {  /* how noise is taken out of the estimate */
+    GLSSAO_BLUR_NONE = 0,
+    GLSSAO_BLUR_GAUSSIAN,  /* separable, 11 taps, crosses edges */
+    GLSSAO_BLUR_BILATERAL, /* the same taps, kept only where normal and view distance agree */
+    GLSSAO_BLUR_BOX,       /* separable, 4 x 4: one period of the hemisphere technique's tile; crosses edges */
+    GLSSAO_BLUR_PLANAR     /* separable box over a 4 x 4 tile that follows surfaces: the horizon technique's own */
 } glssao_blur;
 
 typedef enum glssao_tiles { /* whether the effect looks for tiles where nothing can occlude, and leaves them out */
-                            GLSSAO_TILES_AUTO =
-                                0, /* where it can pay: on software rasterisers, unless the picture is small */
-                            GLSSAO_TILES_OFF,
-                            GLSSAO_TILES_ON
+    GLSSAO_TILES_AUTO = 0,  /* where it can pay: on software rasterisers, unless the picture is small */
+    GLSSAO_TILES_OFF,
+    GLSSAO_TILES_ON
 } glssao_tiles;
 
-typedef struct glssao_settings { /* fill with glssao_default_settings() first, then change what you like */
-    glssao_technique technique;  /* decides which of the fields below count */
-    float radius;                /* scene units, >= 0: how far away an occluder can be. 0 occludes nothing */
-    float fade_start, fade_end; /* scene units of view distance, 0 <= start <= end (classic): an occluder that is nearer
-                                   than the point by start counts fully, by end not at all */
-    float surface_epsilon; /* scene units, >= 0: an occluder counts only if it is nearer than the point (classic) or
-                              than the sample (hemisphere) by more than this */
-    float power;           /* 0 to 64: accessibility is raised to this; more is darker */
-    int sample_count;      /* classic: 1 to 14 offset vectors, the 8 cube corners first; hemisphere: 1 to 64;
-                              horizon: samples of depth, 12 (one slice of 6 a side), 16 (1 x 8), 24 (1 x 12),
-                              32 (2 x 8), 48 (2 x 12) or 64 (2 x 16) */
-    bool half_resolution;  /* estimate at half the size, (w + 1) / 2 by (h + 1) / 2 */
-    bool upsample;         /* true: a half-size result is brought to full size along surfaces */
-    glssao_blur blur;      /* of the estimate, before upsampling */
-    int blur_rounds;       /* 0 to 16: each is a horizontal and a vertical pass; planar: after the first, one */
-    float blur_sigma;      /* pixels of the ambient map, above 0 to 2.5 */
-    float blur_normal_threshold; /* cosine, -1 to 1: taps whose normals' dot product is below are dropped */
-    float blur_depth_threshold;  /* scene units, >= 0: taps farther off in view distance are dropped */
-    glssao_tiles tiles;          /* the picture is the same with and without, within a step of R16 */
+typedef struct glssao_settings {   /* fill with glssao_default_settings() first, then change what you like */
+    glssao_technique technique;    /* decides which of the fields below count */
+    float radius;                  /* scene units, >= 0: how far away an occluder can be. 0 occludes nothing */
+    float fade_start, fade_end;    /* scene units of view distance, 0 <= start <= end (classic): an occluder that is nearer
+                                      than the point by start counts fully, by end not at all */
+    float surface_epsilon;         /* scene units, >= 0: an occluder counts only if it is nearer than the point (classic) or
+                                      than the sample (hemisphere) by more than this */
+    float power;                   /* 0 to 64: accessibility is raised to this; more is darker */
+    int sample_count;              /* classic: 1 to 14 offset vectors, the 8 cube corners first; hemisphere: 1 to 64;
+                                      horizon: samples of depth, 12 (one slice of 6 a side), 16 (1 x 8), 24 (1 x 12),
+                                      32 (2 x 8), 48 (2 x 12) or 64 (2 x 16) */
+    bool half_resolution;          /* estimate at half the size, (w + 1) / 2 by (h + 1) / 2 */
+    bool upsample;                 /* true: a half-size result is brought to full size along surfaces */
+    glssao_blur blur;              /* of the estimate, before upsampling */
+    int blur_rounds;               /* 0 to 16: each is a horizontal and a vertical pass; planar: after the first, one */
+    float blur_sigma;              /* pixels of the ambient map, above 0 to 2.5 */
+    float blur_normal_threshold;   /* cosine, -1 to 1: taps whose normals' dot product is below are dropped */
+    float blur_depth_threshold;    /* scene units, >= 0: taps farther off in view distance are dropped */
+    glssao_tiles tiles;            /* the picture is the same with and without, within a step of R16 */
     /* For teaching: */
-    bool no_angle_weight; /* classic: occluders count at any angle, so flat surfaces darken */
+    bool no_angle_weight;          /* classic: occluders count at any angle, so flat surfaces darken */
 } glssao_settings;
 
 /* ---- frame: what the host hands over each time ---------------------------------------------------------- */
 
-typedef enum glssao_depth {                          /* what a texel of depth means */
-                            GLSSAO_DEPTH_WINDOW = 0, /* what the depth buffer stores; depth or depth-stencil format */
-                            GLSSAO_DEPTH_VIEW_DISTANCE, /* view distance in the red channel of a float format; sky: 0,
-                                                           infinite or no number */
-                            GLSSAO_DEPTH_NORMAL_ALPHA,  /* the same in the alpha of normal_texture; depth_texture is not
-                                                           used */
-                            GLSSAO_DEPTH_LOGARITHMIC    /* log(c t + 1) / log(c far + 1) at view distance t, sky at 1;
-                                                           depth or red of a float    format; frame.log_depth_far and
-                                                           _constant. Copied first, see frame.multisample */
+typedef enum glssao_depth { /* what a texel of depth means */
+    GLSSAO_DEPTH_WINDOW = 0,    /* what the depth buffer stores; depth or depth-stencil format */
+    GLSSAO_DEPTH_VIEW_DISTANCE, /* view distance in the red channel of a float format; sky: 0, infinite or no number */
+    GLSSAO_DEPTH_NORMAL_ALPHA,  /* the same in the alpha of normal_texture; depth_texture is not used */
+    GLSSAO_DEPTH_LOGARITHMIC    /* log(c t + 1) / log(c far + 1) at view distance t, sky at 1; depth or red of a float
+                                   format; frame.log_depth_far and _constant. Copied first, see frame.multisample */
 } glssao_depth;
 
-typedef enum glssao_normal {                           /* how a texel stores a normal */
-                             GLSSAO_NORMAL_SIGNED = 0, /* xyz in -1..1, any length but 0 */
-                             GLSSAO_NORMAL_UNSIGNED,   /* xyz stored as 0..1 */
-                             GLSSAO_NORMAL_OCTAHEDRAL  /* red and green, -1..1 (Meyer et al. 2010) */
+typedef enum glssao_normal { /* how a texel stores a normal */
+    GLSSAO_NORMAL_SIGNED = 0, /* xyz in -1..1, any length but 0 */
+    GLSSAO_NORMAL_UNSIGNED,   /* xyz stored as 0..1 */
+    GLSSAO_NORMAL_OCTAHEDRAL  /* red and green, -1..1 (Meyer et al. 2010) */
 } glssao_normal;
 
 typedef struct glssao_frame { /* zero a field that you don't use */
-    uint32_t depth_texture;   /* GL_TEXTURE_2D of the effect's full size, level 0; may stay attached to a framebuffer */
-    glssao_depth depth_kind;  /* of depth_texture */
-    uint32_t normal_texture;  /* GL_TEXTURE_2D of the full size, view space; 0: rebuilt from depth (one more pass) */
+    uint32_t depth_texture;    /* GL_TEXTURE_2D of the effect's full size, level 0; may stay attached to a framebuffer */
+    glssao_depth depth_kind;   /* of depth_texture */
+    uint32_t normal_texture;   /* GL_TEXTURE_2D of the full size, view space; 0: rebuilt from depth (one more pass) */
     glssao_normal normal_kind; /* of normal_texture */
     float projection[16];      /* column-major clip_from_view, finite and invertible: perspective (off-centre,
                                   infinite, reversed: all fine) or orthographic */
     bool clip_zero_to_one;     /* true where the host called glClipControl(..., GL_ZERO_TO_ONE) */
-    int margin;            /* pixels on each side, even: they hold occluders beyond the picture's edge and are not part
-                              of the result, which is that much smaller. projection is that of the whole */
-    bool no_ambient_light; /* true: there is no light that the result could scale. Nothing is drawn, the result is 1 */
-    bool only_sky;         /* true: only sky is seen. The same */
-    uint32_t
-        back_texture; /* horizon: a second layer, both textures or neither. They are stored as depth_texture is, or */
-    uint32_t second_texture;  /* hold view distance in red where depth is in the normal map. back: the nearest back face
-                                 at  or behind the visible surface, where two-sided surfaces count as back faces. second:
-                                 the  nearest front face behind it. Store the sky value where there is no such surface.
-                                 With  both layers the effect measures thickness instead of estimating it */
-    float log_depth_far;      /* GLSSAO_DEPTH_LOGARITHMIC: view distance at depth 1, scene units, 1e-12 to 1e12 */
-    float log_depth_constant; /* GLSSAO_DEPTH_LOGARITHMIC: c, 1e-12 to 1e12; 0: 1, which is what three.js has */
-    bool multisample; /* true: the textures are GL_TEXTURE_2D_MULTISAMPLE; the first sample of each pixel is read.
-                         Each texture is copied: one pass, and until the next resize 4 bytes a pixel (depth,
-                         back, second) or 16 (normals) of memory */
-    int viewport[4];  /* x, y, width, height, pixels: where the picture lies in larger textures; width and height
-                         are the effect's full size. Each texture is copied, as above. All 0: the whole texture */
+    int margin;                /* pixels on each side, even: they hold occluders beyond the picture's edge and are not part
+                                  of the result, which is that much smaller. projection is that of the whole */
+    bool no_ambient_light;     /* true: there is no light that the result could scale. Nothing is drawn, the result is 1 */
+    bool only_sky;             /* true: only sky is seen. The same */
+    uint32_t back_texture;     /* horizon: a second layer, both textures or neither. They are stored as depth_texture is, or */
+    uint32_t second_texture;   /* hold view distance in red where depth is in the normal map. back: the nearest back face at
+                                  or behind the visible surface, where two-sided surfaces count as back faces. second: the
+                                  nearest front face behind it. Store the sky value where there is no such surface. With
+                                  both layers the effect measures thickness instead of estimating it */
+    float log_depth_far;       /* GLSSAO_DEPTH_LOGARITHMIC: view distance at depth 1, scene units, 1e-12 to 1e12 */
+    float log_depth_constant;  /* GLSSAO_DEPTH_LOGARITHMIC: c, 1e-12 to 1e12; 0: 1, which is what three.js has */
+    bool multisample;          /* true: the textures are GL_TEXTURE_2D_MULTISAMPLE; the first sample of each pixel is read.
+                                  Each texture is copied: one pass, and until the next resize 4 bytes a pixel (depth,
+                                  back, second) or 16 (normals) of memory */
+    int viewport[4];           /* x, y, width, height, pixels: where the picture lies in larger textures; width and height
+                                  are the effect's full size. Each texture is copied, as above. All 0: the whole texture */
 } glssao_frame;
 
 /* ---- what the effect tells ------------------------------------------------------------------------------ */
 
-typedef enum glssao_map_id {                           /* textures to look at */
-                             GLSSAO_MAP_AMBIENT = 0,   /* the result: accessibility in red, R16; half size where it was
-                                                          estimated so and not upsampled */
-                             GLSSAO_MAP_AMBIENT_OTHER, /* the second of the two ping-pong maps, with what the blur last
-                                                          drew into it: accessibility in red, R16. After upsampling or
-                                                          the planar blur RG32F: green is the linear quantity of
-                                                          distance (glsl/shared/inverse_depth.glsl), and red's ten
-                                                          lowest bits hold the normal */
-                             GLSSAO_MAP_NORMAL,        /* the effect's own normal map, RGBA16F, full size */
-                             GLSSAO_MAP_RANDOM_VECTOR, /* RGBA8, 256 x 256 */
-                             GLSSAO_MAP_DEPTH, /* the host's depth texture as last handed over; 0 before the first */
-                             GLSSAO_MAP_TILES  /* R32F, one texel for each tile: its distance in tiles from the nearest
-                                                  one that was estimated,  over 16; 0 for an estimated one. No texture
-                                                  where the last frame had no tiles */
+typedef enum glssao_map_id { /* textures to look at */
+    GLSSAO_MAP_AMBIENT = 0,   /* the result: accessibility in red, R16; half size where it was estimated so and not upsampled */
+    GLSSAO_MAP_AMBIENT_OTHER, /* the second of the two ping-pong maps, with what the blur last drew into it: accessibility in
+                                 red, R16. After upsampling or the planar blur RG32F: green is the linear quantity of
+                                 distance (glsl/shared/inverse_depth.glsl), and red's ten lowest bits hold the normal */
+    GLSSAO_MAP_NORMAL,        /* the effect's own normal map, RGBA16F, full size */
+    GLSSAO_MAP_RANDOM_VECTOR, /* RGBA8, 256 x 256 */
+    GLSSAO_MAP_DEPTH,         /* the host's depth texture as last handed over; 0 before the first */
+    GLSSAO_MAP_TILES          /* R32F, one texel for each tile: its distance in tiles from the nearest one that was estimated,
+                                 over 16; 0 for an estimated one. No texture where the last frame had no tiles */
 } glssao_map_id;
 
 /* The uniform block cbSsao, std140, with the D3D12 demo's members and names. Matrices are column-major. */
 typedef struct glssao_constants {
-    float gProj[16];               /* clip from view */
-    float gInvProj[16];            /* view from clip */
-    float gProjTex[16];            /* uv from view, by way of clip: divide by w */
-    float gOffsetVectors[14][4];   /* 8 cube corners, 6 face centres, each of random length in 0.25..1 */
-    float gBlurWeights[3][4];      /* 11 Gaussian weights that sum to 1; the twelfth is 0 */
+    float gProj[16];             /* clip from view */
+    float gInvProj[16];          /* view from clip */
+    float gProjTex[16];          /* uv from view, by way of clip: divide by w */
+    float gOffsetVectors[14][4]; /* 8 cube corners, 6 face centres, each of random length in 0.25..1 */
+    float gBlurWeights[3][4];    /* 11 Gaussian weights that sum to 1; the twelfth is 0 */
     float gInvRenderTargetSize[2]; /* one texel of the ambient map, in uv */
     float gOcclusionRadius, gOcclusionFadeStart, gOcclusionFadeEnd, gSurfaceEpsilon; /* scene units */
-    float gPadding[2]; /* std140 rounds the block up to 496 bytes */
+    float gPadding[2];           /* std140 rounds the block up to 496 bytes */
 } glssao_constants;
 
 typedef enum glssao_pass { /* in the order of the frame */
-                           GLSSAO_PASS_INPUTS =
-                               0,                /* copies multisample, larger or logarithmic textures to plain ones */
-                           GLSSAO_PASS_NORMALS,  /* rebuilds normals from depth */
-                           GLSSAO_PASS_DISTANCE, /* view distance at the estimate's size */
-                           GLSSAO_PASS_TILES, /* looks for tiles without any occlusion, which later passes leave out */
-                           GLSSAO_PASS_ESTIMATE, /* raw accessibility */
-                           GLSSAO_PASS_RESOLVE,  /* glssao_accumulate: the mean of the estimates and its error */
-                           GLSSAO_PASS_BLUR,     /* all rounds */
-                           GLSSAO_PASS_UPSAMPLE, /* brings a half-size result to full size */
-                           GLSSAO_PASS_APPLY,    /* glssao_apply: multiplies accessibility into colour */
-                           GLSSAO_PASS_COUNT
+    GLSSAO_PASS_INPUTS = 0,  /* copies multisample, larger or logarithmic textures to plain ones */
+    GLSSAO_PASS_NORMALS,     /* rebuilds normals from depth */
+    GLSSAO_PASS_DISTANCE,    /* view distance at the estimate's size */
+    GLSSAO_PASS_TILES,       /* looks for tiles without any occlusion, which later passes leave out */
+    GLSSAO_PASS_ESTIMATE,    /* raw accessibility */
+    GLSSAO_PASS_RESOLVE,     /* glssao_accumulate: the mean of the estimates and its error */
+    GLSSAO_PASS_BLUR,        /* all rounds */
+    GLSSAO_PASS_UPSAMPLE,    /* brings a half-size result to full size */
+    GLSSAO_PASS_APPLY,       /* glssao_apply: multiplies accessibility into colour */
+    GLSSAO_PASS_COUNT
 } glssao_pass;
 
 typedef struct glssao_planned_pass { /* one pass of a frame to come */
-    const char *name;                /* static text, as is `reason` */
-    const char *reason;              /* why it runs or is skipped, in words */
-    bool run;                        /* false: skipped */
-    int draw_calls;                  /* and dispatches; 0 where it is skipped */
-    int width, height;               /* pixels that it covers, or would cover */
-    bool compute;                    /* true: by a compute shader */
+    const char *name;    /* static text, as is `reason` */
+    const char *reason;  /* why it runs or is skipped, in words */
+    bool run;            /* false: skipped */
+    int draw_calls;      /* and dispatches; 0 where it is skipped */
+    int width, height;   /* pixels that it covers, or would cover */
+    bool compute;        /* true: by a compute shader */
 } glssao_planned_pass;
 
-typedef struct glssao_plan {                       /* GLSSAO_PASS_APPLY belongs to glssao_apply and is not planned */
+typedef struct glssao_plan { /* GLSSAO_PASS_APPLY belongs to glssao_apply and is not planned */
     glssao_planned_pass passes[GLSSAO_PASS_COUNT]; /* indexed by glssao_pass */
     glssao_path path;        /* of passes that can be drawn or dispatched; never GLSSAO_PATH_AUTO */
     const char *path_reason; /* static text: why, in words */
 } glssao_plan;
 
 typedef struct glssao_pass_stats { /* one pass of the last frame */
-    const char *name;              /* static text */
-    int draw_calls;                /* and dispatches; 0 where it was skipped */
-    double gpu_ms;                 /* of timed_frame; negative: skipped there, or not known */
+    const char *name;        /* static text */
+    int draw_calls;          /* and dispatches; 0 where it was skipped */
+    double gpu_ms;           /* of timed_frame; negative: skipped there, or not known */
 } glssao_pass_stats;
 
 typedef struct glssao_stats { /* of the last glssao_compute or glssao_accumulate, and glssao_apply */
-    uint64_t frame;           /* how many glssao_compute and glssao_accumulate calls succeeded so far */
-    int draw_calls;           /* and dispatches; sum over the passes */
-    double gpu_ms;            /* sum over the passes of timed_frame; negative: none is known yet */
-    int estimates;            /* in the mean of glssao_accumulate; 0 after glssao_compute */
-    double sampling_error;    /* accessibility, RMS over visible surfaces: the estimated distance of the mean of
-                                 glssao_accumulate from the mean of endless estimates; negative: not known (yet) */
+    uint64_t frame;          /* how many glssao_compute and glssao_accumulate calls succeeded so far */
+    int draw_calls;          /* and dispatches; sum over the passes */
+    double gpu_ms;           /* sum over the passes of timed_frame; negative: none is known yet */
+    int estimates;           /* in the mean of glssao_accumulate; 0 after glssao_compute */
+    double sampling_error;   /* accessibility, RMS over visible surfaces: the estimated distance of the mean of
+                                glssao_accumulate from the mean of endless estimates; negative: not known (yet) */
     glssao_pass_stats passes[GLSSAO_PASS_COUNT]; /* indexed by glssao_pass */
-    uint64_t timed_frame; /* the newest frame whose times the GPU has finished; 0: none. A frame goes untimed when four
-                             earlier ones wait to be read here, so that no call ever waits */
+    uint64_t timed_frame;    /* the newest frame whose times the GPU has finished; 0: none. A frame goes untimed when four
+                                earlier ones wait to be read here, so that no call ever waits */
 } glssao_stats;
 
 /* ---- functions ------------------------------------------------------------------------------------------ */
@@ -300,22 +281,20 @@ GLSSAO_API glssao_result glssao_create(const glssao_config *config, glssao_effec
 GLSSAO_API void glssao_destroy(glssao_effect *effect);
 
 /* Sets a new full size in pixels and makes the maps anew; on failure the old ones stay. May fail with
- * INVALID_ARGUMENT, OUT_OF_MEMORY, FRAMEBUFFER_ERROR. Texture names returned earlier by glssao_map are no longer valid.
- */
+ * INVALID_ARGUMENT, OUT_OF_MEMORY, FRAMEBUFFER_ERROR. Texture names returned earlier by glssao_map are no longer valid. */
 GLSSAO_API glssao_result glssao_resize(glssao_effect *effect, int width, int height);
 
 /* Settings that suit the technique. Out-of-range arguments count as GLSSAO_CLASSIC and GLSSAO_HIGH. */
 GLSSAO_API glssao_settings glssao_default_settings(glssao_technique technique, glssao_quality quality);
 
 /* For hosts without view-space normals of their own: binds the effect's normal map and your depth texture (depth or
- * depth-stencil format, full size) as the draw framebuffer, sets the viewport to the full size, and clears both:
- * normals to (0, 0, 1, 0), depth to your glClearDepth value. Draw your opaque geometry, write view-space normals to
- * output 0, and sample neither texture. With the same framebuffer bound, call glssao_end_normals, and hand
- * glssao_map(effect, GLSSAO_MAP_NORMAL,
+ * depth-stencil format, full size) as the draw framebuffer, sets the viewport to the full size, and clears both: normals to
+ * (0, 0, 1, 0), depth to your glClearDepth value. Draw your opaque geometry, write view-space normals to output 0, and sample
+ * neither texture. With the same framebuffer bound, call glssao_end_normals, and hand glssao_map(effect, GLSSAO_MAP_NORMAL,
  * ...) to glssao_compute as normal_texture. May fail with INVALID_ARGUMENT and FRAMEBUFFER_ERROR. */
 GLSSAO_API glssao_result glssao_begin_normals(glssao_effect *effect, uint32_t depth_texture);
-/* Restores the framebuffer and viewport that were there before glssao_begin_normals. INVALID_ARGUMENT without one, or
- * where another framebuffer is bound: pairs of several effects end in reverse order. */
+/* Restores the framebuffer and viewport that were there before glssao_begin_normals. INVALID_ARGUMENT without one, or where
+ * another framebuffer is bound: pairs of several effects end in reverse order. */
 GLSSAO_API glssao_result glssao_end_normals(glssao_effect *effect);
 
 /* Runs the passes of glssao_plan_frame; the result is GLSSAO_MAP_AMBIENT. May fail with INVALID_ARGUMENT, and with
@@ -323,33 +302,31 @@ GLSSAO_API glssao_result glssao_end_normals(glssao_effect *effect);
 GLSSAO_API glssao_result glssao_compute(glssao_effect *effect, const glssao_frame *frame,
                                         const glssao_settings *settings);
 
-/* Compiles the shaders and allocates the textures that glssao_compute will need for these arguments, for instance while
- * a level loads. Draws nothing. May fail as glssao_compute. */
+/* Compiles the shaders and allocates the textures that glssao_compute will need for these arguments, for instance while a
+ * level loads. Draws nothing. May fail as glssao_compute. */
 GLSSAO_API glssao_result glssao_prepare(glssao_effect *effect, const glssao_frame *frame,
                                         const glssao_settings *settings);
 
-/* For the horizon technique and a still view: adds one full-resolution estimate, with new noise, to a running mean in
- * 32-bit floats. The mean is the result; with the number of estimates its error falls to the technique's own. It starts
- * anew after glssao_compute, glssao_resize and glssao_restart_accumulation, and when frame, radius or sample_count
- * differ from the last call's. It can't see that the contents of a texture changed. half_resolution and upsample are
- * ignored. The planar blur smooths a mean of fewer than 16 estimates, unless blur is GLSSAO_BLUR_NONE. May fail as
- * glssao_compute, and with INVALID_ARGUMENT for another technique. */
+/* For the horizon technique and a still view: adds one full-resolution estimate, with new noise, to a running mean in 32-bit
+ * floats. The mean is the result; with the number of estimates its error falls to the technique's own. It starts anew after
+ * glssao_compute, glssao_resize and glssao_restart_accumulation, and when frame, radius or sample_count differ from the last
+ * call's. It can't see that the contents of a texture changed. half_resolution and upsample are ignored. The planar blur
+ * smooths a mean of fewer than 16 estimates, unless blur is GLSSAO_BLUR_NONE. May fail as glssao_compute, and with
+ * INVALID_ARGUMENT for another technique. */
 GLSSAO_API glssao_result glssao_accumulate(glssao_effect *effect, const glssao_frame *frame,
                                            const glssao_settings *settings);
 
 /* Makes the next glssao_accumulate start anew. Call it when the contents of the textures changed. */
 GLSSAO_API void glssao_restart_accumulation(glssao_effect *effect);
 
-/* Multiplies accessibility into the colour (alpha stays) of draw buffer 0 of `framebuffer` (0: the default one), over
- * the full size without the margin, from its lower left corner. This darkens direct light too: to be exact, sample the
- * map in your own shader and scale ambient light alone. Needs a glssao_compute before. Fails with INVALID_ARGUMENT
- * where `framebuffer` does not exist or has the map itself attached, and with FRAMEBUFFER_ERROR where it is not
- * complete. */
+/* Multiplies accessibility into the colour (alpha stays) of draw buffer 0 of `framebuffer` (0: the default one), over the full
+ * size without the margin, from its lower left corner. This darkens direct light too: to be exact, sample the map in your own
+ * shader and scale ambient light alone. Needs a glssao_compute before. Fails with INVALID_ARGUMENT where `framebuffer` does not
+ * exist or has the map itself attached, and with FRAMEBUFFER_ERROR where it is not complete. */
 GLSSAO_API glssao_result glssao_apply(glssao_effect *effect, uint32_t framebuffer);
 
-/* The texture's name, and its size if the pointers are not NULL. Valid until the next resize or destroy, or until a
- * compute, prepare or accumulate with another size of the estimate makes the map anew. 0, and sizes of 0, where there
- * is no such map. */
+/* The texture's name, and its size if the pointers are not NULL. Valid until the next resize or destroy, or until a compute,
+ * prepare or accumulate with another size of the estimate makes the map anew. 0, and sizes of 0, where there is no such map. */
 GLSSAO_API uint32_t glssao_map(const glssao_effect *effect, glssao_map_id id, int *out_width, int *out_height);
 
 /* The block as last uploaded. The pointer is valid as long as the effect. */
@@ -359,8 +336,8 @@ GLSSAO_API const glssao_constants *glssao_get_constants(const glssao_effect *eff
 GLSSAO_API glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *frame,
                                          const glssao_settings *settings);
 
-/* Counts of the last frame, and the newest times and error that the GPU has finished. Call glFinish first to have those
- * of the last frame. Never waits. */
+/* Counts of the last frame, and the newest times and error that the GPU has finished. Call glFinish first to have those of the
+ * last frame. Never waits. */
 GLSSAO_API glssao_stats glssao_get_stats(glssao_effect *effect);
 
 /* Static English text, never NULL. */
