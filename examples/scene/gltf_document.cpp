@@ -66,9 +66,8 @@ void point_to_all(const gltf_owner &owner, gltf_document *out)
     point_to(owner.animation_channels, &out->animation_channels, &out->animation_channel_count);
 }
 
-tinygltf::Model parse(const json &outline)
+tinygltf::Model parse(const std::string &text)
 {
-    const std::string text = outline.dump();
     if (text.size() > std::numeric_limits<unsigned>::max())
         throw gltf_json_error("its JSON is too large for tinygltf, which counts in unsigned int");
     tinygltf::Model model;

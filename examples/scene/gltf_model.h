@@ -10,9 +10,9 @@
 
 #include <tiny_gltf.h>
 
-// gltf_outline.cpp: the JSON that tinygltf parses. It holds only members that the loader uses, each with its type
+// gltf_outline.cpp: the JSON text that tinygltf parses. It holds only members that the loader uses, each with its type
 // checked, and neither buffers nor images: tinygltf would copy and decode their bytes.
-json gltf_outline(gltf_source *source, const gltf_object &root);
+std::string gltf_outline(gltf_source *source, const gltf_object &root);
 
 // gltf_geometry.cpp: all but surfaces and bytes. `root` is the file's own JSON.
 void gltf_read_geometry(gltf_owner *owner, const tinygltf::Model &model, const gltf_object &root, int variant);

@@ -14,6 +14,7 @@ enum class kind {
     NUMBER,
     FLAG,
     TEXT,
+    NAME, // text; "" where it is something else
     COMPONENT_TYPE,
     ACCESSOR_TYPE,
     CAMERA_TYPE,
@@ -146,7 +147,7 @@ constexpr member node[] = {index("mesh"),
                            object("extensions", node_extensions)};
 
 constexpr member skin[] = {needed("joints", kind::INDICES), index("inverseBindMatrices", -1)};
-constexpr member scene_[] = {indices("nodes")};
+constexpr member one_scene[] = {indices("nodes")};
 
 constexpr member transform[] = {numbers("offset", 2), numbers("scale", 2), number("rotation"), index("texCoord")};
 constexpr member use_extensions[] = {object("KHR_texture_transform", transform)};
@@ -196,7 +197,7 @@ constexpr member channel[] = {index("sampler", -1), object("target", channel_tar
 constexpr member animation[] = {list<tinygltf::AnimationSampler>("samplers", nullptr, animation_sampler),
                                 list<tinygltf::AnimationChannel>("channels", nullptr, channel)};
 
-constexpr member variant[] = {needed("name", kind::TEXT)};
+constexpr member variant[] = {needed("name", kind::NAME)};
 constexpr member variants[] = {list<tinygltf::Value>("variants", "variant", variant)};
 constexpr member lights[] = {list<tinygltf::Light>("lights", "light", light)};
 constexpr member file_extensions[] = {object("KHR_lights_punctual", lights),
@@ -209,7 +210,7 @@ constexpr member file[] = {object("asset", asset, true),
                            list<tinygltf::Mesh>("meshes", "mesh", mesh),
                            list<tinygltf::Node>("nodes", "node", node),
                            list<tinygltf::Skin>("skins", "skin", skin),
-                           list<tinygltf::Scene>("scenes", "scene", scene_),
+                           list<tinygltf::Scene>("scenes", "scene", one_scene),
                            list<tinygltf::Material>("materials", "material", material),
                            list<tinygltf::Texture>("textures", "texture", texture),
                            list<tinygltf::Sampler>("samplers", "sampler", sampler),
@@ -278,8 +279,8 @@ json copy_list(gltf_source *source, const gltf_object &from, const member &m)
 {
     json out = json::array();
     const json &list = from.list(m.name);
-    // A growing vector holds up to three times its elements; defaults make the outline larger than the file's JSON.
-    charge(source, list.size() * uint64_t{3 * m.element_bytes + 512}, "its " + std::string(m.name));
+    // A growing vector holds up to three times its elements. The rest is for members with defaults, and extensions.
+    charge(source, list.size() * uint64_t{3 * m.element_bytes + 1024}, "its " + std::string(m.name));
     for (size_t i = 0; i < list.size(); ++i) {
         const gltf_object element(list[i], m.element ? std::string(m.element) + " " + std::to_string(i) : from.name());
         out.push_back(m.inner ? copy_object(source, element, m.inner, m.inner_count)
@@ -301,6 +302,8 @@ json copy_member(gltf_source *source, const gltf_object &from, const member &m)
         return from.flag(m.name);
     case kind::TEXT:
         return from.text(m.name, "");
+    case kind::NAME:
+        return from.find(m.name) && from.find(m.name)->is_string() ? from.text(m.name, "") : "";
     case kind::COMPONENT_TYPE:
         return copy_component_type(from, m.name);
     case kind::ACCESSOR_TYPE:
@@ -332,7 +335,7 @@ json copy_object(gltf_source *source, const gltf_object &from, const member *mem
 
 } // namespace
 
-json gltf_outline(gltf_source *source, const gltf_object &root)
+std::string gltf_outline(gltf_source *source, const gltf_object &root)
 {
-    return copy_object(source, root, file, std::size(file));
+    return copy_object(source, root, file, std::size(file)).dump();
 }
