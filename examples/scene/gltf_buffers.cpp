@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Buffers, buffer views and images: from the BIN chunk, from data URIs, from files beside the glTF file. Images stay
+// Buffers and images: from the BIN chunk, from data URIs, from files beside the glTF file. Images stay
 // encoded here.
 #include "gltf_owner.h"
 
@@ -80,7 +80,7 @@ gltf_buffer read_buffer(gltf_owner *owner, gltf_source *source, const gltf_objec
 
 void gltf_read_buffers(gltf_owner *owner, gltf_source *source, const gltf_object &root)
 {
-    const json &buffers = root.list("buffers"), &views = root.list("bufferViews");
+    const json &buffers = root.list("buffers");
     for (size_t i = 0; i < buffers.size(); ++i) {
         const gltf_object from(buffers[i], "buffer " + std::to_string(i));
         gltf_buffer buffer = read_buffer(owner, source, from, i == 0);
@@ -88,11 +88,6 @@ void gltf_read_buffers(gltf_owner *owner, gltf_source *source, const gltf_object
         if (buffer.size < wanted && buffer.data)
             from.fail(std::to_string(wanted) + " bytes said, " + std::to_string(buffer.size) + " found");
         owner->buffers.push_back(buffer);
-    }
-    for (size_t i = 0; i < views.size(); ++i) {
-        const gltf_object from(views[i], "buffer view " + std::to_string(i));
-        owner->buffer_views.push_back(
-            {from.index("buffer"), from.size("byteOffset", 0), from.size("byteLength", 0), from.size("byteStride", 0)});
     }
 }
 

@@ -99,7 +99,7 @@ inline void warn(gltf_source *source, const std::string &line)
         throw gltf_fault_is_set();
 }
 
-// gltf_buffers.cpp: buffers, buffer views and images with their bytes.
+// gltf_buffers.cpp: buffers and images with their bytes.
 void gltf_read_buffers(gltf_owner *owner, gltf_source *source, const gltf_object &root);
 void gltf_read_images(gltf_owner *owner, gltf_source *source, const gltf_object &root);
 
@@ -108,10 +108,6 @@ void gltf_unpack_views(gltf_owner *owner, gltf_source *source, const gltf_object
 
 // gltf_draco.cpp: unpacks the primitives that KHR_draco_mesh_compression packs, into buffer views of their accessors.
 void gltf_unpack_primitives(gltf_owner *owner, gltf_source *source, const gltf_object &root);
-
-// gltf_surfaces.cpp: materials, textures, samplers, cameras, lights.
-void gltf_read_surfaces(gltf_owner *owner, const gltf_object &root);
-void gltf_read_views(gltf_owner *owner, const gltf_object &root);
 
 // gltf_extensions.cpp: refuses a file that requires an unknown extension, and warns of extensions that are
 // approximated.

@@ -311,6 +311,24 @@ static void json_that_would_take_the_stack_or_the_memory_is_refused(void **state
     free(text);
 }
 
+/* An empty object of two bytes becomes a structure of two thousand in the parser. */
+static void lists_are_charged_by_what_the_parser_makes_of_them(void **state)
+{
+    (void)state;
+    enum { MATERIALS = 30000 };
+    char *text = malloc(3 * MATERIALS + 100), error[1024];
+    assert_non_null(text);
+    size_t used = (size_t)sprintf(text, "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{}");
+    for (int i = 1; i < MATERIALS; ++i, used += 3)
+        memcpy(text + used, ",{}", 3);
+    strcpy(text + used, "]}");
+    const scene_load_options small = {.memory_bytes = 64 << 20};
+    const char *path = gltf_write(NULL, "materials.gltf", text);
+    assert_null(scene_load_with(path, &small, error, sizeof error));
+    assert_non_null(strstr(error, "its materials: "));
+    free(text);
+}
+
 /* ---- Damage ---- */
 
 static uint8_t *read_back(const char *path, size_t *out_size)
@@ -402,6 +420,7 @@ int main(void)
         cmocka_unit_test(files_that_are_something_else_are_named),
         cmocka_unit_test(files_that_are_no_gltf_are_refused),
         cmocka_unit_test(json_that_would_take_the_stack_or_the_memory_is_refused),
+        cmocka_unit_test(lists_are_charged_by_what_the_parser_makes_of_them),
         cmocka_unit_test(a_file_cut_short_anywhere_is_refused),
         cmocka_unit_test(a_wrong_byte_anywhere_gives_a_valid_scene_or_an_error),
     };
