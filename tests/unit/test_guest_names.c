@@ -143,6 +143,8 @@ static void a_texture_of_another_target_leaves_no_error(void **state)
 /* An error of the host's own that nobody asked for yet is the host's to find. */
 static void the_hosts_own_error_stays(void **state)
 {
+    if (GLSSAO_CHECK_GL)
+        skip(); /* such builds ask for errors after every pass and take the host's */
     guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     GLuint name = make_of_target(g.f, GL_TEXTURE_3D);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
