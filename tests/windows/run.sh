@@ -21,6 +21,13 @@ clean_up() {
     rm -rf "$scratch"
 }
 trap clean_up EXIT
+# Beside other programs Wine 8 now and then can't load its own kernel32.dll from a prefix that it is still making.
+for attempt in 1 2 3 none; do
+    [ $attempt != none ] || { echo "run.sh: Wine starts no program: $(tail -1 "$scratch/boot")" >&2; exit 1; }
+    timeout 120 "$wine" wineboot --init >"$scratch/boot" 2>&1 && "$server" -w && break
+    "$server" -k 2>/dev/null || true
+    rm -rf "$WINEPREFIX"
+done
 "$reference" "$scratch/pictures.raw"
 for kind in static shared; do
     mkdir "$scratch/$kind"
