@@ -140,12 +140,12 @@ bool options_match(const char *words, const char *text)
     if (!words)
         return true;
     while (*words) {
-        char word[128];
+        char one[128];
         const size_t length = strcspn(words, ",");
-        if (length > 0 && length < sizeof word) {
-            memcpy(word, words, length);
-            word[length] = '\0';
-            if (strstr(text, word))
+        if (length > 0 && length < sizeof one) {
+            memcpy(one, words, length);
+            one[length] = '\0';
+            if (strstr(text, one))
                 return true;
         }
         words += length + (words[length] == ',');

@@ -71,11 +71,11 @@ static const char *move_back(const char *name, const char *far)
 }
 
 /* Accessibility of WIDTH x HEIGHT pixels. */
-static float *draw(const char *scene, const char *arguments)
+static float *draw(const char *model, const char *arguments)
 {
     char all[3000];
     snprintf(all, sizeof all, "-s %dx%d %s --ao \"%s\" \"%s\"", WIDTH, HEIGHT, arguments, gltf_writer_path("a.pfm"),
-             scene);
+             model);
     run(render, all);
     float *pixels = malloc(WIDTH * HEIGHT * sizeof *pixels);
     FILE *file = fopen(gltf_writer_path("a.pfm"), "rb");
