@@ -99,6 +99,8 @@ def accuracy(a, column, picture):
                   "contrast techniques have their best exponent" + (f"; {len(beyond)} worse marks are off the chart" if beyond else ""),
                   f"milliseconds a frame at {notes['time_size']} (log)", name)
     script += f"set logscale x\nset xrange [{10**x_low}:{10**x_high}]\nset yrange [{y_low}:{y_high}]\n"
+    if not less: # slow and good marks are at the top right
+        script += "set key bottom right\n"
     plain = [c for c in configs if a.info(c)["inputs"] != "beyond" and technique_of(a.info(c)) != "rays"]
     front = a.front(plain, column)
     script += block("front", [points[c] for c in front])
