@@ -159,6 +159,7 @@ glssao_result glssao_resize(glssao_effect *effect, int width, int height)
     effect->last.other = MAP_AMBIENT_1;
     effect->last.has_tiles = false;
     effect->last.margin = 0;
+    memset(effect->last.viewport, 0, sizeof effect->last.viewport);
     return GLSSAO_OK;
 }
 

@@ -89,6 +89,16 @@ static glssao_result apply(glssao_effect **effect, fixture *f)
     return glssao_apply(*effect, framebuffer);
 }
 
+/* Compiles a program of its own. */
+static glssao_result apply_with_strength(glssao_effect **effect, fixture *f)
+{
+    (void)f;
+    glssao_apply_options options = glssao_default_apply_options();
+    options.framebuffer = framebuffer;
+    options.strength_texture = plain.normal_texture;
+    return glssao_apply_with(*effect, &options);
+}
+
 static glssao_result resize(glssao_effect **effect, fixture *f)
 {
     (void)f;
@@ -188,10 +198,14 @@ static void each_call_survives_each_fault(void **state)
         {"accumulate", accumulate, NULL, false},
         {"accumulate, by compute shaders, too", accumulate, NULL, true},
         {"apply", apply, NULL, false},
+        {"apply, by a compute shader", apply, NULL, true},
+        {"apply with a strength texture", apply_with_strength, NULL, false},
+        {"apply with a strength texture, by a compute shader", apply_with_strength, NULL, true},
         {"resize", resize, NULL, false},
         {"begin normals", begin_normals, NULL, false},
     };
-    static const int least[] = {12, 20, 19, 6, 6, 15, 15, 15, 1, 6, 1}; /* apply's program compiles with the effect */
+    static const int least[] = {12, 20, 19, 6, 6, 15, 15,
+                                15, 1,  5,  6, 5, 6,  1}; /* apply's program compiles with the effect */
     for (size_t i = 0; i < sizeof acts / sizeof *acts; ++i) {
         int faults = 0;
         if (acts[i].dispatches && fixture_hides_newer()) {
@@ -224,6 +238,7 @@ static int set_up(void **state)
     gl.GenTextures(1, &color);
     gl.BindTexture(GL_TEXTURE_2D, color);
     gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, W, H, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* a dispatch may write it */
     gl.BindTexture(GL_TEXTURE_2D, 0);
     gl.GenFramebuffers(1, &framebuffer);
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);

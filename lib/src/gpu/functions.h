@@ -35,6 +35,9 @@ enum {
     GL_POINTS = 0x0000,
     GL_TRIANGLES = 0x0004,
     GL_SRC_COLOR = 0x0300,
+    GL_ONE_MINUS_SRC_COLOR = 0x0301,
+    GL_CONSTANT_COLOR = 0x8001,
+    GL_BLEND_COLOR = 0x8005,
     GL_FRONT = 0x0404,
     GL_BACK = 0x0405,
     GL_FRONT_AND_BACK = 0x0408,
@@ -110,6 +113,7 @@ enum {
     GL_TEXTURE_2D = 0x0DE1,
     GL_TEXTURE_WIDTH = 0x1000,
     GL_TEXTURE_HEIGHT = 0x1001,
+    GL_TEXTURE_INTERNAL_FORMAT = 0x1003,
     GL_TEXTURE_BORDER_COLOR = 0x1004,
     GL_UNSIGNED_BYTE = 0x1401,
     GL_FLOAT = 0x1406,
@@ -117,6 +121,12 @@ enum {
     GL_DEPTH = 0x1801,
     GL_RED = 0x1903,
     GL_RG = 0x8227,
+    GL_R11F_G11F_B10F = 0x8C3A,
+    GL_RGB10_A2 = 0x8059,
+    GL_DRAW_BUFFER0 = 0x8825,
+    GL_TEXTURE_IMMUTABLE_FORMAT = 0x912F,
+    GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL = 0x8CD2,
+    GL_FRAMEBUFFER_ATTACHMENT_LAYERED = 0x8DA7,
     GL_RGBA = 0x1908,
     GL_FILL = 0x1B02,
     GL_VENDOR = 0x1F00,
@@ -211,6 +221,7 @@ enum {
     GL_TEXTURE_BINDING_2D_MULTISAMPLE = 0x9104,
     GL_READ_ONLY = 0x88B8,
     GL_WRITE_ONLY = 0x88B9,
+    GL_READ_WRITE = 0x88BA,
     GL_COMPUTE_SHADER = 0x91B9,
     GL_IMAGE_BINDING_NAME = 0x8F3A,
     GL_IMAGE_BINDING_LEVEL = 0x8F3B,
@@ -243,6 +254,7 @@ enum {
     X(void, BindSampler, (gl_uint unit, gl_uint sampler))                                                              \
     X(void, BindTexture, (gl_enum target, gl_uint texture))                                                            \
     X(void, BindVertexArray, (gl_uint array))                                                                          \
+    X(void, BlendColor, (gl_float r, gl_float g, gl_float b, gl_float a))                                              \
     X(void, BlendEquationSeparate, (gl_enum rgb, gl_enum alpha))                                                       \
     X(void, BlendFuncSeparate, (gl_enum src_rgb, gl_enum dst_rgb, gl_enum src_alpha, gl_enum dst_alpha))               \
     X(void, BufferData, (gl_enum target, gl_sizeiptr size, const void *data, gl_enum usage))                           \
@@ -324,6 +336,7 @@ enum {
     X(void, TexParameteriv, (gl_enum target, gl_enum name, const gl_int *values))                                      \
     X(void, Uniform2f, (gl_int location, gl_float x, gl_float y))                                                      \
     X(void, Uniform3f, (gl_int location, gl_float x, gl_float y, gl_float z))                                          \
+    X(void, Uniform4f, (gl_int location, gl_float x, gl_float y, gl_float z, gl_float w))                              \
     X(void, Uniform1i, (gl_int location, gl_int value))                                                                \
     X(void, Uniform4i, (gl_int location, gl_int x, gl_int y, gl_int z, gl_int w))                                      \
     X(void, UniformBlockBinding, (gl_uint program, gl_uint block, gl_uint binding))                                    \
