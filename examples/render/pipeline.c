@@ -149,7 +149,8 @@ bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_us
                                            .specular_occlusion = o->specular_occlusion,
                                            .multi_bounce = o->multi_bounce,
                                            .layers = wants.ao && o->layers == 2,
-                                           .no_picture = !wants.picture};
+                                           .no_picture = !wants.picture,
+                                           .no_prepass = !wants.prepass};
     p->debug_map = (options_map)o->debug_map;
     if (!scene_renderer_configure(p->renderer, &p->lighting, &p->draw_options, why->text, why->size))
         return false;

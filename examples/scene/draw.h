@@ -69,6 +69,7 @@ typedef struct scene_draw_options { /* zero is the plainest */
     bool specular_occlusion; /* accessibility darkens ambient reflections by their lobe; else like the rest */
     bool layers;             /* scene_draw_layer will be called */
     bool no_picture;         /* the main pass is not drawn: neither its programs nor a shadow map are made */
+    bool no_prepass; /* scene_draw_normals will not be called: the main pass finds the nearest surfaces itself */
     /* For measuring what leaving out spares: every part of the shaders on every surface, whatever the scene holds,
      * nothing culled, and shadow map and sky drawn in each frame. Matte and unlit materials then look otherwise. */
     bool everything;
@@ -129,11 +130,11 @@ typedef enum scene_layer { SCENE_LAYER_BACK, SCENE_LAYER_SECOND } scene_layer;
 void scene_draw_layer(scene_renderer *r, const scene_view *view, unsigned depth_texture, scene_layer layer);
 
 /* Draws the picture into the bound framebuffer, whose depth buffer holds the pre-pass's depth: clears colour to
- * the sky at the horizon, opaque with depth EQUAL, the sky where it is no single colour with depth LEQUAL (unless the
- * last drawing of the same view, without scissors, showed none of it), then blended materials back to front with depth
- * LEQUAL and no depth write. Output is linear; the caller's framebuffer is GL_SRGB8_ALPHA8 with GL_FRAMEBUFFER_SRGB
- * enabled by this call. `ambient_map` is an accessibility texture (red; any size, sampled linearly by uv), 0: fully
- * accessible. */
+ * the sky at the horizon, opaque with depth EQUAL (with options.no_prepass: clears depth, opaque with depth LEQUAL),
+ * the sky where it is no single colour with depth LEQUAL (unless the last drawing of the same view, without scissors,
+ * showed none of it), then blended materials back to front with depth LEQUAL and no depth write. Output is linear; the
+ * caller's framebuffer is GL_SRGB8_ALPHA8 with GL_FRAMEBUFFER_SRGB enabled by this call. `ambient_map` is an
+ * accessibility texture (red; any size, sampled linearly by uv), 0: fully accessible. */
 void scene_draw_main(scene_renderer *r, const scene_view *view, const scene_lighting *lighting, unsigned ambient_map);
 
 /* Draws texture `map` over the whole bound framebuffer of width x height, through one channel transform:

@@ -189,9 +189,15 @@ void scene_draw_main(scene_renderer *r, const scene_view *view, const scene_ligh
         draw_bind_texture(UNIT_ENVIRONMENT, lighting->environment->mirrors, lighting->environment->sampler);
     if (r->shadow.used)
         draw_bind_texture(UNIT_SHADOW, r->shadow.texture, r->shadow.sampler);
-    gl.DepthMask(GL_FALSE);
-    gl.DepthFunc(GL_EQUAL);
+    if (r->options.no_prepass) {
+        const float far_depth = 1;
+        gl.ClearBufferfv(GL_DEPTH, 0, &far_depth);
+    }
+    /* Either way, the last of several surfaces at the same depth is seen. */
+    gl.DepthMask(r->options.no_prepass);
+    gl.DepthFunc(r->options.no_prepass ? GL_LEQUAL : GL_EQUAL);
     r->counts.main = draw_opaque(&pass, &r->counts.culled);
+    gl.DepthMask(GL_FALSE);
     if (r->opaque_count < r->first_blended)
         draw_thin(&pass, r);
     if (r->options.everything || (draw_has_sky(lighting) && !is_sky_hidden(r, view))) {

@@ -193,6 +193,12 @@ size="-s 65x37"
     done
     want 0 "" $size --plan --no-ao
     grep -q '^occlusion  *skip' out || fail "the plan of --no-ao runs occlusion"
+    want 0 "" -s 320x180 --plan --no-ao
+    grep -q '^pre-pass  *run' out || fail "the plan has no pre-pass although there are more pixels than triangles"
+    want 0 "" -s 4x4 --plan --no-ao
+    grep -q '^pre-pass  *skip' out || fail "the plan has a pre-pass although there are more triangles than pixels"
+    want 0 "" -s 4x4 --plan --no-ao --depth d.pfm
+    grep -q '^pre-pass  *run' out || fail "the plan has no pre-pass for --depth"
     want 0 "" $size --bench 3
     grep -q 'median.*p95' out || fail "the benchmark prints no times"
 
