@@ -30,6 +30,7 @@ typedef struct scene_environment scene_environment;
 typedef struct scene_lighting {
     float ambient[3];         /* linear radiance of the environment at the horizon, scaled by accessibility */
     float ambient_tilt[3];    /* how much more comes from straight above, and less from straight below */
+    float up[3];              /* where the sky is straight above, in world space; 0, 0, 0: +y */
     float direction_world[3]; /* unit, the way the light travels */
     float directional[3];     /* linear irradiance; all 0: no such light */
     float sky[3];             /* linear, at the horizon; drawn where nothing is */
@@ -59,6 +60,8 @@ void scene_environment_destroy(scene_environment *e);
 /* Puts an environment (NULL: none), which must outlive the lighting, in the place of the built-in one, and of its sun;
  * the scene's own lights stay. */
 void scene_lighting_surround(scene_lighting *lighting, const scene *s, const scene_environment *e);
+/* Turns sky and environment, and the built-in sun where the scene has no lights, so that `up` is up. */
+void scene_lighting_turn(scene_lighting *lighting, const scene *s, const float up[3]);
 /* False where no ambient light comes from anywhere. */
 bool scene_lighting_has_ambient(const scene_lighting *lighting);
 
