@@ -137,7 +137,7 @@ bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_us
     p->plain = options_parse_background(o->background, p->background);
     p->transparent = p->plain && p->background[3] == 0;
     for (int i = 0; i < 3; i++)
-        p->up[i] = o->up.given ? (float)o->up.value[i] : i == 1;
+        p->up[i] = o->sky_up.given ? (float)o->sky_up.value[i] : o->up.given ? (float)o->up.value[i] : i == 1;
     if (!pipeline_surround(p, st, wants.picture ? o->environment : NULL, why))
         return false;
     if ((width != p->width || height != p->height) && !pipeline_change_size(p, width, height, why))
