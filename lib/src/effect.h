@@ -7,6 +7,7 @@
 
 #include "accumulate.h"
 #include "frame/execute.h"
+#include "input/depth_copy.h"
 #include "input/host_textures.h"
 #include "log.h"
 #include "normals.h"
@@ -27,6 +28,7 @@ struct glssao_effect {
     glssao__log log;
     glssao__capabilities can;
     bool host_restores_state;
+    unsigned doubts; /* told of: a bit for each enum glssao__doubt */
     uint32_t seed;
     int size[2]; /* full size, pixels */
     glssao__resources resources;
@@ -34,6 +36,7 @@ struct glssao_effect {
     glssao__host_textures known; /* with host_restores_state */
     glssao__accumulation accumulation;
     glssao__normals normals;
+    glssao__depth_copy depth_copy;
     glssao__last_frame last;
     unsigned told; /* bit i: what glssao_apply ignores was logged */
 };

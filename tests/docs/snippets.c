@@ -48,6 +48,9 @@ void night(glssao_effect *effect, glssao_frame frame, glssao_settings settings, 
 glssao_effect *without_compute(glssao_config config);
 void apply_with(glssao_effect *effect, GLuint framebuffer, GLuint strength, GLuint albedo);
 void first_look(glssao_effect *effect);
+void own_depth(glssao_effect *effect, GLuint depth, GLuint framebuffer, const float *projection,
+               glssao_settings settings);
+void follow_size(glssao_effect *effect, int width, int height);
 void four_views(glssao_effect *effect, GLuint depth, GLuint framebuffer, const eye *views, glssao_settings settings,
                 int width, int height);
 
@@ -156,6 +159,24 @@ void apply_with(glssao_effect *effect, GLuint framebuffer, GLuint strength, GLui
     options.albedo_texture = albedo;     /* rgb, linear: light that bounces keeps coloured surfaces brighter */
     options.keep_stencil = true;         /* only where your stencil test passes */
     glssao_apply_with(effect, &options);
+    /* end */
+}
+
+void own_depth(glssao_effect *effect, GLuint depth, GLuint framebuffer, const float *projection,
+               glssao_settings settings)
+{
+    /* snippet: frame */
+    glssao_frame frame = {.depth_texture = depth};
+    memcpy(frame.projection, projection, sizeof frame.projection);
+    if (glssao_compute(effect, &frame, &settings) == GLSSAO_OK)
+        glssao_apply(effect, framebuffer);
+    /* end */
+}
+
+void follow_size(glssao_effect *effect, int width, int height)
+{
+    /* snippet: resize */
+    glssao_resize(effect, width, height);
     /* end */
 }
 

@@ -411,6 +411,8 @@ static void check_refusals(glssao_effect *effect, const host *h, const inputs *i
     const glssao_apply_options no_texture = {.framebuffer = h->framebuffers[0], .strength_texture = 987654};
     assert_int_equal(glssao_apply_with(effect, &too_much), GLSSAO_INVALID_ARGUMENT);
     assert_int_equal(glssao_apply_with(effect, &no_texture), GLSSAO_INVALID_ARGUMENT);
+    assert_int_equal(glssao_compute_framebuffer(effect, h->framebuffers[0], &in->frame, &settings),
+                     GLSSAO_INVALID_ARGUMENT);
     assert_int_equal(glssao_resize(effect, 0, H), GLSSAO_INVALID_ARGUMENT);
     assert_int_equal(glssao_begin_normals(effect, 0), GLSSAO_INVALID_ARGUMENT);
     assert_int_equal(glssao_end_normals(effect), GLSSAO_INVALID_ARGUMENT);
@@ -477,6 +479,13 @@ static float *walk(fixture *f, const inputs *in, const host *h, glssao_path path
         scramble(h);
         CALL(glssao_apply(effect, h->framebuffers[1]));
         CALL(glssao_apply(effect, h->framebuffers[0])); /* a texture, which may be dispatched over */
+        glssao_frame window = {.viewport = {0, 0, W, H}};
+        memcpy(window.projection, in->frame.projection, sizeof window.projection);
+        CALL(glssao_compute_framebuffer(effect, h->framebuffers[1], &window, &classic));
+        window.viewport[2] = W / 2; /* a copy of another size */
+        CALL(glssao_compute_framebuffer(effect, h->framebuffers[2], &window, &classic));
+        CALL(glssao_resize(effect, W, H));
+        CALL(glssao_compute(effect, &in->frame, &classic));
         const glssao_apply_options all = {.framebuffer = h->framebuffers[0],
                                           .rectangle = {1, 2, 30, 20},
                                           .intensity = 0.5f,

@@ -18,7 +18,8 @@
  *   Errors     A call that fails changes nothing, says why in one line of the log, and leaves the effect usable. A NULL
  *              effect gives GLSSAO_INVALID_ARGUMENT, 0 or NULL, as the type allows. No call leaves a GL error behind,
  *              and release builds take none of yours: glGetError is called only after a GL call that is known to have
- *              failed (no memory, or a texture of another target in a context older than 4.5).
+ *              failed (no memory, or a texture of another target in a context older than 4.5), and about the first copy of
+ *              a depth buffer.
  *   Ownership  Structs handed in are copied. The effect deletes only what it created.
  *   Growth     Later versions add fields at the end of a struct, whose zero keeps today's meaning. Zero a struct, or use its
  *              default function, before you fill it.
@@ -178,8 +179,9 @@ typedef struct glssao_frame { /* zero a field that you don't use */
     glssao_depth depth_kind;   /* of depth_texture */
     uint32_t normal_texture;   /* GL_TEXTURE_2D of the full size, view space; 0: rebuilt from depth (one more pass) */
     glssao_normal normal_kind; /* of normal_texture */
-    float projection[16];      /* column-major clip_from_view, finite and invertible: perspective (off-centre,
-                                  infinite, reversed: all fine) or orthographic */
+    float projection[16];      /* column-major clip_from_view, finite and invertible: perspective (off-centre, infinite,
+                                  reversed: all fine) or orthographic (the eye may lie inside the depth range), mirrored or
+                                  turned about the view axis too. Window depth under an oblique near plane is copied first */
     bool clip_zero_to_one;     /* true where the host called glClipControl(..., GL_ZERO_TO_ONE) */
     int margin;                /* pixels on each side, even: they hold occluders beyond the picture's edge and are not part
                                   of the result, which is that much smaller. projection is that of the whole */
@@ -316,6 +318,13 @@ GLSSAO_API glssao_result glssao_end_normals(glssao_effect *effect);
  * the rest when a map or program needed for the first time can't be made. */
 GLSSAO_API glssao_result glssao_compute(glssao_effect *effect, const glssao_frame *frame,
                                         const glssao_settings *settings);
+
+/* For hosts without a depth texture: copies the depth of `framebuffer` (0: the default one), of any depth format and any number
+ * of samples, follows its size by glssao_resize, and runs glssao_compute. frame.viewport is the part to copy; all 0: that of
+ * glViewport. frame.depth_texture is 0, the other textures have that part's size. glssao_apply covers the same part. May fail as
+ * these do, with INVALID_ARGUMENT where there is no depth buffer, and with FRAMEBUFFER_ERROR. */
+GLSSAO_API glssao_result glssao_compute_framebuffer(glssao_effect *effect, uint32_t framebuffer, const glssao_frame *frame,
+                                                    const glssao_settings *settings);
 
 /* Compiles the shaders and allocates the textures that glssao_compute will need for these arguments, for instance while a
  * level loads. Draws nothing. May fail as glssao_compute. */

@@ -211,6 +211,20 @@ enum {
     GL_MAX_COLOR_ATTACHMENTS = 0x8CDF,
     GL_COLOR_ATTACHMENT0 = 0x8CE0,
     GL_DEPTH_ATTACHMENT = 0x8D00,
+    GL_STENCIL_ATTACHMENT = 0x8D20,
+    GL_STENCIL = 0x1802,
+    GL_DEPTH_STENCIL = 0x84F9,
+    GL_UNSIGNED_INT_24_8 = 0x84FA,
+    GL_FLOAT_32_UNSIGNED_INT_24_8_REV = 0x8DAD,
+    GL_DEPTH_COMPONENT16 = 0x81A5,
+    GL_DEPTH_COMPONENT24 = 0x81A6,
+    GL_DEPTH_COMPONENT32 = 0x81A7,
+    GL_DEPTH_COMPONENT32F = 0x8CAC,
+    GL_DEPTH24_STENCIL8 = 0x88F0,
+    GL_DEPTH32F_STENCIL8 = 0x8CAD,
+    GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE = 0x8211,
+    GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE = 0x8216,
+    GL_FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE = 0x8217,
     GL_MAX_CLIP_DISTANCES = 0x0D32,
     GL_TIMESTAMP = 0x8E28,
     GL_SAMPLE_MASK = 0x8E51,
@@ -257,6 +271,9 @@ enum {
     X(void, BlendColor, (gl_float r, gl_float g, gl_float b, gl_float a))                                              \
     X(void, BlendEquationSeparate, (gl_enum rgb, gl_enum alpha))                                                       \
     X(void, BlendFuncSeparate, (gl_enum src_rgb, gl_enum dst_rgb, gl_enum src_alpha, gl_enum dst_alpha))               \
+    X(void, BlitFramebuffer,                                                                                           \
+      (gl_int x0, gl_int y0, gl_int x1, gl_int y1, gl_int to_x0, gl_int to_y0, gl_int to_x1, gl_int to_y1,             \
+       gl_bitfield mask, gl_enum filter))                                                                              \
     X(void, BufferData, (gl_enum target, gl_sizeiptr size, const void *data, gl_enum usage))                           \
     X(void, BufferSubData, (gl_enum target, gl_intptr offset, gl_sizeiptr size, const void *data))                     \
     X(gl_enum, CheckFramebufferStatus, (gl_enum target))                                                               \
@@ -265,6 +282,8 @@ enum {
     X(gl_enum, ClientWaitSync, (gl_sync sync, gl_bitfield flags, uint64_t timeout_ns))                                 \
     X(void, ColorMaski, (gl_uint index, gl_boolean r, gl_boolean g, gl_boolean b, gl_boolean a))                       \
     X(void, CompileShader, (gl_uint shader))                                                                           \
+    X(void, CopyTexSubImage2D,                                                                                         \
+      (gl_enum target, gl_int level, gl_int to_x, gl_int to_y, gl_int x, gl_int y, gl_sizei width, gl_sizei height))   \
     X(gl_uint, CreateProgram, (void))                                                                                  \
     X(gl_uint, CreateShader, (gl_enum type))                                                                           \
     X(void, DeleteBuffers, (gl_sizei n, const gl_uint *buffers))                                                       \
@@ -280,6 +299,7 @@ enum {
     X(void, Disable, (gl_enum cap))                                                                                    \
     X(void, Disablei, (gl_enum cap, gl_uint index))                                                                    \
     X(void, DrawArrays, (gl_enum mode, gl_int first, gl_sizei count))                                                  \
+    X(void, DrawBuffers, (gl_sizei n, const gl_enum *buffers))                                                         \
     X(void, Enable, (gl_enum cap))                                                                                     \
     X(void, Enablei, (gl_enum cap, gl_uint index))                                                                     \
     X(gl_sync, FenceSync, (gl_enum condition, gl_bitfield flags))                                                      \

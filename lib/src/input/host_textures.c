@@ -155,6 +155,13 @@ static const glssao__host_texture *find_seen(const glssao__host_textures *known,
     return NULL;
 }
 
+void glssao__host_textures_forget(glssao__host_textures *known, gl_uint name)
+{
+    for (int i = 0; i < HOST_SEEN; ++i)
+        if (known->seen[i].name == name)
+            known->seen[i] = (glssao__host_texture){0};
+}
+
 /* Checks one texture; with `known`, OpenGL is asked only the first time. */
 static bool check_texture(const glssao__gl *gl, const glssao__log *log, const char *field, const glssao_frame *frame,
                           const int size[2], glssao__host_textures *known, glssao__host_texture *t)

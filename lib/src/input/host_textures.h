@@ -58,6 +58,9 @@ bool glssao__host_texture_check(const glssao__gl *gl, const glssao__log *log, co
                                 const int size[2], glssao__host_textures *known, glssao__host_texture *t);
 void glssao__host_texture_restore(const glssao__gl *gl, const glssao__host_texture *t);
 
+/* The texture is to be looked at anew. */
+void glssao__host_textures_forget(glssao__host_textures *known, gl_uint name);
+
 /* Binds a texture to the active unit's `target` if it is of that kind; leaves no GL error. */
 bool glssao__host_texture_bind(const glssao__gl *gl, gl_enum target, gl_uint texture);
 
