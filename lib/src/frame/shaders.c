@@ -32,8 +32,9 @@ static const struct shader {
 } shaders[SHADER_COUNT] = {
     [SHADER_INPUT] = {"input", BIT(MULTISAMPLE) | BIT(LOGARITHMIC), {shader_pixel_glsl, shader_input_frag}},
     [SHADER_NORMALS] = {"normals",
-                        BIT(DEPTH),
-                        {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normals_frag}},
+                        BIT(DEPTH) | BIT(PERSPECTIVE) | BIT(COMPUTE),
+                        {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normals_frag,
+                         shader_entry_glsl}},
     [SHADER_DISTANCE] = {"distance",
                          BIT(DEPTH) | BIT(LAYERS) | BIT(COMPUTE),
                          {shader_pixel_glsl, shader_depth_glsl, shader_distance_frag, shader_entry_glsl}},
