@@ -28,7 +28,7 @@ float upsampled(vec2 a, vec2 b, vec2 c, vec2 d, vec2 odd, vec2 full_uv)
     vec4 values = vec4(accessibility_of(a), accessibility_of(b), accessibility_of(c), accessibility_of(d));
     vec4 apart = vec4(a.y, b.y, c.y, d.y) - own;
     vec4 off = abs(apart);
-    float tolerance = max(linear_error(UPSAMPLE_TOLERANCE * gOcclusionRadius, own), 0.5 * linear_step(own));
+    float tolerance = max(UPSAMPLE_TOLERANCE * radius_in_linear(own), 0.5 * linear_step(own));
     uvec4 codes = uvec4(normal_code(a), normal_code(b), normal_code(c), normal_code(d));
     // Most pixels have neighbours that all face the same way, which spares a GPU this.
     if (any(notEqual(codes.xxx, codes.yzw))) {
@@ -48,7 +48,7 @@ float upsampled(vec2 a, vec2 b, vec2 c, vec2 d, vec2 odd, vec2 full_uv)
         off = mix(off, vec4(AROUND_CREASE), turned);
     }
     bool on_plane = abs(dot(apart, vec4(0.25))) < tolerance;
-    float near = on_plane ? 0.5 * AROUND_CREASE : linear_error(UPSAMPLE_NEAR * gOcclusionRadius, own);
+    float near = on_plane ? 0.5 * AROUND_CREASE : UPSAMPLE_NEAR * radius_in_linear(own);
     // The nearest neighbour always counts.
     near = max(near, min(min(off.x, off.y), min(off.z, off.w)));
     vec4 weights = vec4(lessThanEqual(off, vec4(near)));
