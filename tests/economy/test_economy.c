@@ -153,8 +153,8 @@ static bool is_dispatched(const struct row *row, const glssao_settings *settings
 {
     if (settings->tiles == GLSSAO_TILES_ON)
         return false;
-    return pass == GLSSAO_PASS_NORMALS || pass == GLSSAO_PASS_DISTANCE || pass == GLSSAO_PASS_BLUR || pass == GLSSAO_PASS_UPSAMPLE ||
-           (pass == GLSSAO_PASS_ESTIMATE && row->technique == GLSSAO_HORIZON);
+    return pass == GLSSAO_PASS_NORMALS || pass == GLSSAO_PASS_DISTANCE || pass == GLSSAO_PASS_BLUR ||
+           pass == GLSSAO_PASS_UPSAMPLE || (pass == GLSSAO_PASS_ESTIMATE && row->technique == GLSSAO_HORIZON);
 }
 
 static void check_row(fixture *f, const struct row *row, glssao_path path)

@@ -197,7 +197,8 @@ static void check_linear(const setup *s, const paired_map *map)
 }
 
 /* The estimate upsampled alone, then after one round of blur, then after two. */
-static void check_half_size(fixture *f, analytic_projection projection, int bits, bool has_normals, int width, int height)
+static void check_half_size(fixture *f, analytic_projection projection, int bits, bool has_normals, int width,
+                            int height)
 {
     setup s;
     set_up(&s, f, projection, bits, width, height);

@@ -79,7 +79,8 @@ bool glssao__choose_dispatches(const glssao__capabilities *can)
 
 static bool can_be_dispatched(const glssao__choice *c, glssao_pass pass)
 {
-    return pass == GLSSAO_PASS_NORMALS || pass == GLSSAO_PASS_DISTANCE || pass == GLSSAO_PASS_BLUR || pass == GLSSAO_PASS_UPSAMPLE ||
+    return pass == GLSSAO_PASS_NORMALS || pass == GLSSAO_PASS_DISTANCE || pass == GLSSAO_PASS_BLUR ||
+           pass == GLSSAO_PASS_UPSAMPLE ||
            (pass == GLSSAO_PASS_ESTIMATE && c->is_horizon && !c->accumulates); /* a sum is added to by blending */
 }
 
