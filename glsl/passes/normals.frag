@@ -87,5 +87,9 @@ RESULT result()
     // The plane n . p = 1 has the linear quantity n . ray in perspective. Its normal faces away from the eye.
     vec2 lean = orthographic() ? slope / gRayOrigin.xy : -slope / (linear * gRayDirection.xy);
     vec3 normal = vec3(lean, orthographic() ? 1.0 : 1.0 + dot(lean, uv * gRayDirection.xy + gRayDirection.zw));
+#if TURNED
+    // Back to the host's view space, in which normals are stored.
+    normal.xy = vec2(gRoll.x * normal.x - gRoll.y * normal.y, gRoll.y * normal.x + gRoll.x * normal.y);
+#endif
     return octahedral(is_sky(stored) || !(dot(normal, normal) < 1e30) ? vec3(0.0, 0.0, 1.0) : normal);
 }
