@@ -13,6 +13,7 @@ void glssao__host_names(const glssao_frame *frame, gl_uint out_names[HOST_TEXTUR
     out_names[HOST_NORMAL] = frame->normal_texture;
     out_names[HOST_BACK] = frame->back_texture;
     out_names[HOST_SECOND] = frame->second_texture;
+    out_names[HOST_RAYS] = frame->rays_texture;
 }
 
 /* Parameters that change what a shader reads without a sampler object having a say. */
@@ -125,6 +126,19 @@ static bool look_at(const glssao__gl *gl, const glssao__log *log, const char *fi
     return true;
 }
 
+/* The host's rays are a picture of the effect's own, whatever its other textures are a part of. */
+static bool has_size_of_rays(const glssao__log *log, const char *field, const int size[2],
+                             const glssao__host_texture *t)
+{
+    const int half[2] = {(size[0] + 1) / 2, (size[1] + 1) / 2};
+    if ((t->width == size[0] && t->height == size[1]) || (t->width == half[0] && t->height == half[1]))
+        return true;
+    glssao__log_write(log, GLSSAO_LOG_ERROR,
+                      "%s = %u: %d x %d, neither of the full size, %d x %d, nor of half, %d x %d", field, t->name,
+                      t->width, t->height, size[0], size[1], half[0], half[1]);
+    return false;
+}
+
 static bool is_large_enough(const glssao__log *log, const char *field, const glssao_frame *frame, const int size[2],
                             const glssao__host_texture *t)
 {
@@ -157,7 +171,7 @@ static const glssao__host_texture *find_seen(const glssao__host_textures *known,
 
 /* Checks one texture; with `known`, OpenGL is asked only the first time. */
 static bool check_texture(const glssao__gl *gl, const glssao__log *log, const char *field, const glssao_frame *frame,
-                          const int size[2], glssao__host_textures *known, glssao__host_texture *t)
+                          const int size[2], glssao__host_textures *known, bool is_rays, glssao__host_texture *t)
 {
     const glssao__host_texture *seen = find_seen(known, t);
     if (seen)
@@ -176,7 +190,7 @@ static bool check_texture(const glssao__gl *gl, const glssao__log *log, const ch
                           field, t->name);
         return false;
     }
-    if (!is_large_enough(log, field, frame, size, t))
+    if (is_rays ? !has_size_of_rays(log, field, size, t) : !is_large_enough(log, field, frame, size, t))
         return false;
     if (known && !seen) {
         known->seen[known->next] = *t;
@@ -190,7 +204,8 @@ glssao_result glssao__host_textures_check(const glssao__gl *gl, const glssao__lo
                                           glssao__host_inputs *out)
 {
     static const char *const fields[HOST_TEXTURES] = {"frame.depth_texture", "frame.normal_texture",
-                                                      "frame.back_texture", "frame.second_texture"};
+                                                      "frame.back_texture", "frame.second_texture",
+                                                      "frame.rays_texture"};
     const bool in_alpha = frame->depth_kind == GLSSAO_DEPTH_NORMAL_ALPHA;
     gl_uint names[HOST_TEXTURES];
     glssao__host_names(frame, names);
@@ -201,9 +216,9 @@ glssao_result glssao__host_textures_check(const glssao__gl *gl, const glssao__lo
         if (!names[i])
             continue;
         t->name = names[i];
-        t->target = frame->multisample ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
+        t->target = frame->multisample && i != HOST_RAYS ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
         t->reads_alpha = in_alpha;
-        if (!check_texture(gl, log, fields[i], frame, size, known, t))
+        if (!check_texture(gl, log, fields[i], frame, size, known, i == HOST_RAYS, t))
             return GLSSAO_INVALID_ARGUMENT;
     }
     out->precision = out->textures[in_alpha ? HOST_NORMAL : HOST_DEPTH].precision;
