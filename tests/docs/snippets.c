@@ -31,6 +31,7 @@ void multisampled(glssao_effect *effect, GLuint multisampled_framebuffer, GLuint
 void reversed(glssao_effect *effect, GLuint depth, float aspect, float focal, float near_plane,
               glssao_settings settings);
 void two_eyes(glssao_effect *effect, const eye eyes[2], glssao_settings settings);
+void few_rays(glssao_effect *effect, GLuint depth, GLuint normals, GLuint rays, const float *projection);
 glssao_settings large_frames(void);
 void logarithmic(glssao_effect *effect, GLuint depth, float far_plane, const float *projection,
                  glssao_settings settings);
@@ -46,6 +47,13 @@ glssao_effect *ahead_of_time(glssao_config config, GLuint depth, const float *pr
 void print_costs(glssao_effect *effect, glssao_frame frame, glssao_settings settings);
 void night(glssao_effect *effect, glssao_frame frame, glssao_settings settings, bool has_ambient_light);
 glssao_effect *without_compute(glssao_config config);
+void apply_with(glssao_effect *effect, GLuint framebuffer, GLuint strength, GLuint albedo);
+void first_look(glssao_effect *effect);
+void own_depth(glssao_effect *effect, GLuint depth, GLuint framebuffer, const float *projection,
+               glssao_settings settings);
+void follow_size(glssao_effect *effect, int width, int height);
+void four_views(glssao_effect *effect, GLuint depth, GLuint framebuffer, const eye *views, glssao_settings settings,
+                int width, int height);
 
 void forward_normals(glssao_effect *effect, GLuint depth, const float *projection, glssao_settings settings,
                      void (*draw_opaque_with_normals)(void))
@@ -125,6 +133,60 @@ void two_eyes(glssao_effect *effect, const eye eyes[2], glssao_settings settings
         if (glssao_compute(effect, &frame, &settings) == GLSSAO_OK)
             glssao_apply(effect, eyes[i].framebuffer);
     }
+    /* end */
+}
+
+void four_views(glssao_effect *effect, GLuint depth, GLuint framebuffer, const eye *views, glssao_settings settings,
+                int width, int height)
+{
+    /* snippet: four views */
+    for (int i = 0; i < 4; ++i) { /* one depth texture and one framebuffer hold four views of width by height */
+        glssao_frame frame = {.depth_texture = depth, .viewport = {i % 2 * width, i / 2 * height, width, height}};
+        memcpy(frame.projection, views[i].projection, sizeof frame.projection);
+        if (glssao_compute(effect, &frame, &settings) == GLSSAO_OK)
+            glssao_apply(effect, framebuffer); /* into the same part of the framebuffer */
+    }
+    /* end */
+}
+
+void apply_with(glssao_effect *effect, GLuint framebuffer, GLuint strength, GLuint albedo)
+{
+    /* snippet: apply with */
+    glssao_apply_options options = glssao_default_apply_options();
+    options.framebuffer = framebuffer;
+    options.intensity = 0.8f;            /* 80 % of the darkening */
+    options.color[2] = 0.05f;            /* full occlusion is a dark blue instead of black */
+    options.strength_texture = strength; /* red: 0 where nothing may darken, for instance emissive objects */
+    options.albedo_texture = albedo;     /* rgb, linear: light that bounces keeps coloured surfaces brighter */
+    options.keep_stencil = true;         /* only where your stencil test passes */
+    glssao_apply_with(effect, &options);
+    /* end */
+}
+
+void own_depth(glssao_effect *effect, GLuint depth, GLuint framebuffer, const float *projection,
+               glssao_settings settings)
+{
+    /* snippet: frame */
+    glssao_frame frame = {.depth_texture = depth};
+    memcpy(frame.projection, projection, sizeof frame.projection);
+    if (glssao_compute(effect, &frame, &settings) == GLSSAO_OK)
+        glssao_apply(effect, framebuffer);
+    /* end */
+}
+
+void follow_size(glssao_effect *effect, int width, int height)
+{
+    /* snippet: resize */
+    glssao_resize(effect, width, height);
+    /* end */
+}
+
+void first_look(glssao_effect *effect)
+{
+    /* snippet: show map */
+    glssao_apply_options options = glssao_default_apply_options();
+    options.show = true; /* the map itself, white where open, in the window */
+    glssao_apply_with(effect, &options);
     /* end */
 }
 
@@ -238,4 +300,15 @@ glssao_effect *without_compute(glssao_config config)
     glssao_create(&config, &effect);
     /* end */
     return effect;
+}
+
+void few_rays(glssao_effect *effect, GLuint depth, GLuint normals, GLuint rays, const float *projection)
+{
+    /* snippet: rays */
+    const glssao_settings settings = glssao_default_settings(GLSSAO_RAYS, GLSSAO_MEDIUM);
+    glssao_frame frame = {.depth_texture = depth, .normal_texture = normals};
+    frame.rays_texture = rays; /* of half size here: 4 rays for the lower left of each 2 x 2 pixels */
+    memcpy(frame.projection, projection, sizeof frame.projection);
+    glssao_compute(effect, &frame, &settings);
+    /* end */
 }

@@ -161,13 +161,12 @@ static void fill_frame(glssao__frame_block *c, const glssao__uniforms_source *so
     c->gBlurDepthThreshold = settings->blur_depth_threshold;
     c->gSampleCount = settings->sample_count;
     c->gFactor = settings->half_resolution ? 2 : 1;
-    c->gPerRadius = 1.0f / settings->radius;
     const bool orthographic = projection->ray_direction[0] == 0.0f;
     for (int i = 0; i < 2; ++i) {
         const double pixel =
             (double)c->gFactor / source->size[i] * (double)(orthographic ? c->gRayOrigin[i] : c->gRayDirection[i]);
-        c->gPixel[i] = (float)(pixel / (double)settings->radius);
-        c->gPixel[2 + i] = (float)((double)settings->radius / pixel);
+        c->gPixel[i] = (float)pixel;
+        c->gPixel[2 + i] = (float)(1.0 / pixel);
         c->gEstimateSize[i] = (float)source->estimate_size[i];
         c->gFullTexel[i] = 1.0f / (float)source->size[i];
     }
