@@ -68,8 +68,8 @@ typedef struct draw_program {
     int ambient, ambient_tilt, up_view, directional, to_light_view, is_orthographic;
     int shadow_from_world, lights, light_count;
     int pixel_uv, origin, depth_offset;
-    int world_from_clip, sky, sky_tilt;
-    int irradiance, world_from_view;
+    int sky_from_clip, sky, sky_tilt;
+    int irradiance, sky_from_view;
     int scale, bias, red_only;
     int numerator, denominator, far_depth;
 } draw_program;

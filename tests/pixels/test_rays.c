@@ -384,6 +384,39 @@ static void margins_cut_the_same_picture(void **state)
         }
 }
 
+/* Depth and normals may lie in a part of larger textures; rays are a picture of their own. */
+static void viewports_do_not_move_rays(void **state)
+{
+    const int width = 60, height = 40, left = 7, bottom = 3;
+    setup s, large;
+    int count;
+    set_up_room(&s, *state, PERSPECTIVE, width, height);
+    s.settings.blur_rounds = 1;
+    free(bring_noise(&s, false));
+    float *wanted = compute(&s, &count);
+    set_up_room(&large, *state, PERSPECTIVE, width + 20, height + 10);
+    for (int y = 0; y < height; ++y) /* the picture of `s` within */
+        memcpy(large.depth + (y + bottom) * large.width + left, s.depth + y * width, (size_t)width * sizeof *s.depth);
+    gl.DeleteTextures(1, &large.frame.depth_texture);
+    large.frame.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, large.width, large.height, large.depth);
+    large.frame.normal_texture = 0;
+    s.frame.normal_texture = 0;
+    free(wanted);
+    wanted = compute(&s, &count);
+    memcpy(large.frame.projection, s.frame.projection, sizeof s.frame.projection);
+    memcpy(large.frame.viewport, (const int[4]){left, bottom, width, height}, sizeof large.frame.viewport);
+    large.frame.rays_texture = s.frame.rays_texture;
+    assert_int_equal(glssao_resize(large.effect, width, height), GLSSAO_OK);
+    float *got = compute(&(setup){.effect = large.effect, .frame = large.frame, .settings = s.settings}, &count);
+    for (int i = 0; i < count; ++i)
+        assert_true(fabsf(got[i] - wanted[i]) < 1e-4f);
+    free(got);
+    free(wanted);
+    large.frame.rays_texture = 0;
+    tear_down(&large);
+    tear_down(&s);
+}
+
 static void every_size_is_taken(void **state)
 {
     static const int sizes[][2] = {{1, 1}, {2, 1}, {1, 7}, {3, 3}, {5, 2}, {33, 17}};
@@ -504,6 +537,7 @@ int main(void)
         GL_TEST(rays_that_agree_with_the_estimate_keep_it),
         GL_TEST(odd_values_stay_in_range),
         GL_TEST(margins_cut_the_same_picture),
+        GL_TEST(viewports_do_not_move_rays),
         GL_TEST(every_size_is_taken),
         GL_TEST(power_comes_last),
         GL_TEST(wrong_rays_are_refused),

@@ -27,15 +27,15 @@ uniform float u_alpha_cutoff;
 #if LIT
 const float pi = 3.14159265;
 #if ENVIRONMENT
-uniform vec3 u_irradiance[9]; // irradiance / pi times: 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2 of the normal in the world
-uniform mat3 u_world_from_view;
+uniform vec3 u_irradiance[9]; // irradiance / pi times: 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2 of the normal in the sky's axes
+uniform mat3 u_sky_from_view;
 #if REFLECTIVE
 uniform sampler2D u_environment_map; // reflections; level i is for roughness i / 5
 #endif
 #else
 uniform vec3 u_ambient;      // radiance from the side; irradiance / pi on a surface that faces sideways
 uniform vec3 u_ambient_tilt; // how much more comes from straight above, and less from straight below
-uniform vec3 u_up_view;      // the world's up, unit
+uniform vec3 u_up_view;      // the sky's up, unit
 #endif
 uniform vec3 u_directional;  // irradiance / pi
 uniform vec3 u_to_light_view;
@@ -155,7 +155,7 @@ vec3 lit_by_lights(surface s)
 #if ENVIRONMENT
 vec3 matte_light(vec3 normal_view)
 {
-    vec3 n = u_world_from_view * normal_view;
+    vec3 n = u_sky_from_view * normal_view;
     vec3 flat_part = u_irradiance[0] + u_irradiance[1] * n.y + u_irradiance[2] * n.z + u_irradiance[3] * n.x;
     return max(flat_part + u_irradiance[4] * (n.x * n.y) + u_irradiance[5] * (n.y * n.z) +
                    u_irradiance[6] * (3.0 * n.z * n.z - 1.0) + u_irradiance[7] * (n.x * n.z) +
@@ -164,7 +164,7 @@ vec3 matte_light(vec3 normal_view)
 #if REFLECTIVE
 vec3 glossy_light(vec3 mirror_view, float roughness)
 {
-    return textureLod(u_environment_map, environment_uv(normalize(u_world_from_view * mirror_view)), roughness * 5.0).rgb;
+    return textureLod(u_environment_map, environment_uv(normalize(u_sky_from_view * mirror_view)), roughness * 5.0).rgb;
 }
 #endif
 #else

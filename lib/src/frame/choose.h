@@ -19,8 +19,9 @@ typedef struct glssao__choice {
     bool compute;     /* passes that can be dispatched are */
     bool accumulates;
     bool is_horizon, is_planar;
-    bool is_rays;  /* the estimate is the host's rays */
-    bool corrects; /* the host's rays correct another estimate */
+    bool is_rays;    /* the estimate is the host's rays */
+    bool corrects;   /* the host's rays correct another estimate */
+    bool is_oblique; /* window depth becomes view distance in a copy */
     bool blurs, upsamples, has_tiles;
     bool paired;       /* later passes read paired values */
     bool result_apart; /* the result goes to a map of its own */

@@ -136,5 +136,5 @@ bool glssao__check_frame(const glssao_frame *frame, const glssao_settings *setti
     if (settings->technique == GLSSAO_RAYS && frame->rays_texture == 0)
         return refuse(log, "frame.rays_texture", 0, "no texture, and the rays technique has no estimate of its own");
     return check_margin(frame, size, log) && check_viewport(frame, size, log) && check_logarithm(frame, log) &&
-           glssao__projection_analyse(frame->projection, frame->clip_zero_to_one, log, out_projection);
+           glssao__projection_analyse(frame, log, out_projection);
 }
