@@ -37,6 +37,8 @@ static const option table[] = {
      OPTION_NUMBER, AT(radius), 0, 1e11, "a number from 0 to 1e11", SCOPE_PICTURE},
     {0, "power", "P", "contrast: raise accessibility to the power P, 0 to 64", OPTION_NUMBER, AT(power), 0, 64,
      "a number from 0 to 64", SCOPE_PICTURE},
+    {0, "intensity", "F", "strength of occlusion in the shaded picture, 0 none to 1 full (default 1)", OPTION_NUMBER,
+     AT(intensity), 0, 1, "a number from 0 to 1", SCOPE_PICTURE},
     {0, "samples", "N",
      "samples a pixel: classic 1 to 14, hemisphere 1 to 64, horizon 12, 16, 24, 32, 48 or 64, raytrace rays (512)",
      OPTION_INT, AT(sample_count), 1, 65536, "a whole number from 1 to 65536", SCOPE_PICTURE},

@@ -151,6 +151,7 @@ bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_us
                                            .mapped_normals = o->mapped_normals,
                                            .specular_occlusion = o->specular_occlusion,
                                            .multi_bounce = o->multi_bounce,
+                                           .left_out = o->intensity.given ? 1 - o->intensity.value : 0,
                                            .layers = wants.ao && o->layers == 2,
                                            .no_picture = !wants.picture,
                                            .no_prepass = !wants.prepass};

@@ -77,6 +77,7 @@ typedef struct scene_draw_options { /* zero is the plainest */
      * nothing culled, and shadow map and sky drawn in each frame. Matte and unlit materials then look otherwise. */
     bool everything;
     bool multi_bounce; /* occluded ambient light takes on the surface's colour */
+    float left_out;    /* the share of occlusion, 0 to 1, that the picture does not show */
 } scene_draw_options;
 
 /* Uploads the scene through the table in gl.h, which must be loaded. Shaders and textures only for what the scene

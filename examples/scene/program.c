@@ -57,6 +57,7 @@ static const struct {
     {"u_base_color", offsetof(draw_program, base_color)},
     {"u_alpha_cutoff", offsetof(draw_program, alpha_cutoff)},
     {"u_ambient", offsetof(draw_program, ambient)},
+    {"u_intensity", offsetof(draw_program, intensity)},
     {"u_ambient_tilt", offsetof(draw_program, ambient_tilt)},
     {"u_up_view", offsetof(draw_program, up_view)},
     {"u_is_orthographic", offsetof(draw_program, is_orthographic)},

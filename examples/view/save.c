@@ -167,6 +167,8 @@ bool viewer_command_line(const viewer *v, char *out, size_t out_size)
         add(&l, " --shadow-size %d", o->shadow_size);
     add(&l, "%s%s%s", o->mapped_normals ? " --mapped-normals" : "",
         o->specular_occlusion ? " --specular-occlusion" : "", o->multi_bounce ? " --multi-bounce" : "");
+    if (o->intensity.given)
+        add(&l, " --intensity %.9g", (double)o->intensity.value);
     if (o->environment) {
         add(&l, " --environment");
         add_quoted(&l, o->environment);

@@ -65,6 +65,8 @@ size="-s 65x37"
         want 2 "--radius \"$bad\"" --radius "$bad" -o a.png
     done
     want 2 "--power" --power 65 -o a.png
+    want 2 "--intensity" --intensity 1.01 -o a.png
+    want 2 "--intensity" --intensity nan -o a.png
     want 2 "--samples" -t classic --samples 15 -o a.png
     want 2 "--samples" --samples 1.5 -o a.png
     want 2 "horizon takes" --set samples=13 -o a.png
@@ -144,7 +146,7 @@ size="-s 65x37"
     done
 
     # The picture's own options, which leave accessibility as it is. The columns are matte and have no normal map.
-    for options in "--sky-up 0,0,1" "--no-shadows" "--shadow-size 64" "--multi-bounce" "--debug-map ao" "--debug-map normals" \
+    for options in "--sky-up 0,0,1" "--no-shadows" "--intensity 0.5" "--shadow-size 64" "--multi-bounce" "--debug-map ao" "--debug-map normals" \
         "--debug-map depth" "--debug-map random" "--debug-map shadow"; do
         want 0 "" $size --seed=7 -o p3.png --ao p3.pfm $options
         ! cmp -s a1.png p3.png || fail "$options changes nothing"

@@ -41,6 +41,7 @@ uniform vec3 u_directional;  // irradiance / pi
 uniform vec3 u_to_light_view;
 #if !BLENDED
 uniform sampler2D u_ambient_map; // accessibility in red
+uniform float u_intensity;       // of occlusion, 0 none to 1 full
 uniform vec2 u_pixel_uv;         // size of a pixel in the ambient map's uv
 uniform vec2 u_origin;           // its lower left corner, in pixels
 #endif
@@ -249,7 +250,7 @@ void main()
 
     float accessibility = 1.0;
 #if !BLENDED
-    accessibility = texture(u_ambient_map, (gl_FragCoord.xy - u_origin) * u_pixel_uv).r;
+    accessibility = mix(1.0, texture(u_ambient_map, (gl_FragCoord.xy - u_origin) * u_pixel_uv).r, u_intensity);
 #endif
 #if BAKED
     accessibility *= 1.0 + u_occlusion_strength * (texture(u_occlusion_map, map_uv(u_occlusion_uv)).r - 1.0);
