@@ -122,15 +122,17 @@ enum {
     TESTS
 };
 
-typedef struct line {
+/* Five taps in a row, how much darker than its neighbours the middle one may be if nothing joins it, and as
+ * pass_constants.alike. */
+typedef struct row {
     texel taps[5];
-    double alike;
-} line;
+    double alone, alike;
+} row;
 
 static double blurred(const truth *t, const void *user)
 {
-    const line *l = user;
-    const texel *taps = l->taps;
+    const row *r = user;
+    const texel *taps = r->taps;
     double weights[5] = {0.0, 0.0, 1.0, 0.0, 0.0};
     weights[0] = t[LINE_BEFORE] && t[JOINS_BEFORE_2] ? 0.5 : 0.0; /* half of it lies outside the tile */
     weights[1] = t[JOINS_BEFORE] && (t[LINE_BEFORE] || t[LINE]) ? 1.0 : 0.0;
@@ -140,24 +142,28 @@ static double blurred(const truth *t, const void *user)
         weights[1] = t[JOINS_BEFORE] && t[NEAR_BEFORE] ? 1.0 : 0.0;
         weights[3] = t[JOINS_AFTER] && t[NEAR_AFTER] ? 1.0 : 0.0;
     }
+    const bool is_alone = weights[1] + weights[3] == 0.0;
     double sum = 0.0, total = 0.0;
     for (int i = 0; i < 5; ++i) {
         const double off = taps[i].value - taps[2].value;
-        if (l->alike > 0.0 && taps[2].value >= 0.0)
-            weights[i] *= fmax(1.0 - off * off / (l->alike * l->alike), 0.0);
+        if (r->alike > 0.0 && taps[2].value >= 0.0)
+            weights[i] *= fmax(1.0 - off * off / (r->alike * r->alike), 0.0);
         if (taps[i].value < 0.0)
             continue;
         sum += weights[i] * taps[i].value;
         total += weights[i];
     }
-    return total > 0.0 ? sum / total : -1.0;
+    if (total <= 0.0)
+        return -1.0;
+    return is_alone && taps[2].value >= 0.0 ? fmax(sum / total, fmin(taps[1].value, taps[3].value) - r->alone)
+                                            : sum / total;
 }
 
 void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic, const pass_constants *constants,
                        int x, int y, double *out_low, double *out_high)
 {
-    line l = {.alike = constants->alike};
-    texel *taps = l.taps;
+    row r = {.alone = constants->alone, .alike = constants->alike};
+    texel *taps = r.taps;
     const int apart = constants->apart > 0 ? constants->apart : 1;
     for (int i = 0; i < 5; ++i)
         taps[i] = texel_at(map, horizontal ? x + (i - 2) * apart : x, horizontal ? y : y + (i - 2) * apart);
@@ -177,7 +183,7 @@ void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic
     tests[NEAR_AFTER] = is_near(taps[3].linear, taps[2].linear, near);
     *out_low = HUGE_VAL;
     *out_high = -HUGE_VAL;
-    each_outcome(tests, TESTS, blurred, &l, out_low, out_high);
+    each_outcome(tests, TESTS, blurred, &r, out_low, out_high);
 }
 
 enum { ON_ROW, ON_COLUMN, JOINS_AROUND, WIDE_TESTS = JOINS_AROUND + 4 };
