@@ -63,6 +63,11 @@ bool horizon_variant(const glssao_effect *effect, horizon_input *out)
         .width = RUN_WIDTH,
         .veil = variant.values[MACRO_LAYERS] ? VEIL_TWO_LAYERS : VEIL_ONE_LAYER,
         .veil_width = VEIL_WIDTH,
+        .veil_reach = VEIL_REACH,
+        .veil_far = VEIL_FAR,
+        .plan_width = PLAN_WIDTH,
+        .plan_from = PLAN_FROM,
+        .plan_to = PLAN_TO,
         .second = SECOND_WIDTH,
         .calibration = out->steps >= 12  ? CALIBRATION_12
                        : out->steps == 8 ? CALIBRATION_8
