@@ -28,6 +28,7 @@
 // Upsampling (shared/upsample.glsl).
 #define UPSAMPLE_TOLERANCE 0.02 // how far off the plane of its neighbours a pixel may be
 #define UPSAMPLE_NEAR 0.1       // how far off a neighbour on the same surface may be
+#define UPSAMPLE_FALL 8.0       // a neighbour's line may pass so much farther above the pixel than the best neighbour's
 
 // Creases (shared/paired.glsl).
 #define NORMAL_STEP 0.1       // step of the two coordinates of a stored normal, which reach from -1.5 to 1.6

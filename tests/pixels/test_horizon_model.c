@@ -89,7 +89,7 @@ static float *read_layers(uint32_t map, int width, int height)
 /* `depth`: full size, as its texture holds it. Returns the share of pixels that are occluded. */
 static double check(setup *s, const float *depth, const vagueness *most, const char *what)
 {
-    int width, height, map_width, map_height, normal_width, normal_height;
+    int width, height, map_width, map_height;
     float *got = fixture_compute(s->effect, &s->frame, &s->settings, &width, &height);
     const uint32_t map = horizon_distance_map(s->effect, &map_width, &map_height);
     assert_true(map_width == width && map_height == height);
@@ -97,8 +97,7 @@ static double check(setup *s, const float *depth, const vagueness *most, const c
     float *layers = s->frame.back_texture ? read_layers(map, width, height) : NULL;
     float *normals = s->normals;
     if (!normals)
-        normals = fixture_read_texture(glssao_map(s->effect, GLSSAO_MAP_NORMAL, &normal_width, &normal_height),
-                                       s->width, s->height, 3);
+        normals = fixture_read_rebuilt(s->effect, s->width, s->height, s->settings.half_resolution ? 2 : 1);
     s->input = (horizon_input){
         .full_width = s->width,
         .full_height = s->height,

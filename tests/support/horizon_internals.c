@@ -33,8 +33,11 @@ void horizon_read_pass_constants(pass_constants *out_blur, pass_constants *out_u
                                  .hollow = BLUR_HOLLOW,
                                  .chord = CHORD,
                                  .normal_step = NORMAL_STEP};
-    *out_upsample = (pass_constants){
-        .tolerance = UPSAMPLE_TOLERANCE, .near = UPSAMPLE_NEAR, .chord = CHORD, .normal_step = NORMAL_STEP};
+    *out_upsample = (pass_constants){.tolerance = UPSAMPLE_TOLERANCE,
+                                     .near = UPSAMPLE_NEAR,
+                                     .chord = CHORD,
+                                     .normal_step = NORMAL_STEP,
+                                     .fall = UPSAMPLE_FALL};
 }
 
 void horizon_depth_step(const glssao_effect *effect, double out_step[3])
