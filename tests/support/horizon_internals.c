@@ -21,6 +21,16 @@ uint32_t horizon_paired_map(const glssao_effect *effect, int number)
     return map_of(effect, number == 0 ? MAP_PAIRED_0 : MAP_PAIRED_1)->texture;
 }
 
+uint32_t horizon_rays_map(const glssao_effect *effect, int number)
+{
+    return map_of(effect, number == 0 ? MAP_RAYS_0 : MAP_RAYS_1)->texture;
+}
+
+double horizon_rays_alike(void)
+{
+    return RAYS_ALIKE;
+}
+
 uint32_t horizon_sum_map(const glssao_effect *effect)
 {
     return map_of(effect, MAP_SUM)->texture;
@@ -31,6 +41,7 @@ void horizon_read_pass_constants(pass_constants *out_blur, pass_constants *out_u
     *out_blur = (pass_constants){.tolerance = BLUR_TOLERANCE,
                                  .near = BLUR_NEAR,
                                  .hollow = BLUR_HOLLOW,
+                                 .alone = BLUR_ALONE,
                                  .chord = CHORD,
                                  .normal_step = NORMAL_STEP};
     *out_upsample = (pass_constants){.tolerance = UPSAMPLE_TOLERANCE,
