@@ -132,7 +132,7 @@ vec3 sample_at(point p, slice_side side, float number, out vec2 layers)
 }
 
 // Whether a sample can hide anything: within the sphere, off the point's own texel (where x is 0, or below it where the border
-// holds a sample back), and above the tangent plane by more than the depth format can tell.
+// holds a sample back), and above the tangent plane by more than depth formats and normals can tell.
 bool occludes(point p, slice_side side, vec3 at)
 {
     return at.x > side.least_x && at.x < 1.0 && at.y > side.tangent * at.x + p.y_step;
@@ -291,7 +291,7 @@ float slice_occlusion(point p, float angle)
         side.uv_per_px = sign * way * gInvRenderTargetSize;
         side.y_per_px = sign * way * y_per_px;
         side.reach_px = mix(p.low, p.high, greaterThan(sign * way, vec2(0.0)));
-        side.tangent = sign * -sin_g / max(cos_g, 1e-3);
+        side.tangent = sign * -sin_g / max(cos_g, 1e-3) + LEAST_RISE;
         side.lowest = -sign * sin_g;
         side.sectors = measure(sign * cos_g, sin_g, scale);
         side.sectors.low.x += total_minus * scale + 0.5;
