@@ -14,13 +14,13 @@ float line_tolerance(float linear)
     return max(linear_error(BLUR_TOLERANCE * gOcclusionRadius, linear), linear_step(linear));
 }
 
-// Accessibility of a pixel from the paired values of itself and of the two on each side along `way`.
-float blurred(vec2 before_2, vec2 before, vec2 center, vec2 after, vec2 after_2, vec2 way)
+// Contents of a pixel from the paired values of itself and of the two on each side along `way`.
+CONTENTS blurred(PAIRED before_2, PAIRED before, PAIRED center, PAIRED after, PAIRED after_2, vec2 way)
 {
 #if BRANCHES
     // Most pixels are surrounded by equal ones, which nothing occludes.
-    if (before_2.x == center.x && before.x == center.x && after.x == center.x && after_2.x == center.x)
-        return accessibility_of(center);
+    if (is_same(before_2, center) && is_same(before, center) && is_same(after, center) && is_same(after_2, center))
+        return contents_of(center);
 #endif
     float tolerance = line_tolerance(center.y);
     bool on_line = abs(before.y - 2.0 * center.y + after.y) < tolerance;
@@ -42,18 +42,16 @@ float blurred(vec2 before_2, vec2 before, vec2 center, vec2 after, vec2 after_2,
         weights.yz = vec2(joins.y && abs(before.y - center.y) < near ? 1.0 : 0.0,
                           joins.z && abs(after.y - center.y) < near ? 1.0 : 0.0);
     }
-    vec4 taps = vec4(accessibility_of(before_2), accessibility_of(before), accessibility_of(after),
-                     accessibility_of(after_2));
-    float sum = accessibility_of(center) + dot(weights, taps);
+    CONTENTS sum = contents_of(center) + weighted(weights, before_2, before, after, after_2);
     return sum / (1.0 + dot(weights, vec4(1.0)));
 }
 
 // The same for a later round, from itself and the four at three pixels from it.
-float blurred_wide(vec2 left, vec2 below, vec2 center, vec2 above, vec2 right)
+CONTENTS blurred_wide(PAIRED left, PAIRED below, PAIRED center, PAIRED above, PAIRED right)
 {
 #if BRANCHES
-    if (left.x == center.x && below.x == center.x && above.x == center.x && right.x == center.x)
-        return accessibility_of(center);
+    if (is_same(left, center) && is_same(below, center) && is_same(above, center) && is_same(right, center))
+        return contents_of(center);
 #endif
     float tolerance = line_tolerance(center.y);
     float hollow = linear_error(BLUR_HOLLOW * gOcclusionRadius, center.y);
@@ -71,7 +69,6 @@ float blurred_wide(vec2 left, vec2 below, vec2 center, vec2 above, vec2 right)
         joins.w = joins.w && !turns_away(projected_normal(codes.w) - own, vec2(1.0, 0.0));
     }
     vec4 weights = mix(vec4(0.0), vec4(0.1875), joins);
-    vec4 taps = vec4(accessibility_of(left), accessibility_of(below), accessibility_of(above), accessibility_of(right));
-    float sum = 0.25 * accessibility_of(center) + dot(weights, taps);
+    CONTENTS sum = 0.25 * contents_of(center) + weighted(weights, left, below, above, right);
     return sum / (0.25 + dot(weights, vec4(1.0)));
 }

@@ -8,19 +8,24 @@
 // The difference that a neighbour around a crease counts as having: larger than any other.
 const float AROUND_CREASE = 1e16;
 
-// Accessibility at a full-size uv, whose coordinates are `odd` (1) where they lie midway between a and d of the paired
-// map: b differs from a in x alone, c in y; where a coordinate is even, the two are the same.
-float upsampled(vec2 a, vec2 b, vec2 c, vec2 d, vec2 odd, vec2 full_uv)
+// Accessibility at a full-size uv, with BENT 1 what shared/bent.glsl delivers. Coordinates are `odd` (1) where they lie midway
+// between a and d of the paired map: b differs from a in x alone, c in y; where a coordinate is even, the two are the same.
+CONTENTS upsampled(PAIRED a, PAIRED b, PAIRED c, PAIRED d, vec2 odd, vec2 full_uv)
 {
     float depth = depth_component(textureLod(u_depth_map, full_uv, 0.0));
     float own = linear_from_depth(depth);
-    vec4 values = vec4(accessibility_of(a), accessibility_of(b), accessibility_of(c), accessibility_of(d));
     vec4 apart = vec4(a.y, b.y, c.y, d.y) - own;
     vec4 off = abs(apart);
     uvec4 codes = uvec4(normal_code(a), normal_code(b), normal_code(c), normal_code(d));
+#if BENT
+    vec3 stored = textureLod(u_normal_map, full_uv, 0.0).xyz;
+#endif
     // Most pixels have neighbours that all face the same way, which spares a GPU this.
     if (any(notEqual(codes.xxx, codes.yzw))) {
-        vec2 projected = projected_normal(decoded_normal(textureLod(u_normal_map, full_uv, 0.0).xyz));
+#if !BENT
+        vec3 stored = textureLod(u_normal_map, full_uv, 0.0).xyz;
+#endif
+        vec2 projected = projected_normal(decoded_normal(stored));
         bvec4 turned = bvec4(turns_away(projected_normal(codes.x) - projected, -odd),
                              turns_away(projected_normal(codes.y) - projected, vec2(odd.x, -odd.y)),
                              turns_away(projected_normal(codes.z) - projected, vec2(-odd.x, odd.y)),
@@ -33,22 +38,36 @@ float upsampled(vec2 a, vec2 b, vec2 c, vec2 d, vec2 odd, vec2 full_uv)
     // The nearest neighbour always counts.
     near = max(near, min(min(off.x, off.y), min(off.z, off.w)));
     vec4 weights = vec4(lessThanEqual(off, vec4(near)));
-    return is_sky(depth) ? 1.0 : dot(weights, values) / dot(weights, vec4(1.0));
+    CONTENTS mean = weighted(weights, a, b, c, d) / dot(weights, vec4(1.0));
+#if BENT
+    return delivered(mean, is_sky(depth), normal_view_from_stored(stored));
+#else
+    return is_sky(depth) ? 1.0 : mean;
+#endif
 }
 
-// Accessibility of the four full-size pixels that texel a is the lower left of: lower left, at full_uv, which is its own,
-// lower right, upper left and upper right.
-vec4 upsampled_block(vec2 a, vec2 b, vec2 c, vec2 d, vec2 full_uv)
+// The four full-size pixels that texel a is the lower left of.
+struct block {
+    CONTENTS lower_left, lower_right, upper_left, upper_right;
+};
+
+// `full_uv`: of the lower left one, which is the texel's own.
+block upsampled_block(PAIRED a, PAIRED b, PAIRED c, PAIRED d, vec2 full_uv)
 {
-#if BRANCHES
+#if BRANCHES && !BENT
     // Where nothing occludes any of them, neither depth nor normals matter. The bits of the normal only add to 1.
     if (min(min(a.x, b.x), min(c.x, d.x)) >= 1.0)
-        return vec4(1.0);
+        return block(1.0, 1.0, 1.0, 1.0);
 #endif
     vec2 full_next = full_uv + gFullTexel;
     bool sky = is_sky(depth_component(textureLod(u_depth_map, full_uv, 0.0)));
-    return vec4(sky ? 1.0 : accessibility_of(a),
-                upsampled(a, b, a, b, vec2(1.0, 0.0), vec2(full_next.x, full_uv.y)),
-                upsampled(a, a, c, c, vec2(0.0, 1.0), vec2(full_uv.x, full_next.y)),
-                upsampled(a, b, c, d, vec2(1.0), full_next));
+#if BENT
+    CONTENTS own = delivered(contents_of(a), sky, normal_view_at_uv(full_uv));
+#else
+    CONTENTS own = sky ? 1.0 : contents_of(a);
+#endif
+    return block(own,
+                 upsampled(a, b, a, b, vec2(1.0, 0.0), vec2(full_next.x, full_uv.y)),
+                 upsampled(a, a, c, c, vec2(0.0, 1.0), vec2(full_uv.x, full_next.y)),
+                 upsampled(a, b, c, d, vec2(1.0), full_next));
 }

@@ -93,6 +93,7 @@ static void run_schedule(glssao_effect *effect, const call *c, const glssao__sch
     last->result = schedule->result;
     last->other = schedule->other;
     last->has_tiles = schedule->has_tiles;
+    last->has_bent = c->settings->bent_normals;
     last->margin = c->frame->margin;
     last->depth_texture =
         c->frame->depth_kind == GLSSAO_DEPTH_NORMAL_ALPHA ? c->frame->normal_texture : c->frame->depth_texture;

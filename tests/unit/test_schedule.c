@@ -22,7 +22,7 @@ static void spell(const glssao__schedule *s, char *out, size_t size)
         const glssao__step *step = &s->steps[i];
         const size_t length = strlen(out);
         snprintf(out + length, size - length, "%s%s%s", i ? " " : "",
-                 step->kind == STEP_CLEAR_TO_ONE    ? "=1"
+                 step->kind == STEP_CLEAR_TO_OPEN    ? "=1"
                  : step->kind == STEP_CLEAR_TO_ZERO ? "=0"
                                                     : glssao__shader_name(step->shader),
                  step->kind == STEP_DISPATCH ? "!" : "");

@@ -155,6 +155,7 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     glssao_tiles tiles;            /* the picture is the same with and without, within a step of R16 */
     /* For teaching: */
     bool no_angle_weight;          /* classic: occluders count at any angle, so flat surfaces darken */
+    bool bent_normals;             /* horizon: also write GLSSAO_MAP_BENT_NORMAL */
 } glssao_settings;
 
 /* ---- frame: what the host hands over each time ---------------------------------------------------------- */
@@ -209,8 +210,12 @@ typedef enum glssao_map_id { /* textures to look at */
     GLSSAO_MAP_NORMAL,        /* the effect's own normal map, RGBA16F, full size */
     GLSSAO_MAP_RANDOM_VECTOR, /* RGBA8, 256 x 256 */
     GLSSAO_MAP_DEPTH,         /* the host's depth texture as last handed over; 0 before the first */
-    GLSSAO_MAP_TILES          /* R32F, one texel for each tile: its distance in tiles from the nearest one that was estimated,
+    GLSSAO_MAP_TILES,         /* R32F, one texel for each tile: its distance in tiles from the nearest one that was estimated,
                                  over 16; 0 for an estimated one. No texture where the last frame had no tiles */
+    GLSSAO_MAP_BENT_NORMAL    /* with settings.bent_normals, else none: RGBA16F, of the result's size. rgb: view-space mean of
+                                 the directions that no occluder within the radius blocks, each weighted by its cosine
+                                 with the normal, unit length; nearly closed: towards the normal; sky: (0, 0, 1). Alpha:
+                                 the result. How to light with it: docs/integration.md */
 } glssao_map_id;
 
 /* The uniform block cbSsao, std140, with the D3D12 demo's members and names. Matrices are column-major. */

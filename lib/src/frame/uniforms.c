@@ -146,6 +146,8 @@ static void fill_tiles(glssao__frame_block *c, const glssao_settings *s, int rin
     c->gTileRings = (float)(rings + 3);
 }
 
+static const float LEAST_RADIUS = 1e-12f; /* scene units */
+
 static void fill_frame(glssao__frame_block *c, const glssao__uniforms_source *source)
 {
     const glssao_frame *frame = source->frame;
@@ -161,13 +163,15 @@ static void fill_frame(glssao__frame_block *c, const glssao__uniforms_source *so
     c->gBlurDepthThreshold = settings->blur_depth_threshold;
     c->gSampleCount = settings->sample_count;
     c->gFactor = settings->half_resolution ? 2 : 1;
-    c->gPerRadius = 1.0f / settings->radius;
+    /* Bent normals are made at radius 0 too: no sample then reaches another pixel. */
+    const float radius = settings->radius > 0.0f ? settings->radius : LEAST_RADIUS;
+    c->gPerRadius = 1.0f / radius;
     const bool orthographic = projection->ray_direction[0] == 0.0f;
     for (int i = 0; i < 2; ++i) {
         const double pixel =
             (double)c->gFactor / source->size[i] * (double)(orthographic ? c->gRayOrigin[i] : c->gRayDirection[i]);
-        c->gPixel[i] = (float)(pixel / (double)settings->radius);
-        c->gPixel[2 + i] = (float)((double)settings->radius / pixel);
+        c->gPixel[i] = (float)(pixel / (double)radius);
+        c->gPixel[2 + i] = (float)((double)radius / pixel);
         c->gEstimateSize[i] = (float)source->estimate_size[i];
         c->gFullTexel[i] = 1.0f / (float)source->size[i];
     }

@@ -268,6 +268,7 @@ enum {
     X(void, Disable, (gl_enum cap))                                                                                    \
     X(void, Disablei, (gl_enum cap, gl_uint index))                                                                    \
     X(void, DrawArrays, (gl_enum mode, gl_int first, gl_sizei count))                                                  \
+    X(void, DrawBuffers, (gl_sizei n, const gl_enum *buffers))                                                         \
     X(void, Enable, (gl_enum cap))                                                                                     \
     X(void, Enablei, (gl_enum cap, gl_uint index))                                                                     \
     X(gl_sync, FenceSync, (gl_enum condition, gl_bitfield flags))                                                      \

@@ -26,7 +26,8 @@ enum {
     STATE_UNIFORMS = 32,    /* uniform buffer bindings */
     STATE_IMAGE = 64,       /* image unit 0, which compute shaders write through */
     STATE_READ = 128,       /* the read framebuffer */
-    STATE_MULTISAMPLE = 256 /* the multisample texture of one unit */
+    STATE_MULTISAMPLE = 256, /* the multisample texture of one unit */
+    STATE_SECOND = 512       /* of a second target: mask and blend switch of draw buffer 1, with STATE_IMAGE image unit 1 */
 };
 
 typedef struct glssao__state_need {
@@ -42,7 +43,7 @@ typedef struct glssao__state {
     gl_int program, vertex_array, draw_framebuffer, read_framebuffer, active_texture;
     gl_float viewport[4];
     gl_int textures[STATE_UNITS], samplers[STATE_UNITS], multisample_texture;
-    gl_int image[6]; /* name, level, layered, layer, access, format */
+    gl_int images[2][6]; /* name, level, layered, layer, access, format */
     gl_int uniform_buffer;
     struct {
         gl_int buffer;
@@ -56,7 +57,7 @@ typedef struct glssao__state {
     gl_boolean depth_mask;
     gl_boolean color_masks[STATE_DRAW_BUFFERS][4];
     gl_int blend_function[4], blend_equation[2];
-    gl_boolean blend, scissor;
+    gl_boolean blend[2], scissor;
     gl_int scissor_box[4];
     gl_boolean toggles[STATE_TOGGLES];
 } glssao__state;
@@ -72,6 +73,7 @@ void glssao__state_restore(const glssao__gl *gl, const glssao__state *state);
 
 /* For draws between save and restore, where the part is saved. */
 void glssao__state_blend(const glssao__gl *gl, gl_enum source, gl_enum destination); /* colour; alpha stays */
+void glssao__state_add(const glssao__gl *gl);                                        /* all channels */
 void glssao__state_scissor(const glssao__gl *gl, const gl_int box[4]);               /* NULL: off */
 void glssao__state_viewport(const glssao__gl *gl, const gl_float viewport[4]);
 

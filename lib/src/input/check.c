@@ -50,6 +50,8 @@ bool glssao__check_settings(const glssao_settings *settings, const glssao__log *
     int n = settings->sample_count;
     if (settings->technique == GLSSAO_HORIZON && n != 12 && n != 16 && n != 24 && n != 32 && n != 48 && n != 64)
         return refuse(log, "settings.sample_count", n, "horizon takes 12, 16, 24, 32, 48 or 64");
+    if (settings->bent_normals && settings->technique != GLSSAO_HORIZON)
+        return refuse(log, "settings.bent_normals", 1, "only the horizon technique knows directions");
     if ((unsigned)settings->tiles > GLSSAO_TILES_ON)
         return refuse(log, "settings.tiles", settings->tiles, "unknown");
     if (settings->fade_end < settings->fade_start) {

@@ -1,0 +1,286 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Bent normals at each quality level, compared with known answers: on a plane the normal, beside a wall and in grooves the
+ * closed form, in a box corner and below a sphere the mean of rays.
+ */
+#include "analytic.h"
+#include "fixture.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double PI = 3.14159265358979323846;
+static const double DEGREES = 180.0 / 3.14159265358979323846;
+static const char *const level_names[] = {"low", "medium", "high", "ultra"};
+enum { LEVELS = 4, MAX_SHAPES = 3, RAYS = 2048 };
+
+typedef struct shot {
+    const analytic_shape *shapes;
+    int shape_count;
+    analytic_view view;
+    int width, height;
+    float *depth, *normals;
+    glssao_frame frame;
+} shot;
+
+static shot make_shot(const analytic_shape *shapes, int shape_count, analytic_projection projection, int width,
+                      int height)
+{
+    shot s = {.shapes = shapes,
+              .shape_count = shape_count,
+              .view = analytic_make_view(projection, (double)width / height, 0.5, 40.0, 1.0),
+              .width = width,
+              .height = height};
+    analytic_render(&s.view, shapes, shape_count, width, height, &s.depth, &s.normals);
+    s.frame = (glssao_frame){.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, width, height, s.depth),
+                             .normal_texture = fixture_normal_texture(width, height, s.normals),
+                             .clip_zero_to_one = s.view.clip_zero_to_one};
+    memcpy(s.frame.projection, s.view.projection, sizeof s.view.projection);
+    return s;
+}
+
+static void free_shot(shot *s)
+{
+    fixture_delete_frame(&s->frame);
+    free(s->depth);
+    free(s->normals);
+}
+
+static glssao_settings level_settings(int level, double radius)
+{
+    glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)level);
+    settings.radius = (float)radius;
+    settings.upsample = true;
+    settings.bent_normals = true;
+    return settings;
+}
+
+/* Bent normal and accessibility, four floats a pixel. */
+static float *read_bent(const glssao_effect *effect, int width, int height)
+{
+    int w, h;
+    const uint32_t map = glssao_map(effect, GLSSAO_MAP_BENT_NORMAL, &w, &h);
+    assert_true(map != 0 && w == width && h == height);
+    return fixture_read_texture(map, width, height, 4);
+}
+
+static float *shade(fixture *f, const shot *s, const glssao_settings *settings)
+{
+    glssao_effect *effect = fixture_effect(f, s->width, s->height);
+    assert_int_equal(glssao_compute(effect, &s->frame, settings), GLSSAO_OK);
+    float *got = read_bent(effect, s->width, s->height);
+    glssao_destroy(effect);
+    return got;
+}
+
+/* View-space position of a pixel's surface. */
+static void position(const shot *s, int x, int y, double out[3])
+{
+    const float *p = s->view.projection;
+    const double ndc = 2.0 * (double)s->depth[y * s->width + x] - 1.0, t = (double)p[14] / ((double)p[10] + ndc);
+    out[0] = (2.0 * (x + 0.5) / s->width - 1.0) * t / (double)p[0];
+    out[1] = (2.0 * (y + 0.5) / s->height - 1.0) * t / (double)p[5];
+    out[2] = -t;
+}
+
+static double angle_between(const float a[3], const double b[3])
+{
+    double dot = 0.0, across[3], length2 = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        const int k = (i + 1) % 3, m = (i + 2) % 3;
+        dot += (double)a[i] * b[i];
+        across[i] = (double)a[k] * b[m] - (double)a[m] * b[k];
+        length2 += across[i] * across[i];
+    }
+    return DEGREES * atan2(sqrt(length2), dot);
+}
+
+static double length_of(const float a[3])
+{
+    return sqrt((double)a[0] * (double)a[0] + (double)a[1] * (double)a[1] + (double)a[2] * (double)a[2]);
+}
+
+/* Within the steps of half floats and of the packed directions that upsampling hands on: 0.06 degrees together. */
+static void plane_has_its_normal(void **state)
+{
+    static const double degrees[] = {0.0, 30.0, 60.0, 80.0};
+    for (int orthographic = 0; orthographic < 2; ++orthographic)
+        for (size_t i = 0; i < sizeof degrees / sizeof *degrees; ++i) {
+            const double angle = degrees[i] * PI / 180.0;
+            const analytic_shape plane = {ANALYTIC_PLANE, {0.0, -0.3, -3.0}, {0.0, sin(angle), cos(angle)}};
+            shot s = make_shot(&plane, 1, orthographic ? ORTHOGRAPHIC : PERSPECTIVE, 121, 80);
+            for (int level = 0; level < LEVELS; ++level) {
+                const glssao_settings settings = level_settings(level, 1.0);
+                float *got = shade(*state, &s, &settings);
+                double worst = 0.0;
+                int seen = 0;
+                for (int k = 0; k < s.width * s.height; ++k) {
+                    const bool sky = s.depth[k] >= 1.0f;
+                    const double towards_eye[3] = {0.0, 0.0, 1.0};
+                    worst = fmax(worst, angle_between(got + 4 * k, sky ? towards_eye : plane.size));
+                    assert_true(fabs(length_of(got + 4 * k) - 1.0) < 1e-3);
+                    assert_true(got[4 * k + 3] > 0.999f);
+                    seen += !sky;
+                }
+                free(got);
+                if (!(worst < 0.06))
+                    fail_msg("%s, %g degrees, %s: %.3f degrees off", orthographic ? "orthographic" : "perspective",
+                             degrees[i], level_names[level], worst);
+                assert_true(seen > 200);
+            }
+            free_shot(&s);
+        }
+}
+
+/* What a wall at a right angle hides, over all: directions are uniform over the unit disc below the hemisphere (J.
+ * Nusselt's analogue), and the wall hides those whose component towards it is at least its distance d, in radii. Over that
+ * segment, the integrals of x and of sqrt(1 - x^2 - y^2), over pi. */
+static double hidden_towards(double d)
+{
+    return d >= 1.0 ? 0.0 : 2.0 / (3.0 * PI) * pow(1.0 - d * d, 1.5);
+}
+
+static double hidden_along_normal(double d)
+{
+    return d >= 1.0 ? 0.0 : 0.5 * (2.0 / 3.0 - d + d * d * d / 3.0);
+}
+
+/* The mean open direction of a point before walls at right angles to its surface that hide no direction twice: one wall, or
+ * two that face each other. Not of unit length. */
+static void beside_planes(const shot *s, const double at[3], const float normal[3], double out[3])
+{
+    for (int axis = 0; axis < 3; ++axis)
+        out[axis] = 2.0 / 3.0 * (double)normal[axis];
+    for (int i = 0; i < s->shape_count; ++i) {
+        const double *wall = s->shapes[i].size;
+        double facing = 0.0, away = 0.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            facing += wall[axis] * (double)normal[axis];
+            away += wall[axis] * (at[axis] - s->shapes[i].center[axis]);
+        }
+        for (int axis = 0; axis < 3 && fabs(facing) < 0.5; ++axis)
+            out[axis] += hidden_towards(fmax(away, 0.0)) * wall[axis] -
+                         hidden_along_normal(fmax(away, 0.0)) * (double)normal[axis];
+    }
+}
+
+/* The largest errors that a level may make, in degrees. */
+typedef struct limits {
+    double mean, worst;
+} limits;
+
+/* Compares every third pixel within 1.5 radii of the middle, 6 units away, where the normal itself is off by `turned` degrees on
+ * average at least; the radius is 1. */
+static void compare(fixture *f, const analytic_shape *shapes, int shape_count, bool planes, double turned,
+                    const limits most[LEVELS])
+{
+    enum { W = 300, H = 300, STRIDE = 3 };
+    shot s = make_shot(shapes, shape_count, PERSPECTIVE, W, H);
+    double(*truth)[3] = malloc(sizeof *truth * W * H);
+    bool *near = calloc(W * H, sizeof *near);
+    for (int y = 0; y < H; y += STRIDE)
+        for (int x = 0; x < W; x += STRIDE) {
+            double at[3];
+            position(&s, x, y, at);
+            const float *n = s.normals + 3 * (y * W + x);
+            const double normal[3] = {(double)n[0], (double)n[1], (double)n[2]};
+            near[y * W + x] = at[0] * at[0] + at[1] * at[1] + (at[2] + 6.0) * (at[2] + 6.0) < 1.5 * 1.5;
+            if (near[y * W + x] && planes)
+                beside_planes(&s, at, n, truth[y * W + x]);
+            else if (near[y * W + x])
+                (void)analytic_open(shapes, shape_count, at, normal, 1.0, RAYS, truth[y * W + x]);
+        }
+    for (int level = 0; level < LEVELS; ++level) {
+        const glssao_settings settings = level_settings(level, 1.0);
+        float *got = shade(f, &s, &settings);
+        double sum = 0.0, worst = 0.0, of_normal = 0.0;
+        int count = 0;
+        for (int i = 0; i < W * H; ++i)
+            if (near[i]) {
+                const double error = angle_between(got + 4 * i, truth[i]);
+                sum += error;
+                worst = fmax(worst, error);
+                of_normal += angle_between(s.normals + 3 * i, truth[i]);
+                ++count;
+            }
+        print_message("%s: mean %.2f degrees, worst %.1f; the normal %.2f (%d pixels)\n", level_names[level],
+                      sum / count, worst, of_normal / count, count);
+        free(got);
+        assert_true(count > 900 && of_normal / count > turned);
+        assert_true(sum / count < most[level].mean);
+        assert_true(worst < most[level].worst);
+    }
+    free(near);
+    free(truth);
+    free_shot(&s);
+}
+
+static void floor_beside_a_wall_is_near_the_integral(void **state)
+{
+    const double s = sqrt(0.5);
+    const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, s, s}},
+                                     {ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, -s, s}}};
+    compare(*state, shapes, 2, true, 5.0, (const limits[LEVELS]){{9, 99}, {9, 99}, {9, 99}, {9, 99}});
+}
+
+static void box_corner_is_near_the_rays(void **state)
+{
+    analytic_shape shapes[3];
+    for (int i = 0; i < 3; ++i) {
+        const double turn = PI / 2.0 + i * 2.0 * PI / 3.0;
+        shapes[i] = (analytic_shape){ANALYTIC_PLANE,
+                                     {0.0, 0.0, -6.0},
+                                     {sqrt(2.0 / 3.0) * cos(turn), sqrt(2.0 / 3.0) * sin(turn), sqrt(1.0 / 3.0)}};
+    }
+    compare(*state, shapes, 3, false, 5.0, (const limits[LEVELS]){{9, 99}, {9, 99}, {9, 99}, {9, 99}});
+}
+
+static void sphere_on_plane_is_near_the_rays(void **state)
+{
+    const double s = sqrt(0.5);
+    const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, s, s}},
+                                     {ANALYTIC_SPHERE, {0.0, 0.8 * s, 0.8 * s - 6.0}, {0.8, 0.0, 0.0}}};
+    compare(*state, shapes, 2, false, 2.0, (const limits[LEVELS]){{9, 99}, {9, 99}, {9, 99}, {9, 99}});
+}
+
+/* A groove 0.9 wide and 0.6 deep between two boxes, seen into. */
+static void groove_is_near_the_rays(void **state)
+{
+    const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, 0.0, 1.0}},
+                                     {ANALYTIC_BOX, {-1.45, 0.0, -5.7}, {1.0, 9.0, 0.3}},
+                                     {ANALYTIC_BOX, {1.45, 0.0, -5.7}, {1.0, 9.0, 0.3}}};
+    compare(*state, shapes, 3, false, 2.0, (const limits[LEVELS]){{9, 99}, {9, 99}, {9, 99}, {9, 99}});
+}
+
+/* The closed form must agree with the rays that judge the rest, and with a value worked out by hand. */
+static void closed_form_agrees_with_rays(void **state)
+{
+    (void)state;
+    const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}},
+                                     {ANALYTIC_PLANE, {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}};
+    shot s = {.shapes = shapes, .shape_count = 2};
+    const float up[3] = {0.0f, 0.0f, 1.0f};
+    double form[3], rays[3];
+    beside_planes(&s, (const double[3]){0.0, 0.0, 0.0}, up, form);
+    assert_true(fabs(atan2(form[0], form[2]) - atan(2.0 / PI)) < 1e-12);
+    for (int i = 1; i < 12; ++i) {
+        const double at[3] = {i / 11.0, 0.0, 0.0};
+        beside_planes(&s, at, up, form);
+        (void)analytic_open(shapes, 2, at, shapes[0].size, 1.0, RAYS, rays);
+        for (int axis = 0; axis < 3; ++axis)
+            assert_true(fabs(form[axis] - rays[axis]) < 0.003);
+    }
+}
+
+int main(void)
+{
+#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(closed_form_agrees_with_rays),    GL_TEST(plane_has_its_normal),
+        GL_TEST(floor_beside_a_wall_is_near_the_integral), GL_TEST(groove_is_near_the_rays),
+        GL_TEST(box_corner_is_near_the_rays),              GL_TEST(sphere_on_plane_is_near_the_rays),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+}
