@@ -88,6 +88,27 @@ static const option table[] = {
      AT(memory_mib), 1, 1e9, "a whole number from 1", SCOPE_PICTURE},
     {0, "scene", "NAME", "draw a built-in scene: columns, cornell, steps or plane (default columns)", OPTION_TEXT,
      AT(scene_name), 0, 0, "", SCOPE_PICTURE},
+    {0, "depth-in", "FILE",
+     "estimate the occlusion of a depth map (.pfm, 16-bit .png, .npy, .exr) instead of drawing a scene; it needs one "
+     "of "
+     "--fov, --ortho-height, --projection and --heightmap",
+     OPTION_FILE, AT(depth_in), 0, 0, "", SCOPE_RENDERED},
+    {0, "depth-kind", "KIND",
+     "what the depth map holds: view distance, or what a depth buffer stores under clip space of -1 to 1 or of 0 to 1: "
+     "distance, window or window-0-1 (default distance)",
+     OPTION_WORD, AT(depth_kind), 0, 0, OPTIONS_DEPTH_WORDS, SCOPE_RENDERED},
+    {0, "depth-scale", "S", "multiply the depth map's values by S, such as 0.001 for a PNG of millimetres (default 1)",
+     OPTION_NUMBER, AT(depth_scale), FLT_MIN, FLT_MAX, "a number above 0", SCOPE_RENDERED},
+    {0, "normals-in", "FILE",
+     "view-space normals of the depth map, in the same formats; a PNG holds n * 0.5 + 0.5 (default: rebuilt from "
+     "depth)",
+     OPTION_FILE, AT(normals_in), 0, 0, "", SCOPE_RENDERED},
+    {0, "ortho-height", "H", "the depth map has a parallel projection and is H scene units high", OPTION_NUMBER,
+     AT(ortho_height), FLT_MIN, FLT_MAX, "a number above 0", SCOPE_RENDERED},
+    {0, "projection", "M0,...,M15", "the depth map's projection, 16 numbers in columns as OpenGL takes them",
+     OPTION_MATRIX, AT(projection), 0, 0, "16 numbers with commas between them", SCOPE_RENDERED},
+    {0, "heightmap", "SPACING", "the depth map holds heights of ground, that many scene units apart, seen from above",
+     OPTION_NUMBER, AT(heightmap), FLT_MIN, FLT_MAX, "a number above 0", SCOPE_RENDERED},
     {0, "context", "KIND", "where the OpenGL context comes from: auto, egl or osmesa (default auto)", OPTION_WORD,
      AT(context), 0, 0, CONTEXT_WORDS, SCOPE_RENDERED_RUN},
     {0, "path", "WAY", "run occlusion in compute or fragment shaders: auto, fragment or compute (default auto)",

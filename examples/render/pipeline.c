@@ -15,8 +15,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* A radius that differs from the default scales the other lengths of the effect by the same factor. */
-glssao_settings pipeline_settings(const options *o, const scene *s)
+/* A radius that differs from that of the level scales the other lengths of the effect by the same factor. */
+glssao_settings pipeline_settings_at(const options *o, float radius)
 {
     const bool traced = o->technique == OPTIONS_RAYTRACE;
     glssao_settings settings =
@@ -25,12 +25,7 @@ glssao_settings pipeline_settings(const options *o, const scene *s)
         settings.power = 1;
         settings.sample_count = 512;
     }
-    float radius = settings.radius;
-    if (o->radius.given)
-        radius = o->radius.value;
-    else if (o->scene_path)
-        radius = camera_suggest_radius(s);
-    setting_scale_radius(&settings, radius);
+    setting_scale_radius(&settings, o->radius.given ? o->radius.value : radius > 0 ? radius : settings.radius);
     if (o->power.given)
         settings.power = o->power.value;
     if (o->sample_count)
@@ -41,6 +36,11 @@ glssao_settings pipeline_settings(const options *o, const scene *s)
         setting_apply(o->set, &settings, &(failure){0}); /* options_parse made sure that it is valid */
     }
     return settings;
+}
+
+glssao_settings pipeline_settings(const options *o, const scene *s)
+{
+    return pipeline_settings_at(o, o->scene_path ? camera_suggest_radius(s) : 0);
 }
 
 /* The last error that the library logged. It becomes part of the line that reports a failed job. */

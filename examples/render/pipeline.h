@@ -116,6 +116,9 @@ bool pipeline_is_in_memory(const pipeline *p, pipeline_output output, pixel_kind
 /* Accessibility as PIXELS_GREY8 or PIXELS_FLOAT. The caller frees it. NULL if memory is short. */
 void *pipeline_read_ao(pipeline *p, pixel_kind kind);
 
+/* The settings that the options ask for, with this radius unless they name one; 0: that of the level. */
+glssao_settings pipeline_settings_at(const options *o, float radius);
+
 /* Prints a table of the passes that a frame runs and skips to stdout. */
 void pipeline_print_plan(const pipeline *p, const scene_view *view);
 

@@ -16,8 +16,7 @@ vec4 gDepthStep;            // what a step of the depth format comes to in view 
 vec4 gLogDepth;             // logarithmic depth: x: log2(c far + 1), y: 1 / c
 vec4 gTiles;                // x: side of a tile, pixels of the estimate; y: how far samples reach, in radii; z: sine of
                             // the angle that still is flat, 0: no plane counts; w: scene units of range that do not occlude
-vec4 gPixel;                // xy: radii that a pixel of the estimate is wide, in perspective per unit of view distance; zw: 1 over it
+vec4 gPixel;                // xy: scene units that a pixel of the estimate is wide, in perspective per unit of view distance; zw: 1 over it
 vec2 gEstimateSize;         // of the ambient map, pixels
 vec2 gFullTexel;            // a texel of the host's maps, in uv
 float gTileRings;           // how far tiles are told from the nearest that needs an estimate
-float gPerRadius;           // 1 / gOcclusionRadius

@@ -56,9 +56,8 @@ const float CALIBRATION = CALIBRATION_6;
 const float BEFORE_THE_POINT = -100.0;
 // Straight below the point, where a sample hides nothing.
 const vec2 BELOW_THE_POINT = vec2(0.0, -1e6);
-// Bounds of layers, so that no square overflows, and of steps, so that pixel coordinates stay exact.
+// A bound of layers, so that no square overflows.
 const float MOST_RADII = 1e6;
-const float MOST_PIXELS = 1e5;
 // Seen edge-on, the tangent plane is all slope: the bound keeps the height of a snapped sample of the order of its x.
 const float STEEPEST = 40.0;
 
@@ -95,6 +94,8 @@ struct point {
     float distance;       // scene units
     float scale;          // a pixel's width grows with it: the view distance in perspective, else 1
     float per_scale;      // STEP / scale: the width of a step
+    float radius;         // scene units
+    vec2 pixel;           // radii that a pixel is wide, in perspective per unit of view distance
     float y_per_distance; // radii per scene unit, along the ray
     float y_step;         // a step of the depth format, in radii
     vec3 normal_view;
@@ -301,7 +302,7 @@ vec3 hidden_vector = vec3(0.0); // view space, sum over the slices
 float slice_occlusion(point p, float angle)
 {
     vec2 direction = vec2(cos(PI * angle), sin(PI * angle));
-    vec2 step_px = STEP * clamp(float(STEPS) * p.per_scale * direction * gPixel.zw, -MOST_PIXELS, MOST_PIXELS);
+    vec2 step_px = p.radius * p.per_scale * direction * gPixel.zw;
     vec2 way = mix(vec2(-1.0), vec2(1.0), greaterThan(step_px, vec2(0.0)));
     vec3 along = vec3(direction, 0.0);
     along = normalize(along - p.up_view * dot(along, p.up_view)); // never of length 0: up is a ray that leaves the picture
@@ -322,8 +323,8 @@ float slice_occlusion(point p, float angle)
     slice_side side;
     side.step_px = abs(step_px);
     side.first_px = (1.0 - p.jitter) * side.step_px;
-    side.x_per_px = way * gPixel.xy * along.xy;
-    vec2 y_per_px = gPixel.xy * (p.up_view.xy + slope * across.xy);
+    side.x_per_px = way * p.pixel * along.xy;
+    vec2 y_per_px = p.pixel * (p.up_view.xy + slope * across.xy);
     // A fifth of a pixel.
     vec2 pixel_x = p.scale * side.x_per_px;
     side.least_x = 0.2 * sqrt(dot(pixel_x, pixel_x));
@@ -389,8 +390,10 @@ RESULT result()
     p.distance = distance;
     p.scale = orthographic() ? 1.0 : distance;
     p.per_scale = STEP / p.scale;
-    p.y_per_distance = ray_length * gPerRadius;
-    p.y_step = p.y_per_distance * depth_step(distance + gOcclusionRadius);
+    p.radius = radius_at(distance);
+    p.pixel = gPixel.xy / p.radius;
+    p.y_per_distance = ray_length / p.radius;
+    p.y_step = p.y_per_distance * depth_step(distance + p.radius);
     p.normal_view = normal_view;
     p.up_view = -ray / ray_length;
     p.jitter = noise.y;

@@ -7,6 +7,7 @@
 
 #include "accumulate.h"
 #include "frame/execute.h"
+#include "input/depth_copy.h"
 #include "input/host_textures.h"
 #include "log.h"
 #include "normals.h"
@@ -17,6 +18,7 @@ typedef struct glssao__last_frame {
     enum glssao__map result, other;
     bool has_tiles, has_bent;
     int margin;
+    int viewport[4];       /* the frame's */
     gl_uint depth_texture; /* the host's, as last handed over */
     int draw_calls[GLSSAO_PASS_COUNT];
 } glssao__last_frame;
@@ -33,7 +35,14 @@ struct glssao_effect {
     glssao__host_textures known; /* with host_restores_state */
     glssao__accumulation accumulation;
     glssao__normals normals;
+    glssao__depth_copy depth_copy;
     glssao__last_frame last;
+    unsigned told; /* bit i: what glssao_apply ignores was logged */
 };
+
+/* False, after a line in the log, between glssao_begin_normals and glssao_end_normals. */
+bool glssao__effect_is_closed(const glssao_effect *effect, const char *function);
+/* Refuses state of the host that no call can work with. */
+glssao_result glssao__effect_check_state(const glssao_effect *effect, const char *function);
 
 #endif

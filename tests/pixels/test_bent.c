@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Bent normals at each quality level, compared with known answers: on a plane the normal, beside a wall and in grooves the
- * closed form, in a box corner and below a sphere the mean of rays.
+ * Bent normals at each quality level, compared with known answers: on a plane the normal, beside a wall and in grooves
+ * the closed form, in a box corner and below a sphere the mean of rays.
  */
 #include "analytic.h"
 #include "fixture.h"
@@ -135,8 +135,8 @@ static void plane_has_its_normal(void **state)
 }
 
 /* What a wall at a right angle hides, over all: directions are uniform over the unit disc below the hemisphere (J.
- * Nusselt's analogue), and the wall hides those whose component towards it is at least its distance d, in radii. Over that
- * segment, the integrals of x and of sqrt(1 - x^2 - y^2), over pi. */
+ * Nusselt's analogue), and the wall hides those whose component towards it is at least its distance d, in radii. Over
+ * that segment, the integrals of x and of sqrt(1 - x^2 - y^2), over pi. */
 static double hidden_towards(double d)
 {
     return d >= 1.0 ? 0.0 : 2.0 / (3.0 * PI) * pow(1.0 - d * d, 1.5);
@@ -147,8 +147,8 @@ static double hidden_along_normal(double d)
     return d >= 1.0 ? 0.0 : 0.5 * (2.0 / 3.0 - d + d * d * d / 3.0);
 }
 
-/* The mean open direction of a point before walls at right angles to its surface that hide no direction twice: one wall, or
- * two that face each other. Not of unit length. */
+/* The mean open direction of a point before walls at right angles to its surface that hide no direction twice: one
+ * wall, or two that face each other. Not of unit length. */
 static void beside_planes(const shot *s, const double at[3], const float normal[3], double out[3])
 {
     for (int axis = 0; axis < 3; ++axis)
@@ -171,8 +171,8 @@ typedef struct limits {
     double mean, worst;
 } limits;
 
-/* Compares every third pixel within 1.5 radii of the middle, 6 units away, where the normal itself is off by `turned` degrees on
- * average at least; the radius is 1. */
+/* Compares every third pixel within 1.5 radii of the middle, 6 units away, where the normal itself is off by `turned`
+ * degrees on average at least; the radius is 1. */
 static void compare(fixture *f, const analytic_shape *shapes, int shape_count, bool planes, double turned,
                     const limits most[LEVELS])
 {
@@ -278,9 +278,12 @@ int main(void)
 {
 #define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(closed_form_agrees_with_rays),    GL_TEST(plane_has_its_normal),
-        GL_TEST(floor_beside_a_wall_is_near_the_integral), GL_TEST(groove_is_near_the_rays),
-        GL_TEST(box_corner_is_near_the_rays),              GL_TEST(sphere_on_plane_is_near_the_rays),
+        cmocka_unit_test(closed_form_agrees_with_rays),
+        GL_TEST(plane_has_its_normal),
+        GL_TEST(floor_beside_a_wall_is_near_the_integral),
+        GL_TEST(groove_is_near_the_rays),
+        GL_TEST(box_corner_is_near_the_rays),
+        GL_TEST(sphere_on_plane_is_near_the_rays),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
 }

@@ -182,8 +182,13 @@ static void quarter_turns_turn_the_picture(void **state)
 static void check_radius(fixture *f, const configuration *c, const picture *first)
 {
     (void)first;
+    /* The last is a million times the distance of what is farthest. */
+    static const float radii[] = {0.0625f, 0.125f, 0.25f, 0.5f, 1.0f, 4.0f, 1e2f, 1e3f, 1e4f, 1e7f};
+    /* Samples of the others spread over more than the picture shows. */
+    const int count = c->settings.technique == GLSSAO_HORIZON ? 10 : 5;
     double before = 2.0;
-    for (float radius = 0.0625f; radius <= 1.0f; radius *= 2.0f) {
+    for (int i = 0; i < count; ++i) {
+        const float radius = radii[i];
         glssao_settings s = c->settings;
         s.radius = radius;
         s.surface_epsilon = 0.01f; /* the same for all */

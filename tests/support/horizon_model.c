@@ -58,7 +58,7 @@ static void take_sample(const point *p, const slice *s, double along, candidate 
         const double distance = (double)in->distance[ty * in->width + tx];
         const rounded offset[2] = {exactly(tx - center[0]), exactly(ty - center[1])};
         const rounded scale = exactly(p->orthographic ? 1.0 : distance);
-        const rounded deeper = divide(p->ray_length, once_rounded(in->radius));
+        const rounded deeper = divide(p->ray_length, p->radius);
         const double direction = along < 0.0 ? -1.0 : 1.0;
         candidate *c = &out[(*out_count)++];
         c->x = multiply(scale, add(multiply(offset[0], s->x_per_px[0]), multiply(offset[1], s->x_per_px[1])));
@@ -79,13 +79,11 @@ static void take_sample(const point *p, const slice *s, double along, candidate 
 
 static slice make_slice(const point *p, double angle, double jitter)
 {
-    const horizon_input *in = p->in;
     slice s = {.jitter = jitter};
     const rounded direction[2] = {{cos(PI * angle), TRIGONOMETRY}, {sin(PI * angle), TRIGONOMETRY}};
-    const rounded radius = once_rounded(in->radius);
     for (int axis = 0; axis < 2; ++axis) {
-        const rounded reach = p->orthographic ? radius : divide(radius, exactly(p->distance));
-        s.step_px[axis] = clamp_to(divide(multiply(reach, direction[axis]), p->px[axis]), -1e5, 1e5);
+        const rounded reach = p->orthographic ? p->radius : divide(p->radius, exactly(p->distance));
+        s.step_px[axis] = divide(multiply(reach, direction[axis]), p->px[axis]);
         s.step_px[axis].e += 4.0 * ROUNDING * fabs(s.step_px[axis].v);
     }
     vector along = {direction[0], direction[1], exactly(0.0)};
@@ -98,8 +96,8 @@ static slice make_slice(const point *p, double angle, double jitter)
     const rounded slope = clamp_to(divide(dot(p->normal, across), at_least(normal_up, 1e-3)), -40.0, 40.0);
     const rounded ups[2] = {p->up.x, p->up.y}, alongs[2] = {along.x, along.y}, acrosses[2] = {across.x, across.y};
     for (int axis = 0; axis < 2; ++axis) {
-        s.x_per_px[axis] = divide(multiply(p->px[axis], alongs[axis]), radius);
-        s.y_per_px[axis] = divide(multiply(p->px[axis], add(ups[axis], multiply(slope, acrosses[axis]))), radius);
+        s.x_per_px[axis] = divide(multiply(p->px[axis], alongs[axis]), p->radius);
+        s.y_per_px[axis] = divide(multiply(p->px[axis], add(ups[axis], multiply(slope, acrosses[axis]))), p->radius);
     }
     s.projected =
         square_root(at_least(add(multiply(normal_along, normal_along), multiply(normal_up, normal_up)), 1e-12));
@@ -166,18 +164,29 @@ static void tile_noise(const horizon_input *in, int x, int y, double out[2])
         out[i] = noise[i] + in->noise_offset[i] - floor(noise[i] + in->noise_offset[i]);
 }
 
+/* At most the longer side of the picture, measured where the point is. */
+static rounded radius_at(const horizon_input *in, bool orthographic, double distance)
+{
+    const float *m = in->projection;
+    double longer =
+        0.0; /* clip x or y of -w to w, where w = P15 - P11 t at view distance t, is what the picture shows */
+    for (int axis = 0; axis < 2; ++axis)
+        longer = fmax(longer, fabs(2.0 * (orthographic ? (double)m[15] : -(double)m[11]) / (double)m[5 * axis]));
+    longer *= orthographic ? 1.0 : distance;
+    return in->radius < longer ? once_rounded(in->radius) : (rounded){longer, 4.0 * ROUNDING * longer};
+}
+
 static bool make_point(const horizon_input *in, int x, int y, point *out)
 {
     const float *m = in->projection;
     *out = (point){.in = in, .x = x, .y = y, .orthographic = !(m[11] < 0.0f)};
     out->distance = (double)in->distance[y * in->width + x];
-    const double far = out->distance + in->radius;
-    const double step = in->depth_step[0] + far * (in->depth_step[1] + far * in->depth_step[2]);
     const int full[2] = {x * in->factor, y * in->factor}, size[2] = {in->full_width, in->full_height};
     const float *n = in->normals + 3 * ((size_t)full[1] * (size_t)in->full_width + (size_t)full[0]);
     const double length2 = (double)n[0] * (double)n[0] + (double)n[1] * (double)n[1] + (double)n[2] * (double)n[2];
     if (out->distance >= SKY || !(length2 > 1e-20 && length2 < 1e20))
         return false;
+    out->radius = radius_at(in, out->orthographic, out->distance);
     out->normal = unit((vector){exactly((double)n[0]), exactly((double)n[1]), exactly((double)n[2])});
     rounded ray[2];
     for (int axis = 0; axis < 2; ++axis) {
@@ -193,7 +202,9 @@ static bool make_point(const horizon_input *in, int x, int y, point *out)
     }
     const vector back = {{-ray[0].v, ray[0].e}, {-ray[1].v, ray[1].e}, exactly(1.0)};
     out->ray_length = square_root(dot(back, back));
-    out->y_step = multiply(divide(out->ray_length, once_rounded(in->radius)), (rounded){step, 8.0 * ROUNDING * step});
+    const double far = out->distance + out->radius.v;
+    const double step = in->depth_step[0] + far * (in->depth_step[1] + far * in->depth_step[2]);
+    out->y_step = multiply(divide(out->ray_length, out->radius), (rounded){step, 8.0 * ROUNDING * step});
     out->up = unit(back);
     return true;
 }

@@ -128,7 +128,7 @@ glssao__step *glssao__build_turn(glssao__builder *b, glssao_pass pass, enum glss
         step->region = glssao__region_of(&b->c, pass);
     }
     glssao__build_set(step, MACRO_OUTPUT,
-                      is_result && b->c.bent ? OUTPUT_BENT
+                      is_result && b->c.bent      ? OUTPUT_BENT
                       : !is_result && b->c.paired ? OUTPUT_PAIRED
                                                   : OUTPUT_ACCESSIBILITY);
     step->second = is_result && b->c.bent ? MAP_BENT : MAP_NONE;

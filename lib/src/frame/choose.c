@@ -56,7 +56,7 @@ static const char *nothing_to_occlude(const glssao_frame *frame, const glssao_se
     return NULL;
 }
 
-static bool chooses_compute(const glssao__capabilities *can, const glssao_settings *settings, const char **out_reason)
+static bool chooses_compute(const glssao__capabilities *can, glssao_tiles tiles, const char **out_reason)
 {
     if (can->path == GLSSAO_PATH_FRAGMENT)
         return *out_reason = "the config asks for fragment shaders", false;
@@ -66,11 +66,17 @@ static bool chooses_compute(const glssao__capabilities *can, const glssao_settin
         return *out_reason = "the context has no compute shaders that write images", false;
     if (can->compute_failed)
         return *out_reason = "the driver rejected a compute shader", false;
-    if (settings->tiles == GLSSAO_TILES_ON)
+    if (tiles == GLSSAO_TILES_ON)
         return *out_reason = "tiles are on, and only draws can leave them out", false;
     *out_reason = can->path == GLSSAO_PATH_COMPUTE ? "the config asks for compute shaders"
                                                    : "a GPU runs compute shaders on more of its units";
     return true;
+}
+
+bool glssao__choose_dispatches(const glssao__capabilities *can)
+{
+    const char *reason;
+    return chooses_compute(can, GLSSAO_TILES_OFF, &reason);
 }
 
 static bool can_be_dispatched(const glssao__choice *c, glssao_pass pass)
@@ -202,7 +208,7 @@ void glssao__choose(glssao__choice *c, const glssao__request *q)
     glssao__choose_nothing(&c->plan, nothing ? nothing : "");
     c->nothing = nothing != NULL;
     if (!nothing) {
-        c->compute = chooses_compute(&q->can, settings, &c->plan.path_reason);
+        c->compute = chooses_compute(&q->can, settings->tiles, &c->plan.path_reason);
         c->plan.path = c->compute ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT;
         c->upsamples = settings->half_resolution && settings->upsample;
         choose_passes(c, q);

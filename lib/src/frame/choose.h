@@ -40,6 +40,9 @@ void glssao__choose_nothing(glssao_plan *out, const char *reason);
 /* The size of the maps that an estimate draws into. */
 void glssao__choose_estimate_size(const glssao_settings *settings, const int size[2], int out_size[2]);
 
+/* Whether passes that can be dispatched are, in frames without tiles. */
+bool glssao__choose_dispatches(const glssao__capabilities *can);
+
 const char *glssao__pass_name(glssao_pass pass);
 
 #endif

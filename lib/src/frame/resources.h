@@ -12,7 +12,7 @@
 
 /* The plain uniforms of all programs, as glssao__program.locations has them. */
 enum { SECOND_IMAGE_UNIT = 1 }; /* of a dispatch's second target; the first one's is 0 */
-enum { UNIFORM_HORIZONTAL, UNIFORM_ORIGIN, UNIFORM_TILE_RANGE, UNIFORM_REGION };
+enum { UNIFORM_HORIZONTAL, UNIFORM_ORIGIN, UNIFORM_TILE_RANGE, UNIFORM_REGION, UNIFORM_SHADE, UNIFORM_PICTURE };
 
 typedef struct glssao__resources {
     const glssao__gl *gl;
@@ -37,8 +37,8 @@ glssao_result glssao__resources_resize(glssao__resources *r, const int size[2]);
 
 /* Compiles the programs and makes the maps of a schedule; on failure all maps are as before. */
 glssao_result glssao__resources_prepare(glssao__resources *r, const glssao__schedule *schedule);
-/* Compiles the program of glssao_apply. */
-glssao_result glssao__resources_prepare_apply(glssao__resources *r);
+/* Compiles a program of glssao_apply. */
+glssao_result glssao__resources_prepare_apply(glssao__resources *r, const glssao__variant *variant);
 
 /* Binds the framebuffer of steps with two targets, with these textures attached; 0: none. */
 void glssao__resources_attach(const glssao__resources *r, gl_uint first, gl_uint second);

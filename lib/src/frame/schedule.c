@@ -111,8 +111,7 @@ static void add_estimate(glssao__builder *b)
                                                                                      : SHADER_HORIZON;
     if (b->c.accumulates) {
         const bool is_other = b->c.bent && b->estimates % 2 == 0; /* the replicates take turns (accumulate.c) */
-        glssao__step *step =
-            glssao__build_step(b, GLSSAO_PASS_ESTIMATE, shader, is_other ? MAP_OTHER_SUM : MAP_SUM);
+        glssao__step *step = glssao__build_step(b, GLSSAO_PASS_ESTIMATE, shader, is_other ? MAP_OTHER_SUM : MAP_SUM);
         step->region = glssao__region_of(&b->c, GLSSAO_PASS_ESTIMATE);
         step->adds = true;
         glssao__build_set(step, MACRO_OUTPUT, OUTPUT_SUM);

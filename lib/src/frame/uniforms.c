@@ -104,6 +104,9 @@ void glssao__uniforms_init(glssao__uniforms *u, uint32_t seed)
     init_rotations(&u->hemisphere, seed);
 }
 
+/* Bent normals are made at radius 0 too (scene units): samples then reach no other pixel. */
+static const float LEAST_RADIUS = 1e-12f;
+
 static void fill_ssao(glssao_constants *c, const glssao__uniforms_source *source)
 {
     const glssao_settings *settings = source->settings;
@@ -120,7 +123,7 @@ static void fill_ssao(glssao_constants *c, const glssao__uniforms_source *source
     glssao__uniforms_gauss_weights(settings->blur_sigma, c->gBlurWeights);
     c->gInvRenderTargetSize[0] = 1.0f / (float)source->estimate_size[0];
     c->gInvRenderTargetSize[1] = 1.0f / (float)source->estimate_size[1];
-    c->gOcclusionRadius = settings->radius;
+    c->gOcclusionRadius = settings->bent_normals && settings->radius <= 0.0f ? LEAST_RADIUS : settings->radius;
     c->gOcclusionFadeStart = settings->fade_start;
     c->gOcclusionFadeEnd = settings->fade_end;
     c->gSurfaceEpsilon = settings->surface_epsilon;
@@ -146,8 +149,6 @@ static void fill_tiles(glssao__frame_block *c, const glssao_settings *s, int rin
     c->gTileRings = (float)(rings + 3);
 }
 
-static const float LEAST_RADIUS = 1e-12f; /* scene units */
-
 static void fill_frame(glssao__frame_block *c, const glssao__uniforms_source *source)
 {
     const glssao_frame *frame = source->frame;
@@ -163,15 +164,12 @@ static void fill_frame(glssao__frame_block *c, const glssao__uniforms_source *so
     c->gBlurDepthThreshold = settings->blur_depth_threshold;
     c->gSampleCount = settings->sample_count;
     c->gFactor = settings->half_resolution ? 2 : 1;
-    /* Bent normals are made at radius 0 too: no sample then reaches another pixel. */
-    const float radius = settings->radius > 0.0f ? settings->radius : LEAST_RADIUS;
-    c->gPerRadius = 1.0f / radius;
     const bool orthographic = projection->ray_direction[0] == 0.0f;
     for (int i = 0; i < 2; ++i) {
         const double pixel =
             (double)c->gFactor / source->size[i] * (double)(orthographic ? c->gRayOrigin[i] : c->gRayDirection[i]);
-        c->gPixel[i] = (float)(pixel / (double)radius);
-        c->gPixel[2 + i] = (float)((double)radius / pixel);
+        c->gPixel[i] = (float)pixel;
+        c->gPixel[2 + i] = (float)(1.0 / pixel);
         c->gEstimateSize[i] = (float)source->estimate_size[i];
         c->gFullTexel[i] = 1.0f / (float)source->size[i];
     }

@@ -155,6 +155,13 @@ static const glssao__host_texture *find_seen(const glssao__host_textures *known,
     return NULL;
 }
 
+void glssao__host_textures_forget(glssao__host_textures *known, gl_uint name)
+{
+    for (int i = 0; i < HOST_SEEN; ++i)
+        if (known->seen[i].name == name)
+            known->seen[i] = (glssao__host_texture){0};
+}
+
 /* Checks one texture; with `known`, OpenGL is asked only the first time. */
 static bool check_texture(const glssao__gl *gl, const glssao__log *log, const char *field, const glssao_frame *frame,
                           const int size[2], glssao__host_textures *known, glssao__host_texture *t)
@@ -183,6 +190,28 @@ static bool check_texture(const glssao__gl *gl, const glssao__log *log, const ch
         known->next = (known->next + 1) % HOST_SEEN;
     }
     return true;
+}
+
+bool glssao__host_texture_check(const glssao__gl *gl, const glssao__log *log, const char *field, const int viewport[4],
+                                const int size[2], glssao__host_textures *known, glssao__host_texture *t)
+{
+    glssao_frame frame = {0};
+    memcpy(frame.viewport, viewport, sizeof frame.viewport);
+    if (!check_texture(gl, log, field, &frame, size, known, t))
+        return false;
+    if (t->has_changes) {
+        gl->BindTexture(t->target, t->name);
+        put_parameters(gl, t, false);
+    }
+    return true;
+}
+
+void glssao__host_texture_restore(const glssao__gl *gl, const glssao__host_texture *t)
+{
+    if (!t->has_changes)
+        return;
+    gl->BindTexture(t->target, t->name);
+    put_parameters(gl, t, true);
 }
 
 glssao_result glssao__host_textures_check(const glssao__gl *gl, const glssao__log *log, const glssao_frame *frame,

@@ -51,6 +51,16 @@ glssao_result glssao__host_textures_check(const glssao__gl *gl, const glssao__lo
 /* Gives the textures their parameters back. */
 void glssao__host_textures_restore(const glssao__gl *gl, const glssao__host_inputs *inputs, int unit);
 
+/* Checks a texture that no frame names, but which lies as the frame's do: of the full size, or larger with `viewport`.
+ * `field` names it in the log. Binds it to the active unit, and sets its parameters, which
+ * glssao__host_texture_restore gives back. */
+bool glssao__host_texture_check(const glssao__gl *gl, const glssao__log *log, const char *field, const int viewport[4],
+                                const int size[2], glssao__host_textures *known, glssao__host_texture *t);
+void glssao__host_texture_restore(const glssao__gl *gl, const glssao__host_texture *t);
+
+/* The texture is to be looked at anew. */
+void glssao__host_textures_forget(glssao__host_textures *known, gl_uint name);
+
 /* Binds a texture to the active unit's `target` if it is of that kind; leaves no GL error. */
 bool glssao__host_texture_bind(const glssao__gl *gl, gl_enum target, gl_uint texture);
 
