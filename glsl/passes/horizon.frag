@@ -307,7 +307,7 @@ float slice_occlusion(point p, float angle)
     vec3 along = vec3(direction, 0.0);
     along = normalize(along - p.up_view * dot(along, p.up_view)); // never of length 0: up is a ray that leaves the picture
     vec3 across = cross(p.up_view, along);
-    // Shading normals may look away from the eye; the hemisphere is then seen from its rim.
+    // A smooth normal may look away a little beside a silhouette; the hemisphere is then seen from its rim.
     float normal_up = max(dot(p.normal_view, p.up_view), 0.0);
     float normal_along = dot(p.normal_view, along);
     float slope = clamp(dot(p.normal_view, across) / max(normal_up, 1e-3), -STEEPEST, STEEPEST);
@@ -362,6 +362,16 @@ float slice_occlusion(point p, float angle)
     return projected * mix(hidden, veiled, VEIL);
 }
 
+// From the point, whose ray has a length of 1 along the view axis, to the pixel `offset` beside it. Beyond the map's border
+// nothing is known.
+vec3 step_to(vec2 offset, vec2 map_uv, vec3 ray, float distance)
+{
+    vec2 uv = map_uv + offset * gInvRenderTargetSize;
+    float there = uv == clamp(uv, 0.0, 1.0) ? textureLod(u_distance_map, uv, 0.0).r : FAR_AWAY;
+    vec2 across = offset * gPixel.xy * (orthographic() ? 1.0 : there);
+    return vec3(across, 0.0) + ray * (there - distance);
+}
+
 RESULT result()
 {
     vec2 map_uv = pixel_uv();
@@ -382,6 +392,12 @@ RESULT result()
         return open;
     vec3 ray = vec3(uv * gRayDirection.xy + gRayDirection.zw, -1.0);
     float ray_length = length(ray);
+    vec3 up = -ray / ray_length;
+    if (dot(normal_view, up) < 0.0) {
+        vec2 lean = lean_of(normal_view, up);
+        normal_view = seen_normal(normal_view, up, step_to(lean, map_uv, ray, distance),
+                                  -step_to(-lean, map_uv, ray, distance));
+    }
     vec2 noise = tile_noise();
     point p;
     p.uv = map_uv;
@@ -395,7 +411,7 @@ RESULT result()
     p.y_per_distance = ray_length / p.radius;
     p.y_step = p.y_per_distance * depth_step(distance + p.radius);
     p.normal_view = normal_view;
-    p.up_view = -ray / ray_length;
+    p.up_view = up;
     p.jitter = noise.y;
     float occlusion = 0.0;
     UNROLL_IF_SHORT for (int i = 0; i < SLICES; ++i) {

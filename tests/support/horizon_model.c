@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "horizon_slice.h"
+#include "seen_normal.h"
 
 #include <stddef.h>
 
@@ -209,21 +210,56 @@ static bool make_point(const horizon_input *in, int x, int y, point *out)
     return true;
 }
 
-void horizon_model(const horizon_input *in, int x, int y, double *out_low, double *out_high)
+static void step_to(const void *user, int x, int y, double out_step[3])
 {
-    *out_low = *out_high = 1.0;
-    point p;
-    if (!make_point(in, x, y, &p))
-        return;
+    const point *p = user;
+    const horizon_input *in = p->in;
+    const int tx = p->x + x, ty = p->y + y;
+    const bool inside = tx >= 0 && ty >= 0 && tx < in->width && ty < in->height;
+    const double distance = inside ? (double)in->distance[ty * in->width + tx] : SKY, deeper = distance - p->distance;
+    const double scale = p->orthographic ? 1.0 : distance, ray_length = p->ray_length.v;
+    out_step[0] = x * p->px[0].v * scale - deeper * p->up.x.v * ray_length;
+    out_step[1] = y * p->px[1].v * scale - deeper * p->up.y.v * ray_length;
+    out_step[2] = -deeper * p->up.z.v * ray_length;
+}
+
+static seen_side side_seen(const point *p)
+{
+    const double normal[3] = {p->normal.x.v, p->normal.y.v, p->normal.z.v}, up[3] = {p->up.x.v, p->up.y.v, p->up.z.v};
+    const double gain[2] = {p->px[0].v * p->in->full_width, p->px[1].v * p->in->full_height};
+    return seen_side_of(normal, up, gain, step_to, p);
+}
+
+static void estimate(const point *p, double *out_low, double *out_high)
+{
+    const horizon_input *in = p->in;
     double noise[2];
-    tile_noise(in, x, y, noise);
+    tile_noise(in, p->x, p->y, noise);
     interval occlusion = {0.0, 0.0};
     for (int i = 0; i < in->slices; ++i) {
-        const interval one = slice_occlusion(&p, (noise[0] + i) / in->slices, noise[1]);
+        const interval one = slice_occlusion(p, (noise[0] + i) / in->slices, noise[1]);
         occlusion.low += one.low / in->slices;
         occlusion.high += one.high / in->slices;
     }
     const double exponent = in->constants.calibration * in->power;
     *out_low = fmin(pow(fmax(1.0 - occlusion.high, 1e-6), exponent), 1.0);
     *out_high = fmin(pow(fmax(1.0 - occlusion.low, 1e-6), exponent), 1.0);
+}
+
+void horizon_model(const horizon_input *in, int x, int y, double *out_low, double *out_high)
+{
+    *out_low = *out_high = 1.0;
+    point p;
+    if (!make_point(in, x, y, &p))
+        return;
+    const seen_side seen = side_seen(&p);
+    if (seen != OTHER_SIDE)
+        estimate(&p, out_low, out_high);
+    if (seen == OWN_SIDE)
+        return;
+    p.normal = scaled(exactly(-1.0), p.normal);
+    double low, high;
+    estimate(&p, &low, &high);
+    *out_low = seen == OTHER_SIDE ? low : fmin(low, *out_low);
+    *out_high = seen == OTHER_SIDE ? high : fmax(high, *out_high);
 }
