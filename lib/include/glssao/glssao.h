@@ -222,7 +222,8 @@ typedef enum glssao_map_id { /* textures to look at */
     GLSSAO_MAP_AMBIENT = 0,   /* the result: accessibility in red, R16; half size where it was estimated so and not upsampled */
     GLSSAO_MAP_AMBIENT_OTHER, /* the second of the two ping-pong maps, with what the blur last drew into it: accessibility in
                                  red, R16. After upsampling or the planar blur RG32F: green is the linear quantity of
-                                 distance (glsl/shared/inverse_depth.glsl), and red's ten lowest bits hold the normal */
+                                 distance (glsl/shared/inverse_depth.glsl), and red's ten lowest bits hold the normal. With bent
+                                 normals RGBA32F: their hidden vectors (glsl/shared/bent.glsl) in blue and alpha */
     GLSSAO_MAP_NORMAL,        /* the effect's own normal map, RGBA16F, full size */
     GLSSAO_MAP_RANDOM_VECTOR, /* RGBA8, 256 x 256 */
     GLSSAO_MAP_DEPTH,         /* the host's depth texture as last handed over; 0 before the first */
