@@ -25,8 +25,8 @@ typedef struct options {
     const char *output, *ao, *normals, *depth, *stats; /* NULL: not written */
     int width, height;
     int quality, technique, context, path; /* glssao_quality, glssao_technique, context_kind, glssao_path */
-    option_number radius, power, fov_deg, near_plane, far_plane, error, budget_ms, time_s;
-    option_vector eye, target, up;
+    option_number radius, power, intensity, fov_deg, near_plane, far_plane, error, budget_ms, time_s;
+    option_vector eye, target, up, sky_up;
     int sample_count;  /* 0: the default of the quality */
     int blur_rounds;   /* -1: the default of the quality */
     int margin;        /* pixels on each side */

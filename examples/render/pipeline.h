@@ -52,6 +52,7 @@ typedef struct pipeline {
     progressive_report reached;
     scene_draw_options draw_options;
     options_map debug_map;
+    float up[3];         /* of the sky */
     bool plain;          /* a background replaces the sky */
     bool transparent;    /* the background has alpha 0, and the picture straight alpha */
     float background[4]; /* linear colour and alpha */

@@ -20,3 +20,7 @@ vec4 gPixel;                // xy: scene units that a pixel of the estimate is w
 vec2 gEstimateSize;         // of the ambient map, pixels
 vec2 gFullTexel;            // a texel of the host's maps, in uv
 float gTileRings;           // how far tiles are told from the nearest that needs an estimate
+float gWindowSky;           // the window depth that means nothing was drawn (OBLIQUE)
+vec2 gRoll;                 // cosine and sine of the turn of the passes' view space about the view axis (TURNED)
+vec4 gTurn[3];              // xyz: rows of the matrix from stored normals to the view space of the passes (TURNED)
+vec4 gOblique;              // what numerator (xy) and denominator (zw) of gDistanceFromDepth gain per uv (OBLIQUE)

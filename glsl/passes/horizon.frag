@@ -393,6 +393,9 @@ RESULT result()
     vec3 ray = vec3(uv * gRayDirection.xy + gRayDirection.zw, -1.0);
     float ray_length = length(ray);
     vec3 up = -ray / ray_length;
+#if BENT
+    vec3 stored_view = normal_view;
+#endif
     if (dot(normal_view, up) < 0.0) {
         vec2 lean = lean_of(normal_view, up);
         normal_view = seen_normal(normal_view, up, step_to(lean, map_uv, ray, distance),
@@ -422,11 +425,13 @@ RESULT result()
     // is flushed to 0.
     float share = max(1.0 - occlusion, 1e-6);
 #if BENT
-    vec3 hidden = hidden_vector * (HIDDEN_STEPS / float(SLICES));
+    vec3 hidden = hidden_vector / float(SLICES);
 #if STEPS < 12
     hidden *= (1.0 - pow(share, CALIBRATION)) / max(1.0 - share, 1e-4); // it grows as the occlusion does
 #endif
-    hidden = clamp(hidden, -2047.0, 2047.0);
+    // It is taken off the stored normal later, which may be that of the other side.
+    hidden += (2.0 / 3.0) * (stored_view - normal_view);
+    hidden = clamp(hidden * HIDDEN_STEPS, -2047.0, 2047.0);
 #endif
 #if OUTPUT == OUTPUT_SUM && BENT
     return vec4(min(pow(share, CALIBRATION), 1.0), hidden);

@@ -7,7 +7,9 @@
 // O. Klehm et al., "Bent Normals and Cones in Screen-space", 2011.
 
 #if BENT
-const float HIDDEN_STEPS = 2047.0 / 1.5; // a hidden vector's unit; a slice whose normal leans sideways may hide one of 4/3
+// A hidden vector's unit. A slice whose normal leans sideways may hide one of 4/3. Where the stored normal is that of the other
+// side, 4/3 of it counts as hidden.
+const float HIDDEN_STEPS = 2047.0 / 2.7;
 // What is left of the normal where nothing is open: rounding alone would point anywhere.
 const float LEAST_OPEN = 1e-3;
 // Where there is no surface, or none with a normal.
@@ -17,10 +19,15 @@ const vec3 TOWARDS_EYE = vec3(0.0, 0.0, 1.0);
 // vector, in HIDDEN_STEPS.
 vec4 delivered(vec4 contents, bool sky, vec3 normal_view)
 {
-    vec3 open = (2.0 / 3.0) * normal_view - contents.yzw / HIDDEN_STEPS;
+    vec3 hidden = contents.yzw / HIDDEN_STEPS;
+    vec3 open = (2.0 / 3.0) * normal_view - hidden;
     // More than all can't be hidden: the open vector never points into the surface.
-    open += max(LEAST_OPEN - dot(open, normal_view), 0.0) * normal_view;
+    vec3 seen = dot(hidden, normal_view) > 2.0 / 3.0 ? -normal_view : normal_view;
+    open += max(LEAST_OPEN - dot(open, seen), 0.0) * seen;
     open = normal_view == vec3(0.0) ? TOWARDS_EYE : open;
+#if TURNED
+    open.xy = vec2(gRoll.x * open.x - gRoll.y * open.y, gRoll.y * open.x + gRoll.x * open.y);
+#endif
     return sky ? vec4(1.0, TOWARDS_EYE) : vec4(contents.x, open);
 }
 #endif

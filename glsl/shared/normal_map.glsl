@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Reads the normal map. NORMALS: how the host stores them; octahedral is the encoding of Q. Meyer et al., "On
 // Floating-Point Normal Vectors" (2010), in two channels of -1..1.
+// TURNED: they lie in another space than the passes compute in.
 
-uniform sampler2D u_normal_map; // view space, any length
+uniform sampler2D u_normal_map; // any length
 
 // View-space normal of any length, unchecked.
 vec3 decoded_normal(vec3 normal)
@@ -14,6 +15,9 @@ vec3 decoded_normal(vec3 normal)
     normal.xy = normal.z >= 0.0 ? normal.xy : (1.0 - abs(normal.yx)) * side;
 #elif NORMALS == NORMALS_UNSIGNED
     normal = normal * 2.0 - 1.0;
+#endif
+#if TURNED
+    normal = vec3(dot(gTurn[0].xyz, normal), dot(gTurn[1].xyz, normal), dot(gTurn[2].xyz, normal));
 #endif
     return normal;
 }

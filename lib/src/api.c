@@ -38,14 +38,42 @@ static bool check_loops(const glssao_effect *effect, const glssao__schedule *sch
     return true;
 }
 
+static glssao__request request_of(const glssao_effect *effect, const glssao_frame *frame,
+                                  const glssao_settings *settings, int estimates, const glssao__projection *projection)
+{
+    return (glssao__request){.frame = frame,
+                             .settings = settings,
+                             .size = {effect->size[0], effect->size[1]},
+                             .estimates = estimates,
+                             .is_orthographic = projection->is_orthographic,
+                             .is_oblique = projection->is_oblique,
+                             .is_turned = projection->is_turned,
+                             .can = effect->can};
+}
+
+/* A matrix that works but was hardly meant is told once. */
+static void warn_of_projection(glssao_effect *effect, const glssao_frame *frame, enum glssao__doubt doubt)
+{
+    if (doubt == DOUBT_NONE || effect->doubts & 1u << doubt)
+        return;
+    effect->doubts |= 1u << doubt;
+    if (doubt == DOUBT_IDENTITY)
+        glssao__log_write(&effect->log, GLSSAO_LOG_WARNING,
+                          "frame.projection is the identity: hand over the matrix that depth was drawn with "
+                          "(GL_PROJECTION_MATRIX is the identity in programs with shaders)");
+    else
+        glssao__log_write(&effect->log, GLSSAO_LOG_WARNING,
+                          "frame.projection[14] = %g, [15] = %g: the matrix looks transposed; want column-major",
+                          (double)frame->projection[14], (double)frame->projection[15]);
+}
+
 glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
 {
     static const glssao__log silent = {0};
     glssao__projection projection;
     glssao__schedule schedule;
     if (effect && glssao__check_frame(frame, settings, effect->size, &silent, &projection)) {
-        const glssao__request request = {
-            .frame = frame, .settings = settings, .size = {effect->size[0], effect->size[1]}, .can = effect->can};
+        const glssao__request request = request_of(effect, frame, settings, 0, &projection);
         glssao__schedule_make(&schedule, &request);
         if (check_loops(effect, &schedule, &silent))
             return schedule.plan;
@@ -103,7 +131,7 @@ static void run_schedule(glssao_effect *effect, const call *c, const glssao__sch
     for (int i = 0; i < GLSSAO_PASS_COUNT; ++i)
         last->draw_calls[i] = schedule->plan.passes[i].draw_calls;
 
-    const bool is_window = c->frame->depth_kind == GLSSAO_DEPTH_WINDOW;
+    const bool is_window = glssao__projection_reads_window_depth(c->frame, c->projection.is_oblique);
     glssao__timers_frame(&effect->resources.timers, last->number);
     glssao__execute(&effect->resources, schedule, host, &effect->uniforms,
                     is_window ? c->projection.sky_depth : SKY_DISTANCE);
@@ -142,14 +170,11 @@ static glssao_result run_call(glssao_effect *effect, call *c)
     if (!glssao__effect_is_closed(effect, c->function) ||
         !glssao__check_frame(c->frame, c->settings, effect->size, &effect->log, &c->projection))
         return GLSSAO_INVALID_ARGUMENT;
+    warn_of_projection(effect, c->frame, c->projection.doubt);
     glssao_result result = glssao__effect_check_state(effect, c->function);
     glssao__schedule schedule;
     for (bool again = result == GLSSAO_OK; again;) {
-        const glssao__request request = {.frame = c->frame,
-                                         .settings = c->settings,
-                                         .size = {effect->size[0], effect->size[1]},
-                                         .estimates = c->estimates,
-                                         .can = effect->can};
+        const glssao__request request = request_of(effect, c->frame, c->settings, c->estimates, &c->projection);
         glssao__schedule_make(&schedule, &request);
         if (!check_loops(effect, &schedule, &effect->log))
             return GLSSAO_INVALID_ARGUMENT;

@@ -189,13 +189,15 @@ static glssao_result run_guarded(glssao_effect *effect, call *c, bool may_dispat
         !(check_texture(effect, "options.strength_texture", job->strength_texture, &c->strength) &&
           check_texture(effect, "options.albedo_texture", job->albedo_texture, &c->albedo)))
         result = GLSSAO_INVALID_ARGUMENT;
+    glssao__image image = {0};
     if (result == GLSSAO_OK && may_dispatch)
-        job->image = glssao__destination_image(&effect->gl, job->framebuffer);
+        job->image = image = glssao__destination_image(&effect->gl, job->framebuffer);
     if (result == GLSSAO_OK)
         result = prepare(effect, c);
     if (result == GLSSAO_OK)
         glssao__apply_run(&effect->resources, job);
     effect->gl.ActiveTexture(GL_TEXTURE0 + UNIT_AMBIENT);
+    glssao__destination_give_back(&effect->gl, &image);
     glssao__host_texture_restore(&effect->gl, &c->albedo);
     glssao__host_texture_restore(&effect->gl, &c->strength);
     return result;

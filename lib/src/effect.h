@@ -28,6 +28,7 @@ struct glssao_effect {
     glssao__log log;
     glssao__capabilities can;
     bool host_restores_state;
+    unsigned doubts; /* told of: a bit for each enum glssao__doubt */
     uint32_t seed;
     int size[2]; /* full size, pixels */
     glssao__resources resources;

@@ -627,7 +627,7 @@ static void parameters_of_the_strength_texture_are_lent(void **state)
     close_room(&r);
 }
 
-/* ---- pictures that no compute shader can write are drawn ---- */
+/* ---- pictures that a compute shader can't write are drawn ---- */
 
 enum unusual { RENDERBUFFER, SECOND_LEVEL, NO_MIPMAPS, SECOND_ATTACHMENT, NO_DRAW_BUFFER, UNUSUAL };
 
@@ -665,9 +665,20 @@ static GLuint make_unusual(enum unusual kind, GLuint *out_texture, GLuint *out_r
     return framebuffer;
 }
 
+static GLint min_filter(const fixture *f, GLuint texture)
+{
+    PFNGLGETTEXPARAMETERIVPROC get;
+    GLint filter = 0;
+    guest_load(f, "glGetTexParameteriv", &get);
+    gl.BindTexture(GL_TEXTURE_2D, texture);
+    get(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, &filter);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    return filter;
+}
+
 static void unusual_targets_get_the_same_picture(void **state)
 {
-    static const bool dispatches[UNUSUAL] = {[SECOND_ATTACHMENT] = true};
+    static const bool dispatches[UNUSUAL] = {[NO_MIPMAPS] = true, [SECOND_ATTACHMENT] = true};
     for (int path = GLSSAO_PATH_FRAGMENT; path <= last_path(); ++path) {
         room r = open_room(*state, (glssao_path)path);
         for (int kind = 0; kind < UNUSUAL; ++kind) {
@@ -692,6 +703,8 @@ static void unusual_targets_get_the_same_picture(void **state)
             float *got = read_target(&t);
             check_picture(&r, &options, &formats[0], true, got, "unusual target");
             free(got);
+            if (kind == NO_MIPMAPS)
+                assert_int_equal(min_filter(r.f, texture), GL_NEAREST_MIPMAP_LINEAR); /* lent, and given back */
             gl.DeleteFramebuffers(1, &t.framebuffer);
             gl.DeleteTextures(1, &texture);
             gl.DeleteRenderbuffers(1, &renderbuffer);

@@ -485,6 +485,7 @@ static float *walk(fixture *f, const inputs *in, const host *h, glssao_path path
         scramble(h);
         CALL(glssao_apply(effect, h->framebuffers[1]));
         CALL(glssao_apply(effect, h->framebuffers[0])); /* a texture, which may be dispatched over */
+        CALL(glssao_apply(effect, h->framebuffers[2])); /* multisampled */
         glssao_frame window = {.viewport = {0, 0, W, H}};
         memcpy(window.projection, in->frame.projection, sizeof window.projection);
         CALL(glssao_compute_framebuffer(effect, h->framebuffers[1], &window, &classic));

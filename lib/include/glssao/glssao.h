@@ -180,8 +180,9 @@ typedef struct glssao_frame { /* zero a field that you don't use */
     glssao_depth depth_kind;   /* of depth_texture */
     uint32_t normal_texture;   /* GL_TEXTURE_2D of the full size, view space; 0: rebuilt from depth (one more pass) */
     glssao_normal normal_kind; /* of normal_texture */
-    float projection[16];      /* column-major clip_from_view, finite and invertible: perspective (off-centre,
-                                  infinite, reversed: all fine) or orthographic */
+    float projection[16];      /* column-major clip_from_view, finite and invertible: perspective (off-centre, infinite,
+                                  reversed: all fine) or orthographic (the eye may lie inside the depth range), mirrored or
+                                  turned about the view axis too. Window depth under an oblique near plane is copied first */
     bool clip_zero_to_one;     /* true where the host called glClipControl(..., GL_ZERO_TO_ONE) */
     int margin;                /* pixels on each side, even: they hold occluders beyond the picture's edge and are not part
                                   of the result, which is that much smaller. projection is that of the whole */

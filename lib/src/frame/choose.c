@@ -134,8 +134,9 @@ static void choose_passes(glssao__choice *c, const glssao__request *q)
     const glssao_frame *frame = q->frame;
     const bool any_copy = c->copies[0] || c->copies[1] || c->copies[2] || c->copies[3];
     choose_pass(c, GLSSAO_PASS_INPUTS, any_copy,
-                any_copy ? "resolves multisampling, viewport or logarithmic depth first"
-                         : "the host's textures can be read as they are");
+                c->is_oblique ? "the near plane is oblique: turns depth into view distance first"
+                : any_copy    ? "resolves multisampling, viewport or logarithmic depth first"
+                              : "the host's textures can be read as they are");
     choose_pass(c, GLSSAO_PASS_NORMALS, !frame->normal_texture,
                 frame->normal_texture ? "the host brings normals" : "there is no normal map: rebuilt from depth");
     choose_pass(c, GLSSAO_PASS_DISTANCE, c->is_horizon, c->is_horizon ? "the estimate reads it" : "no pass reads it");
@@ -155,14 +156,17 @@ static void choose_passes(glssao__choice *c, const glssao__request *q)
         c->plan.passes[i].compute = c->plan.passes[i].run && c->compute && can_be_dispatched(c, (glssao_pass)i);
 }
 
-/* All of a multisample or larger texture is copied before the passes can read it, and what holds logarithmic depth. */
-static void choose_copies(glssao__choice *c, const glssao_frame *frame)
+/* All of a multisample or larger texture is copied before the passes can read it, and what holds logarithmic depth, or
+ * window depth under an oblique near plane. */
+static void choose_copies(glssao__choice *c, const glssao__request *q)
 {
+    const glssao_frame *frame = q->frame;
     const bool all = frame->multisample || frame->viewport[2] != 0 || frame->viewport[3] != 0;
+    c->is_oblique = q->is_oblique && frame->depth_kind == GLSSAO_DEPTH_WINDOW;
+    const bool depth = c->is_oblique || frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC;
     glssao__host_names(frame, c->host_names);
     for (int i = 0; i < HOST_TEXTURES; ++i)
-        c->copies[i] =
-            c->host_names[i] != 0 && (all || (frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC && i != HOST_NORMAL));
+        c->copies[i] = c->host_names[i] != 0 && (all || (depth && i != HOST_NORMAL));
 }
 
 /* Where depth and normals are read from, and how they are stored there. */
@@ -173,10 +177,10 @@ static void choose_inputs(glssao__choice *c, const glssao__request *q)
     c->normals = !frame->normal_texture ? MAP_NORMAL : c->copies[HOST_NORMAL] ? MAP_NORMAL_COPY : MAP_HOST_NORMAL;
     c->depth = in_alpha ? c->normals : c->copies[HOST_DEPTH] ? MAP_DEPTH_COPY : MAP_HOST_DEPTH;
     c->inputs.values[MACRO_NORMALS] = frame->normal_texture ? (uint8_t)frame->normal_kind : NORMALS_SIGNED;
-    c->inputs.values[MACRO_DEPTH] = in_alpha                                   ? DEPTH_ALPHA
-                                    : frame->depth_kind == GLSSAO_DEPTH_WINDOW ? DEPTH_WINDOW
-                                                                               : DEPTH_DISTANCE;
-    c->inputs.values[MACRO_PERSPECTIVE] = frame->projection[11] != 0.0f; /* clip w depends on z */
+    const bool is_window = glssao__projection_reads_window_depth(frame, q->is_oblique);
+    c->inputs.values[MACRO_DEPTH] = in_alpha ? DEPTH_ALPHA : is_window ? DEPTH_WINDOW : DEPTH_DISTANCE;
+    c->inputs.values[MACRO_TURNED] = q->is_turned;
+    c->inputs.values[MACRO_PERSPECTIVE] = !q->is_orthographic;
     c->inputs.values[MACRO_BENT] = c->bent;
     c->inputs.values[MACRO_BRANCHES] = !q->can.is_software; /* a software rasteriser takes both sides of a branch */
 }
@@ -195,7 +199,7 @@ void glssao__choose(glssao__choice *c, const glssao__request *q)
     memset(c, 0, sizeof *c);
     for (int i = 0; i < 2; ++i)
         c->size[i] = q->size[i];
-    choose_copies(c, q->frame);
+    choose_copies(c, q);
     glssao__choose_estimate_size(settings, q->size, c->estimate);
     c->factor = settings->half_resolution ? 2 : 1;
     c->margin = q->frame->margin;

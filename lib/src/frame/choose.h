@@ -16,7 +16,8 @@ typedef struct glssao__choice {
     bool compute;     /* passes that can be dispatched are */
     bool accumulates;
     bool is_horizon, is_planar;
-    bool bent; /* bent normals come along */
+    bool bent;       /* bent normals come along */
+    bool is_oblique; /* window depth becomes view distance in a copy */
     bool blurs, upsamples, has_tiles;
     bool paired;       /* later passes read paired values */
     bool result_apart; /* the result goes to a map of its own */

@@ -13,8 +13,10 @@ static void read_normals_for_bent(const glssao__builder *b, glssao__step *step)
 
 static void set_normals_for_bent(glssao__step *step)
 {
-    if (step->second == MAP_NONE)
-        glssao__build_set(step, MACRO_NORMALS, 0);
+    if (step->second != MAP_NONE)
+        return;
+    glssao__build_set(step, MACRO_NORMALS, 0);
+    glssao__build_set(step, MACRO_TURNED, 0);
 }
 
 /* The Gaussian, bilateral and box blurs: two directions a round. */

@@ -133,5 +133,5 @@ bool glssao__check_frame(const glssao_frame *frame, const glssao_settings *setti
         return refuse(log, frame->back_texture ? "frame.second_texture" : "frame.back_texture", 0,
                       "no texture, but the other layer has one");
     return check_margin(frame, size, log) && check_viewport(frame, size, log) && check_logarithm(frame, log) &&
-           glssao__projection_analyse(frame->projection, frame->clip_zero_to_one, log, out_projection);
+           glssao__projection_analyse(frame, log, out_projection);
 }

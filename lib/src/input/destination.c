@@ -46,32 +46,47 @@ static int kind_of(gl_enum format)
     return 0;
 }
 
-/* OpenGL may refuse to load from a texture that lacks levels which its own filter would read (4.2, section 3.9.20). */
-static bool is_complete(const glssao__gl *gl)
+/* OpenGL may refuse to load from a texture that lacks levels which its own filter would read (4.2, section 3.9.20). A
+ * filter without levels is lent for the call. */
+static gl_int lend_filter(const glssao__gl *gl)
 {
-    gl_int base = 0, filter = 0;
-    gl->GetTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, &base);
+    gl_int filter = 0;
     gl->GetTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, &filter);
-    if (base != 0 || filter == GL_NEAREST || filter == GL_LINEAR || gl->version < 42)
-        return base == 0 && (filter == GL_NEAREST || filter == GL_LINEAR);
-    gl_int immutable = 0;
-    gl->GetTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_IMMUTABLE_FORMAT, &immutable);
-    return immutable != 0;
+    if (filter == GL_NEAREST || filter == GL_LINEAR)
+        return 0;
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    return filter;
+}
+
+static gl_int base_level(const glssao__gl *gl)
+{
+    gl_int level = 0;
+    gl->GetTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, &level);
+    return level;
 }
 
 glssao__image glssao__destination_image(const glssao__gl *gl, gl_uint framebuffer)
 {
     const glssao__image none = {0};
-    gl_int point = 0, format = 0;
-    if (framebuffer == 0)
+    gl_int point = 0, format = 0, samples = 0;
+    gl->GetIntegerv(GL_SAMPLES, &samples);
+    if (framebuffer == 0 || samples > 0)
         return none;
     gl->GetIntegerv(GL_DRAW_BUFFER0, &point);
     const gl_uint texture = point != 0 ? attached_texture(gl, (gl_enum)point) : 0;
-    /* Binding it tells that it is no array, cube map or multisample texture. */
+    /* Binding it tells that it is no array or cube map. */
     if (texture == 0 || attachment(gl, (gl_enum)point, GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL) != 0 ||
-        !glssao__host_texture_bind(gl, GL_TEXTURE_2D, texture) || !is_complete(gl))
+        !glssao__host_texture_bind(gl, GL_TEXTURE_2D, texture) || base_level(gl) != 0)
         return none;
     gl->GetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
     const int kind = kind_of((gl_enum)format);
-    return kind ? (glssao__image){texture, (gl_enum)format, kind} : none;
+    return kind ? (glssao__image){texture, (gl_enum)format, kind, lend_filter(gl)} : none;
+}
+
+void glssao__destination_give_back(const glssao__gl *gl, const glssao__image *image)
+{
+    if (!image->host_filter)
+        return;
+    gl->BindTexture(GL_TEXTURE_2D, image->texture);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, image->host_filter);
 }
