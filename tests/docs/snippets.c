@@ -25,6 +25,8 @@ void forward_normals(glssao_effect *effect, GLuint depth, const float *projectio
                      void (*draw_opaque_with_normals)(void));
 void deferred(glssao_effect *effect, GLuint depth, GLuint normals, const float *projection, glssao_settings settings,
               void (*draw_lights)(void));
+void world_normals(glssao_effect *effect, GLuint depth, GLuint normals, const float *projection, const float *view,
+                   glssao_settings settings);
 void linear_depth(glssao_effect *effect, GLuint view_distance, const float *projection, glssao_settings settings);
 void multisampled(glssao_effect *effect, GLuint multisampled_framebuffer, GLuint resolved_framebuffer, GLuint depth,
                   const float *projection, glssao_settings settings, int width, int height);
@@ -80,6 +82,17 @@ void deferred(glssao_effect *effect, GLuint depth, GLuint normals, const float *
     glActiveTexture(GL_TEXTURE0 + 5);
     glBindTexture(GL_TEXTURE_2D, glssao_map(effect, GLSSAO_MAP_AMBIENT, NULL, NULL));
     draw_lights(); /* its shader scales ambient light alone */
+    /* end */
+}
+
+void world_normals(glssao_effect *effect, GLuint depth, GLuint normals, const float *projection, const float *view,
+                   glssao_settings settings)
+{
+    /* snippet: world normals */
+    glssao_frame frame = {.depth_texture = depth, .normal_texture = normals, .world_normals = true};
+    memcpy(frame.projection, projection, sizeof frame.projection);
+    memcpy(frame.view, view, sizeof frame.view); /* view from world, column-major, as for the vertex shader */
+    glssao_compute(effect, &frame, &settings);
     /* end */
 }
 

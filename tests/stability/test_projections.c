@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * Pictures that must not depend on how their projection is written: turned about the view axis, with the eye elsewhere
- * along it, with rounding residues, or with a near plane that is oblique. By draws and by dispatches.
+ * along it, with rounding residues, or with a near plane that is oblique; nor on the space that normals are stored in.
+ * By draws and by dispatches.
  */
 #include "techniques.h"
 
@@ -146,6 +147,102 @@ static void rebuilt_normals_are_in_view_space(void **state)
         free(maps[i]);
         subject_frame_free(&frames[i]);
     }
+    subject_free(&s);
+}
+
+/* ---- normals in world space ---- */
+
+/* view_from_world: a turn about an axis across all three, a shift, and a scale of each axis. */
+static void make_view(const double scale[3], float out[16])
+{
+    const double c = cos(0.7), s = sin(0.7), k = 1.0 / sqrt(14.0), axis[3] = {k, 2.0 * k, -3.0 * k};
+    for (int row = 0; row < 3; ++row)
+        for (int col = 0; col < 3; ++col) {
+            const int third = 3 - row - col;
+            double turn = axis[row] * axis[col] * (1.0 - c) + (row == col ? c : 0.0);
+            if (row != col)
+                turn += ((col + 1) % 3 == row ? 1.0 : -1.0) * s * axis[third];
+            out[4 * col + row] = (float)(turn * scale[col]);
+        }
+    const float last[4] = {5.0f, -7.0f, 9.0f, 1.0f};
+    for (int row = 0; row < 4; ++row) {
+        out[12 + row] = last[row];
+        out[4 * row + 3] = row == 3 ? 1.0f : 0.0f;
+    }
+}
+
+/* A normal of view space in world space: the transposed of what turns points to view space (of a row that is the
+ * gradient of a plane), brought to unit length. */
+static void to_world(const float view[16], const float n[3], float out[3])
+{
+    double w[3], length = 0.0;
+    for (int col = 0; col < 3; ++col) {
+        w[col] = 0.0;
+        for (int row = 0; row < 3; ++row)
+            w[col] += (double)view[4 * col + row] * (double)n[row];
+        length += w[col] * w[col];
+    }
+    for (int i = 0; i < 3; ++i)
+        out[i] = (float)(w[i] / sqrt(length));
+}
+
+static void normals_in_world_space_are_turned(void **state)
+{
+    static const double scales[][3] = {{1.0, 1.0, 1.0}, {0.01, 0.01, 0.01}, {-1.0, 1.0, 1.0}, {2.0, 0.5, 1.0}};
+    static const normal_store stores[] = {NORMAL_32F, NORMAL_16F, NORMAL_OCTAHEDRAL, NORMAL_UNSIGNED_8};
+    for (int i = 0; i < 4; ++i) {
+        const normal_store store = stores[i];
+        subject s = room(i % 2 ? ORTHOGRAPHIC : PERSPECTIVE), world = s;
+        float view[16];
+        make_view(scales[i], view);
+        world.normals = malloc((size_t)W * H * 3 * sizeof(float));
+        for (int k = 0; k < W * H; ++k)
+            to_world(view, s.normals + 3 * k, world.normals + 3 * k);
+        glssao_frame plain = subject_frame(&s, DEPTH_32F, NORMAL_32F), other = subject_frame(&world, DEPTH_32F, store);
+        memcpy(other.view, view, sizeof view);
+        other.world_normals = true;
+        /* Half floats and 8 bits are off by up to half a degree; at thresholds that shows. */
+        assert_same(*state, &plain, &other, store == NORMAL_32F || store == NORMAL_OCTAHEDRAL ? 1e-3 : 6e-3,
+                    "world space");
+        glssao_frame turned = other; /* and by a camera that rolls: view space turns, world space does not */
+        const double c = cos(1.0), n = sin(1.0);
+        for (int k = 0; k < 4; ++k) {
+            turned.projection[k] = (float)((double)other.projection[k] * c - (double)other.projection[4 + k] * n);
+            turned.projection[4 + k] = (float)((double)other.projection[k] * n + (double)other.projection[4 + k] * c);
+            turned.view[4 * k] = (float)(c * (double)view[4 * k] - n * (double)view[4 * k + 1]);
+            turned.view[4 * k + 1] = (float)(n * (double)view[4 * k] + c * (double)view[4 * k + 1]);
+        }
+        assert_same(*state, &other, &turned, 1e-3, "world space, turned");
+        subject_frame_free(&plain);
+        subject_frame_free(&other);
+        subject_free(&s);
+        free(world.normals);
+    }
+}
+
+static void views_are_checked_where_they_count(void **state)
+{
+    fixture *f = *state;
+    const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
+    subject s = room(PERSPECTIVE);
+    glssao_frame frame = subject_frame(&s, DEPTH_32F, NORMAL_32F);
+    static const double flat[3] = {1.0, 0.0, 1.0}, plain[3] = {1.0, 1.0, 1.0};
+    static const char *const wanted[] = {"frame.view is singular", "frame.view is singular", "frame.view[5] = nan",
+                                         NULL};
+    for (int i = 0; i < 4; ++i) {
+        frame.world_normals = true;
+        if (i > 0)
+            make_view(i == 1 ? flat : plain, frame.view);
+        if (i == 2)
+            frame.view[5] = NAN;
+        fixture_clear_log(f);
+        assert_int_equal(glssao_compute(effects[0], &frame, &settings),
+                         wanted[i] ? GLSSAO_INVALID_ARGUMENT : GLSSAO_OK);
+        assert_true(wanted[i] ? strstr(f->log, wanted[i]) != NULL : f->log[0] == '\0');
+        frame.world_normals = false; /* not read */
+        assert_int_equal(glssao_compute(effects[0], &frame, &settings), GLSSAO_OK);
+    }
+    subject_frame_free(&frame);
     subject_free(&s);
 }
 
@@ -294,6 +391,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         GL_TEST(turned_cameras_see_the_same),
         GL_TEST(rebuilt_normals_are_in_view_space),
+        GL_TEST(normals_in_world_space_are_turned),
+        GL_TEST(views_are_checked_where_they_count),
         GL_TEST(residues_change_nothing),
         GL_TEST(eyes_behind_the_near_plane_see_the_same),
         GL_TEST(oblique_near_planes_change_nothing),

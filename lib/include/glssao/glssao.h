@@ -178,7 +178,8 @@ typedef enum glssao_normal { /* how a texel stores a normal */
 typedef struct glssao_frame { /* zero a field that you don't use */
     uint32_t depth_texture;    /* GL_TEXTURE_2D of the effect's full size, level 0; may stay attached to a framebuffer */
     glssao_depth depth_kind;   /* of depth_texture */
-    uint32_t normal_texture;   /* GL_TEXTURE_2D of the full size, view space; 0: rebuilt from depth (one more pass) */
+    uint32_t normal_texture;   /* GL_TEXTURE_2D of the full size, view space unless world_normals; 0: rebuilt from depth
+                                  (one more pass) */
     glssao_normal normal_kind; /* of normal_texture */
     float projection[16];      /* column-major clip_from_view, finite and invertible: perspective (off-centre, infinite,
                                   reversed: all fine) or orthographic (the eye may lie inside the depth range), mirrored or
@@ -200,6 +201,8 @@ typedef struct glssao_frame { /* zero a field that you don't use */
                                   back, second) or 16 (normals) of memory */
     int viewport[4];           /* x, y, width, height, pixels: where the picture lies in larger textures; width and height
                                   are the effect's full size. Each texture is copied, as above. All 0: the whole texture */
+    float view[16];            /* view_from_world, column-major; for world_normals */
+    bool world_normals;        /* true: normal_texture is in world space. view turns each normal as it is read */
 } glssao_frame;
 
 /* ---- apply: how the result gets into a picture ---------------------------------------------------------- */

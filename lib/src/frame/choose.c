@@ -179,7 +179,7 @@ static void choose_inputs(glssao__choice *c, const glssao__request *q)
     c->inputs.values[MACRO_NORMALS] = frame->normal_texture ? (uint8_t)frame->normal_kind : NORMALS_SIGNED;
     const bool is_window = glssao__projection_reads_window_depth(frame, q->is_oblique);
     c->inputs.values[MACRO_DEPTH] = in_alpha ? DEPTH_ALPHA : is_window ? DEPTH_WINDOW : DEPTH_DISTANCE;
-    c->inputs.values[MACRO_TURNED] = q->is_turned;
+    c->inputs.values[MACRO_TURNED] = q->is_turned || (frame->normal_texture && frame->world_normals);
     c->inputs.values[MACRO_PERSPECTIVE] = !q->is_orthographic;
     c->inputs.values[MACRO_BENT] = c->bent;
     c->inputs.values[MACRO_BRANCHES] = !q->can.is_software; /* a software rasteriser takes both sides of a branch */

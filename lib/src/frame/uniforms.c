@@ -150,11 +150,17 @@ static void fill_tiles(glssao__frame_block *c, const glssao_settings *s, int rin
 }
 
 /* From stored normals to the view space of the passes, which is the host's turned about the view axis. */
-static void fill_turn(glssao__frame_block *c, const glssao__projection *projection)
+static void fill_turn(glssao__frame_block *c, const glssao_frame *frame, const glssao__projection *projection)
 {
-    const float cosine = projection->turn[0], sine = projection->turn[1];
-    const float rows[3][4] = {{cosine, sine}, {-sine, cosine}, {0.0f, 0.0f, 1.0f}};
-    memcpy(c->gTurn, rows, sizeof c->gTurn);
+    const double cosine = (double)projection->turn[0], sine = (double)projection->turn[1];
+    double n[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+    if (frame->world_normals && frame->normal_texture != 0)
+        (void)glssao__matrix_normals(frame->view, n); /* the check has seen that it is not singular */
+    for (int i = 0; i < 3; ++i) {
+        c->gTurn[0][i] = (float)(cosine * n[i] + sine * n[3 + i]);
+        c->gTurn[1][i] = (float)(cosine * n[3 + i] - sine * n[i]);
+        c->gTurn[2][i] = (float)n[6 + i];
+    }
     memcpy(c->gRoll, projection->turn, sizeof c->gRoll);
 }
 
@@ -184,7 +190,7 @@ static void fill_frame(glssao__frame_block *c, const glssao__uniforms_source *so
         c->gEstimateSize[i] = (float)source->estimate_size[i];
         c->gFullTexel[i] = 1.0f / (float)source->size[i];
     }
-    fill_turn(c, projection);
+    fill_turn(c, frame, projection);
     fill_tiles(c, settings, source->tile_rings);
     glssao__projection_depth_step(frame, projection, &source->precision, c->gDepthStep);
     if (frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC) {

@@ -4,6 +4,8 @@
  */
 #include "input/check.h"
 
+#include <float.h>
+#include <math.h>
 #include <stddef.h>
 
 /* One row for each number: its field, and its range. */
@@ -111,6 +113,23 @@ static bool check_margin(const glssao_frame *frame, const int size[2], const gls
     return refuse(log, "frame.margin", margin, "want an even number that leaves at least one pixel");
 }
 
+/* The matrix that turns normals from world space, if any are. */
+static bool check_view(const glssao_frame *frame, const glssao__log *log)
+{
+    if (!frame->world_normals || frame->normal_texture == 0)
+        return true;
+    for (int i = 0; i < 16; ++i)
+        if (!(fabs((double)frame->view[i]) <= FLT_MAX)) { /* also true for nan */
+            glssao__log_write(log, GLSSAO_LOG_ERROR, "frame.view[%d] = %g: not finite", i, (double)frame->view[i]);
+            return false;
+        }
+    double rows[9];
+    if (glssao__matrix_normals(frame->view, rows))
+        return true;
+    glssao__log_write(log, GLSSAO_LOG_ERROR, "frame.view is singular, and frame.world_normals needs it");
+    return false;
+}
+
 bool glssao__check_frame(const glssao_frame *frame, const glssao_settings *settings, const int size[2],
                          const glssao__log *log, glssao__projection *out_projection)
 {
@@ -133,5 +152,5 @@ bool glssao__check_frame(const glssao_frame *frame, const glssao_settings *setti
         return refuse(log, frame->back_texture ? "frame.second_texture" : "frame.back_texture", 0,
                       "no texture, but the other layer has one");
     return check_margin(frame, size, log) && check_viewport(frame, size, log) && check_logarithm(frame, log) &&
-           glssao__projection_analyse(frame, log, out_projection);
+           check_view(frame, log) && glssao__projection_analyse(frame, log, out_projection);
 }

@@ -6,7 +6,7 @@
 #ifndef GLSSAO_INPUT_HOST_TEXTURES_H
 #define GLSSAO_INPUT_HOST_TEXTURES_H
 
-#include "gpu/functions.h"
+#include "input/formats.h"
 #include "input/projection.h"
 #include "log.h"
 
@@ -20,9 +20,9 @@ typedef struct glssao__host_texture {
     gl_uint name;
     gl_enum target;
     int width, height;
-    bool is_integer;
-    glssao__precision precision;
-    bool reads_alpha;                      /* precision is that of alpha */
+    glssao__format format;
+    enum glssao__role role;
+    glssao__precision precision;           /* of what stands for depth */
     bool has_changes;                      /* one of the parameters below was not what the passes want */
     gl_int parameters[HOST_PARAMETERS][4]; /* as the host has them */
 } glssao__host_texture;

@@ -159,3 +159,27 @@ bool glssao__matrix_read(const float projection[16], const glssao__log *log, gls
         p[2] = p[6] = 0.0;
     return true;
 }
+
+bool glssao__matrix_normals(const float m[16], double out_rows[9])
+{
+    double r[3][3], lengths = 1.0, determinant = 0.0, size = 0.0;
+    for (int row = 0; row < 3; ++row) {
+        for (int col = 0; col < 3; ++col)
+            r[row][col] = (double)m[4 * col + row];
+        lengths *= sqrt(r[row][0] * r[row][0] + r[row][1] * r[row][1] + r[row][2] * r[row][2]);
+    }
+    for (int row = 0; row < 3; ++row) {
+        const double *a = r[(row + 1) % 3], *b = r[(row + 2) % 3];
+        for (int col = 0; col < 3; ++col) {
+            const double cofactor = a[(col + 1) % 3] * b[(col + 2) % 3] - a[(col + 2) % 3] * b[(col + 1) % 3];
+            out_rows[3 * row + col] = cofactor;
+            size = fmax(size, fabs(cofactor));
+            determinant += row == 0 ? r[0][col] * cofactor : 0.0;
+        }
+    }
+    if (!(fabs(determinant) > RESIDUE * lengths)) /* also false for nan */
+        return false;
+    for (int i = 0; i < 9; ++i)
+        out_rows[i] /= determinant < 0.0 ? -size : size;
+    return true;
+}

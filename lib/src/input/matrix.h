@@ -22,6 +22,10 @@ typedef struct glssao__matrix {
 /* False, with the reason logged, where no picture can come from the matrix. */
 bool glssao__matrix_read(const float projection[16], const glssao__log *log, glssao__matrix *out);
 
+/* The rows of the matrix that turns normals as the first three rows and columns of `m` turn points: their cofactors,
+ * over their size. It keeps a normal on its side of the surface where `m` mirrors. False where `m` is singular. */
+bool glssao__matrix_normals(const float m[16], double out_rows[9]);
+
 /* What to add to a message about the matrix. */
 const char *glssao__matrix_hint(enum glssao__doubt doubt);
 
