@@ -2,11 +2,38 @@
 // Brings a half-size result to full size. A pixel on the plane of its neighbours is interpolated linearly. Any other takes
 // those neighbours that lie near it on the same surface, or else the one that is nearest in distance.
 // in  u_depth_map      stored depth, full size; point sampled
-// in  u_normal_map     view space, full size; point sampled
+// in  u_normal_map     view space, full size; point sampled. Without (NORMALS_REBUILT), lines through depths tell creases
 // BRANCHES 1: a branch that all pixels of a warp take alike spares work.
 
 // The difference that a neighbour around a crease counts as having: larger than any other.
 const float AROUND_CREASE = 1e16;
+
+#if NORMALS == NORMALS_REBUILT
+// How far above the pixel the line through the corner that is `way` pixels from it and what lies as far beyond passes: above 0
+// where the surface turns away from the eye in between.
+float fall(float own, PAIRED corner, vec2 full_uv, vec2 way)
+{
+    float beyond = depth_component(textureLod(u_depth_map, full_uv + 2.0 * way * gFullTexel, 0.0));
+    float off = 2.0 * corner.y - linear_from_depth(beyond) - own;
+    return orthographic() ? -off : off;
+}
+#endif
+
+#if BENT && NORMALS == NORMALS_REBUILT
+// The normal of the corner that is `way` pixels from a full-size one.
+vec3 corner_normal(vec2 full_uv, vec2 way)
+{
+    vec2 texel = floor(0.5 * (full_uv / gFullTexel + way));
+    return normal_view_from_stored(textureLod(u_normal_map, (texel + 0.5) * gInvRenderTargetSize, 0.0).xyz);
+}
+
+vec3 mean_normal(vec4 weights, vec2 odd, vec2 full_uv)
+{
+    vec3 sum = weights.x * corner_normal(full_uv, -odd) + weights.y * corner_normal(full_uv, vec2(odd.x, -odd.y)) +
+               weights.z * corner_normal(full_uv, vec2(-odd.x, odd.y)) + weights.w * corner_normal(full_uv, odd);
+    return sum * inversesqrt(max(dot(sum, sum), 1e-10));
+}
+#endif
 
 // Accessibility at a full-size uv, with BENT 1 what shared/bent.glsl delivers. Coordinates are `odd` (1) where they lie midway
 // between a and d of the paired map: b differs from a in x alone, c in y; where a coordinate is even, the two are the same.
@@ -16,12 +43,20 @@ CONTENTS upsampled(PAIRED a, PAIRED b, PAIRED c, PAIRED d, vec2 odd, vec2 full_u
     float own = linear_from_depth(depth);
     vec4 apart = vec4(a.y, b.y, c.y, d.y) - own;
     vec4 off = abs(apart);
+    float tolerance = max(UPSAMPLE_TOLERANCE * radius_in_linear(own), 0.5 * linear_step(own));
     uvec4 codes = uvec4(normal_code(a), normal_code(b), normal_code(c), normal_code(d));
-#if BENT
+#if BENT && NORMALS != NORMALS_REBUILT
     vec3 stored = textureLod(u_normal_map, full_uv, 0.0).xyz;
 #endif
     // Most pixels have neighbours that all face the same way, which spares a GPU this.
     if (any(notEqual(codes.xxx, codes.yzw))) {
+#if NORMALS == NORMALS_REBUILT
+        vec4 falls = vec4(fall(own, a, full_uv, -odd), fall(own, b, full_uv, vec2(odd.x, -odd.y)),
+                          fall(own, c, full_uv, vec2(-odd.x, odd.y)), fall(own, d, full_uv, odd));
+        vec4 size = abs(falls);
+        float least = min(min(size.x, size.y), min(size.z, size.w));
+        bvec4 turned = greaterThan(falls, vec4(UPSAMPLE_FALL * least + tolerance));
+#else
 #if !BENT
         vec3 stored = textureLod(u_normal_map, full_uv, 0.0).xyz;
 #endif
@@ -30,16 +65,18 @@ CONTENTS upsampled(PAIRED a, PAIRED b, PAIRED c, PAIRED d, vec2 odd, vec2 full_u
                              turns_away(projected_normal(codes.y) - projected, vec2(odd.x, -odd.y)),
                              turns_away(projected_normal(codes.z) - projected, vec2(-odd.x, odd.y)),
                              turns_away(projected_normal(codes.w) - projected, odd));
+#endif
         off = mix(off, vec4(AROUND_CREASE), turned);
     }
-    float tolerance = max(UPSAMPLE_TOLERANCE * radius_in_linear(own), 0.5 * linear_step(own));
     bool on_plane = abs(dot(apart, vec4(0.25))) < tolerance;
     float near = on_plane ? 0.5 * AROUND_CREASE : UPSAMPLE_NEAR * radius_in_linear(own);
     // The nearest neighbour always counts.
     near = max(near, min(min(off.x, off.y), min(off.z, off.w)));
     vec4 weights = vec4(lessThanEqual(off, vec4(near)));
     CONTENTS mean = weighted(weights, a, b, c, d) / dot(weights, vec4(1.0));
-#if BENT
+#if BENT && NORMALS == NORMALS_REBUILT
+    return delivered(mean, is_sky(depth), mean_normal(weights, odd, full_uv));
+#elif BENT
     return delivered(mean, is_sky(depth), normal_view_from_stored(stored));
 #else
     return is_sky(depth) ? 1.0 : mean;

@@ -8,6 +8,7 @@
 #define NORMALS_SIGNED 0
 #define NORMALS_UNSIGNED 1
 #define NORMALS_OCTAHEDRAL 2
+#define NORMALS_REBUILT 3 // octahedral, at the estimate's size: passes/normals.frag
 
 // How the host stores depth.
 #define DEPTH_WINDOW 0

@@ -233,6 +233,8 @@ typedef enum glssao_map_id { /* textures to look at */
     GLSSAO_MAP_DEPTH,         /* the host's depth texture as last handed over; 0 before the first */
     GLSSAO_MAP_TILES,         /* R32F, one texel for each tile: its distance in tiles from the nearest one that was estimated,
                                  over 16; 0 for an estimated one. No texture where the last frame had no tiles */
+    GLSSAO_MAP_REBUILT_NORMAL, /* normals that the last frame without a normal map rebuilt from depth: RG32F, octahedral, view
+                                 space, at the estimate's size. No texture before one */
     GLSSAO_MAP_BENT_NORMAL    /* with settings.bent_normals, else none: RGBA16F, of the result's size. rgb: view-space mean of
                                  the directions that no occluder within the radius blocks, each weighted by its cosine
                                  with the normal, unit length; nearly closed: towards the normal; sky: (0, 0, 1). Alpha:

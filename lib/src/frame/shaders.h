@@ -36,7 +36,7 @@ enum glssao__shader {
 /* X(macro, its largest value). Every macro is defined in every shader, as 0 where the shader does not test it. */
 #define GLSSAO__MACROS(X)                                                                                              \
     X(COMPUTE, 1)         /* the pass is dispatched, not drawn */                                                      \
-    X(NORMALS, 2)         /* how the host stores normals: signed, unsigned, octahedral */                              \
+    X(NORMALS, 3)         /* how normals are stored: signed, unsigned, octahedral, rebuilt */                          \
     X(DEPTH, 2)           /* how it stores depth: window depth, view distance, view distance in alpha */               \
     X(TURNED, 1)          /* stored normals lie in another space than the passes compute in */                         \
     X(PERSPECTIVE, 1)     /* the projection is known not to be orthographic */                                         \
