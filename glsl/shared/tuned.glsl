@@ -23,6 +23,7 @@
 // The planar blur (shared/planar_blur.glsl).
 #define BLUR_TOLERANCE 0.02   // how far off a line may be
 #define BLUR_NEAR 0.1         // how far off a neighbour may be of a pixel that has no other
+#define BLUR_ALONE 0.5         // how much darker than its neighbours a pixel may be that can't be smoothed
 #define BLUR_HOLLOW 0.1       // how far a later round's line may bend towards the eye at its ends
 
 // Upsampling (shared/upsample.glsl).

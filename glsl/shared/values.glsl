@@ -26,6 +26,11 @@
 #define FILTER_BILATERAL 1
 #define FILTER_BOX 2
 
+// What decides how much occlusion counts.
+#define STRENGTH_FULL 0
+#define STRENGTH_UNIFORM 1
+#define STRENGTH_TEXTURE 2 // and the uniform
+
 // Formats of a picture that apply.frag can load and store.
 #define IMAGE_RGBA8 1
 #define IMAGE_RGBA16 2

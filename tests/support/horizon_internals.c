@@ -31,6 +31,7 @@ void horizon_read_pass_constants(pass_constants *out_blur, pass_constants *out_u
     *out_blur = (pass_constants){.tolerance = BLUR_TOLERANCE,
                                  .near = BLUR_NEAR,
                                  .hollow = BLUR_HOLLOW,
+                                 .alone = BLUR_ALONE,
                                  .chord = CHORD,
                                  .normal_step = NORMAL_STEP};
     *out_upsample = (pass_constants){.tolerance = UPSAMPLE_TOLERANCE,

@@ -122,9 +122,16 @@ enum {
     TESTS
 };
 
+/* Five taps in a row, and how much darker than its neighbours the middle one may be if nothing joins it. */
+typedef struct row {
+    texel taps[5];
+    double alone;
+} row;
+
 static double blurred(const truth *t, const void *user)
 {
-    const texel *taps = user;
+    const row *r = user;
+    const texel *taps = r->taps;
     double weights[5] = {0.0, 0.0, 1.0, 0.0, 0.0};
     weights[0] = t[LINE_BEFORE] && t[JOINS_BEFORE_2] ? 0.5 : 0.0; /* half of it lies outside the tile */
     weights[1] = t[JOINS_BEFORE] && (t[LINE_BEFORE] || t[LINE]) ? 1.0 : 0.0;
@@ -139,13 +146,15 @@ static double blurred(const truth *t, const void *user)
         sum += weights[i] * taps[i].value;
         total += weights[i];
     }
-    return sum / total;
+    const bool is_alone = weights[1] + weights[3] == 0.0;
+    return is_alone ? fmax(sum / total, fmin(taps[1].value, taps[3].value) - r->alone) : sum / total;
 }
 
 void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic, const pass_constants *constants,
                        int x, int y, double *out_low, double *out_high)
 {
-    texel taps[5];
+    row r = {.alone = constants->alone};
+    texel *taps = r.taps;
     for (int i = 0; i < 5; ++i)
         taps[i] = texel_at(map, horizontal ? x + i - 2 : x, horizontal ? y : y + i - 2);
     const double tolerance = fmax(in_linear(constants->tolerance, taps[2].linear, orthographic),
@@ -164,7 +173,7 @@ void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic
     tests[NEAR_AFTER] = is_near(taps[3].linear, taps[2].linear, near);
     *out_low = HUGE_VAL;
     *out_high = -HUGE_VAL;
-    each_outcome(tests, TESTS, blurred, taps, out_low, out_high);
+    each_outcome(tests, TESTS, blurred, &r, out_low, out_high);
 }
 
 enum { ON_ROW, ON_COLUMN, JOINS_AROUND, WIDE_TESTS = JOINS_AROUND + 4 };
