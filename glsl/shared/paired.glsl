@@ -49,8 +49,15 @@ float accessibility_of(PAIRED paired)
 
 // Accessibility is rounded to the 13 bits that are left, about 4 steps of R16 near 1. The floor, which R16 rounds to 0,
 // avoids denormal numbers, which drivers may flush.
+// RAYS: the value comes from the host's rays. It may be missing, which any negative number means.
+#define MISSING (-1.0)
+
 vec2 paired_accessibility(float accessibility, float linear, uint code)
 {
+#if RAYS
+    if (accessibility < 0.0)
+        return vec2(uintBitsToFloat(floatBitsToUint(MISSING) | code), linear);
+#endif
     uint bits = floatBitsToUint(max(accessibility, 2e-6)) + 512u;
     return vec2(uintBitsToFloat((bits & ~1023u) | code), linear);
 }
@@ -113,11 +120,26 @@ CONTENTS weighted(vec4 weights, PAIRED a, PAIRED b, PAIRED c, PAIRED d)
 }
 #endif
 
+// RAYS 2: the last pass that may find no value. Pixels that no ray tells anything about count as open. The power waits until
+// here, because it would change what a blur averages.
+float finished(float accessibility)
+{
+#if RAYS == 2
+    return accessibility < 0.0 ? 1.0 : pow(accessibility, gPower);
+#else
+    return accessibility;
+#endif
+}
+
 #if OUTPUT == OUTPUT_PAIRED
 #define AMBIENT PAIRED
 AMBIENT ambient(CONTENTS contents, float linear, uint code)
 {
+#if BENT
     return paired(contents, linear, code);
+#else
+    return paired(finished(contents), linear, code);
+#endif
 }
 #elif OUTPUT == OUTPUT_BENT
 #define AMBIENT vec4
@@ -130,7 +152,7 @@ AMBIENT ambient(CONTENTS contents, float linear, uint code)
 #define AMBIENT float
 AMBIENT ambient(float accessibility, float linear, uint code)
 {
-    return accessibility;
+    return finished(accessibility);
 }
 #endif
 

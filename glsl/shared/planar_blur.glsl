@@ -15,6 +15,28 @@ float line_tolerance(float linear)
     return max(BLUR_TOLERANCE * radius_in_linear(linear), linear_step(linear));
 }
 
+#if !BENT
+// Of the pixel's own value and four others. RAYS 1: of those that are not missing; missing where all are. Later rounds for
+// rays alone (STRIDE above 0, CORRECTS 0) count values less the more they differ: the first has left little noise, so a
+// difference is a shadow's edge.
+float weighted_mean(float own, float weight, vec4 others, vec4 weights)
+{
+#if RAYS
+    weight = own < 0.0 ? 0.0 : weight;
+    weights = mix(weights, vec4(0.0), lessThan(others, vec4(0.0)));
+#if STRIDE > 0 && !CORRECTS
+    vec4 apart = (others - own) * (1.0 / RAYS_ALIKE);
+    weights *= own < 0.0 ? vec4(1.0) : max(vec4(0.0), 1.0 - apart * apart);
+#endif
+    float sum = weight * own + dot(weights, others);
+    float total = weight + dot(weights, vec4(1.0));
+    return total > 0.0 ? sum / total : MISSING;
+#else
+    return (weight * own + dot(weights, others)) / (weight + dot(weights, vec4(1.0)));
+#endif
+}
+#endif
+
 // Contents of a pixel from the paired values of itself and of the two on each side along `way`.
 CONTENTS blurred(PAIRED before_2, PAIRED before, PAIRED center, PAIRED after, PAIRED after_2, vec2 way)
 {
@@ -43,14 +65,24 @@ CONTENTS blurred(PAIRED before_2, PAIRED before, PAIRED center, PAIRED after, PA
         weights.yz = vec2(joins.y && abs(before.y - center.y) < near ? 1.0 : 0.0,
                           joins.z && abs(after.y - center.y) < near ? 1.0 : 0.0);
     }
+#if BENT
     // What is left without any tap keeps its noise, which shows where it is dark among bright neighbours.
     float least =
         weights.y + weights.z == 0.0 ? min(accessibility_of(before), accessibility_of(after)) - BLUR_ALONE : 0.0;
-    CONTENTS sum = contents_of(center) + weighted(weights, before_2, before, after, after_2);
-    CONTENTS mean = sum / (1.0 + dot(weights, vec4(1.0)));
-#if BENT
+    CONTENTS mean = (contents_of(center) + weighted(weights, before_2, before, after, after_2)) /
+                    (1.0 + dot(weights, vec4(1.0)));
     return vec4(max(mean.x, least), mean.yzw);
 #else
+    vec4 taps = vec4(accessibility_of(before_2), accessibility_of(before), accessibility_of(after),
+                     accessibility_of(after_2));
+    float own = accessibility_of(center);
+    float mean = weighted_mean(own, 1.0, taps, weights);
+    // What is left without any tap keeps its noise, which shows where it is dark among bright neighbours.
+    float least = weights.y + weights.z == 0.0 ? min(taps.y, taps.z) - BLUR_ALONE : 0.0;
+#if RAYS
+    if (own < 0.0)
+        return mean;
+#endif
     return max(mean, least);
 #endif
 }
@@ -78,6 +110,11 @@ CONTENTS blurred_wide(PAIRED left, PAIRED below, PAIRED center, PAIRED above, PA
         joins.w = joins.w && !turns_away(projected_normal(codes.w) - own, vec2(1.0, 0.0));
     }
     vec4 weights = mix(vec4(0.0), vec4(0.1875), joins);
+#if BENT
     CONTENTS sum = 0.25 * contents_of(center) + weighted(weights, left, below, above, right);
     return sum / (0.25 + dot(weights, vec4(1.0)));
+#else
+    vec4 taps = vec4(accessibility_of(left), accessibility_of(below), accessibility_of(above), accessibility_of(right));
+    return weighted_mean(accessibility_of(center), 0.25, taps, weights);
+#endif
 }

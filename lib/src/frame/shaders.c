@@ -68,7 +68,7 @@ static const struct shader {
                       shader_bent_glsl, shader_paired_glsl, shader_blur_frag, shader_entry_glsl}},
     [SHADER_PLANAR_BLUR] = {"planar-blur",
                             BIT(NORMALS) | BIT(TURNED) | BIT(OUTPUT) | BIT(WIDE) | BIT(PERSPECTIVE) | BIT(BRANCHES) |
-                                BIT(BENT),
+                                BIT(COMPUTE) | BIT(STRIDE) | BIT(RAYS) | BIT(CORRECTS) | BIT(BENT),
                             {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                              shader_bent_glsl, shader_paired_glsl, shader_planar_blur_glsl, shader_planar_blur_frag,
                              shader_entry_glsl}},
@@ -84,6 +84,14 @@ static const struct shader {
                           shader_bent_glsl, shader_paired_glsl, shader_upsample_glsl, shader_packed_direction_glsl,
                           shader_upsample_frag}},
     [SHADER_SPREAD] = {"spread", BIT(BENT), {shader_pixel_glsl, shader_packed_direction_glsl, shader_spread_frag}},
+    [SHADER_RAYS] = {"rays",
+                     BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(OUTPUT) | BIT(COMPUTE) | BIT(PERSPECTIVE) |
+                         BIT(RAYS) | BIT(CORRECTS),
+                     {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
+                      shader_paired_glsl, shader_rays_frag, shader_entry_glsl}},
+    [SHADER_CORRECT] = {"correct",
+                        BIT(OUTPUT) | BIT(COMPUTE),
+                        {shader_pixel_glsl, shader_paired_glsl, shader_correct_frag, shader_entry_glsl}},
     [SHADER_APPLY] = {"apply",
                       BIT(COMPUTE) | BIT(STRENGTH) | BIT(ALBEDO) | BIT(TINTED) | BIT(IMAGE),
                       {shader_apply_frag}},
