@@ -220,10 +220,11 @@ typedef struct glssao_apply_options { /* fill with glssao_default_apply_options(
                                   where frame.viewport has the picture, else the lower left corner */
     float intensity;           /* 0 none to 1 full (default) */
     float color[3];            /* 0 to 65504: what full occlusion turns the picture into. Black by default */
-    uint32_t strength_texture; /* optional, lies as frame.depth_texture, red: 0 keeps a pixel free of occlusion, 1: full */
+    uint32_t strength_texture; /* optional, lies as frame.depth_texture, or as the framebuffer of glssao_compute_framebuffer.
+                                  Red: 0 keeps a pixel free of occlusion, 1 is full strength */
     bool keep_scissor, keep_stencil; /* the host's tests stay on, with all that belongs to them */
-    uint32_t albedo_texture;   /* optional, lies as frame.depth_texture, rgb, linear: the surface's diffuse colour. Adds light
-                                  that bounced off neighbours of the same colour (Jimenez et al. 2016, section 5) */
+    uint32_t albedo_texture;   /* optional, lies as that. Rgb, linear: the surface's diffuse colour. Adds light that bounced off
+                                  neighbours of the same colour (Jimenez et al. 2016, section 5) */
     bool show;                 /* true: accessibility replaces the picture. For a first look */
 } glssao_apply_options;
 
