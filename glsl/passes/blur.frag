@@ -11,9 +11,10 @@ uniform bool gHorizontalBlur;
 #define RESULT AMBIENT
 
 #if FILTER == FILTER_BILATERAL
-ivec2 last;
-vec3 center_normal;
-float center_distance;
+// Set by result(). The values spare a warning of Mesa's.
+ivec2 last = ivec2(0);
+vec3 center_normal = vec3(0.0);
+float center_distance = 0.0;
 #endif
 
 // Adds the tap `i` pixels from the centre.

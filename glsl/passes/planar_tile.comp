@@ -59,7 +59,7 @@ const int LAST_TO = SECOND;
 #endif
 
 // Where the map begins and ends, in texels of the tile.
-ivec2 low, high;
+ivec2 low = ivec2(0), high = ivec2(0); // set by main(); the values spare a warning of Mesa's
 
 CONTENTS blurred_at(int at, int kind)
 {
