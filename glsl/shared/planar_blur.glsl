@@ -7,7 +7,8 @@
 //
 // After the first round the only noise left is that of twice the tile's period. Later rounds remove it in one pass each: a
 // quarter of the pixel and 3/16 of each of the four at three pixels from it, where they lie on a line or in a hollow. In a
-// hollow both sides darken, and the rest of the noise would show along it.
+// hollow both sides darken, and the rest of the noise would show along it. What is left of the noise is less than the share of
+// one sample, so no round changes a pixel by more: larger differences are shade.
 // BRANCHES 1: a branch that all pixels of a warp take alike spares work.
 
 float line_tolerance(float linear)
@@ -75,6 +76,8 @@ float blurred_wide(vec2 left, vec2 below, vec2 center, vec2 above, vec2 right)
     }
     vec4 weights = mix(vec4(0.0), vec4(0.1875), joins);
     vec4 taps = vec4(accessibility_of(left), accessibility_of(below), accessibility_of(above), accessibility_of(right));
-    float sum = 0.25 * accessibility_of(center) + dot(weights, taps);
-    return sum / (0.25 + dot(weights, vec4(1.0)));
+    float own = accessibility_of(center);
+    float mean = (0.25 * own + dot(weights, taps)) / (0.25 + dot(weights, vec4(1.0)));
+    float most = 1.0 / float(gSampleCount);
+    return clamp(mean, own - most, own + most);
 }
