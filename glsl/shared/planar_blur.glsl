@@ -116,7 +116,9 @@ CONTENTS blurred_wide(PAIRED left, PAIRED below, PAIRED center, PAIRED above, PA
 #if BENT
     CONTENTS sum = 0.25 * contents_of(center) + weighted(weights, left, below, above, right);
     CONTENTS mean = sum / (0.25 + dot(weights, vec4(1.0)));
-    return vec4(clamp(mean.x, own - most, own + most), mean.yzw);
+    // Two slices leave little noise in directions, and in a crease they differ more than by noise.
+    vec3 direction = gSampleCount > 16 ? contents_of(center).yzw : mean.yzw;
+    return vec4(clamp(mean.x, own - most, own + most), direction);
 #else
     vec4 taps = vec4(accessibility_of(left), accessibility_of(below), accessibility_of(above), accessibility_of(right));
     float mean = weighted_mean(own, 0.25, taps, weights);

@@ -208,7 +208,7 @@ static void rays_correct_an_estimate(void **state)
                  "planar-tile!");
     q.can.path = GLSSAO_PATH_FRAGMENT;
     q.can.is_software = true;
-    assert_steps(&q, "distance horizon planar-blur planar-blur rays planar-blur planar-blur planar-blur planar-blur "
+    assert_steps(&q, "distance horizon planar-blur planar-blur planar-blur rays planar-blur planar-blur planar-blur planar-blur "
                      "correct upsample spread");
     s = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_LOW);
     s.half_resolution = false; /* one round more */
