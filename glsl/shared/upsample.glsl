@@ -8,13 +8,11 @@
 // The difference that a neighbour around a crease counts as having: larger than any other.
 const float AROUND_CREASE = 1e16;
 
-// Accessibility at a full-size uv, whose coordinates are `odd` (1) where they lie midway between a and d of the paired
+// How much each of four neighbours counts at a full-size uv, whose coordinates are `odd` (1) where they lie midway between a and d of the paired
 // map: b differs from a in x alone, c in y; where a coordinate is even, the two are the same.
-float upsampled(vec2 a, vec2 b, vec2 c, vec2 d, vec2 odd, vec2 full_uv)
+vec4 upsample_weights(vec2 a, vec2 b, vec2 c, vec2 d, vec2 odd, vec2 full_uv, float depth)
 {
-    float depth = depth_component(textureLod(u_depth_map, full_uv, 0.0));
     float own = linear_from_depth(depth);
-    vec4 values = vec4(accessibility_of(a), accessibility_of(b), accessibility_of(c), accessibility_of(d));
     vec4 apart = vec4(a.y, b.y, c.y, d.y) - own;
     vec4 off = abs(apart);
     uvec4 codes = uvec4(normal_code(a), normal_code(b), normal_code(c), normal_code(d));
@@ -32,7 +30,20 @@ float upsampled(vec2 a, vec2 b, vec2 c, vec2 d, vec2 odd, vec2 full_uv)
     float near = on_plane ? 0.5 * AROUND_CREASE : linear_error(UPSAMPLE_NEAR * gOcclusionRadius, own);
     // The nearest neighbour always counts.
     near = max(near, min(min(off.x, off.y), min(off.z, off.w)));
-    vec4 weights = vec4(lessThanEqual(off, vec4(near)));
+    return vec4(lessThanEqual(off, vec4(near)));
+}
+
+vec4 accessibility_of(vec2 a, vec2 b, vec2 c, vec2 d)
+{
+    return vec4(accessibility_of(a), accessibility_of(b), accessibility_of(c), accessibility_of(d));
+}
+
+// Accessibility there.
+float upsampled(vec2 a, vec2 b, vec2 c, vec2 d, vec2 odd, vec2 full_uv)
+{
+    float depth = depth_component(textureLod(u_depth_map, full_uv, 0.0));
+    vec4 weights = upsample_weights(a, b, c, d, odd, full_uv, depth);
+    vec4 values = accessibility_of(a, b, c, d);
     return is_sky(depth) ? 1.0 : dot(weights, values) / dot(weights, vec4(1.0));
 }
 

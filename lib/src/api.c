@@ -42,8 +42,11 @@ glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *f
     glssao__projection projection;
     glssao__schedule schedule;
     if (effect && glssao__check_frame(frame, settings, effect->size, &silent, &projection)) {
-        const glssao__request request = {
-            .frame = frame, .settings = settings, .size = {effect->size[0], effect->size[1]}, .can = effect->can};
+        const glssao__request request = {.frame = frame,
+                                         .settings = settings,
+                                         .size = {effect->size[0], effect->size[1]},
+                                         .frames = glssao__history_frames(&effect->history, frame, settings),
+                                         .can = effect->can};
         glssao__schedule_make(&schedule, &request);
         if (check_loops(effect, &schedule, &silent))
             return schedule.plan;
@@ -57,7 +60,7 @@ typedef struct call {
     const char *function;
     const glssao_frame *frame;
     const glssao_settings *settings;
-    int estimates; /* as in glssao__request */
+    int estimates, frames; /* as in glssao__request */
     bool only_prepares;
     glssao__projection projection;
 } call;
@@ -75,8 +78,10 @@ static void run_schedule(glssao_effect *effect, const call *c, const glssao__sch
         .precision = host->precision,
         .size = {effect->size[0], effect->size[1]},
         .estimate_size = {schedule->estimate_size[0], schedule->estimate_size[1]},
+        .map_factor = schedule->map_factor,
         .tile_rings = schedule->tile_rings,
         .seed = effect->seed,
+        .noise_index = c->settings->noise_index + (uint32_t)c->frames,
     };
     const bool is_sampled = schedule->plan.passes[GLSSAO_PASS_ESTIMATE].run;
     glssao__uniforms_fill(&effect->uniforms, &source);
@@ -86,8 +91,12 @@ static void run_schedule(glssao_effect *effect, const call *c, const glssao__sch
                                 (const int[4]){delivered->x, delivered->y, delivered->width, delivered->height},
                                 &effect->uniforms.frame);
     } else {
+        glssao__history_fill(&effect->history, &source, c->frames, &effect->uniforms.frame);
         glssao__accumulate_stop(accumulation, &effect->gl);
     }
+    glssao__history_keep(&effect->history, &source, c->frames, delivered);
+    if (!is_sampled) /* no pass drew a history */
+        effect->history.frames = 0;
     glssao__last_frame *last = &effect->last;
     last->number += 1;
     last->result = schedule->result;
@@ -118,8 +127,8 @@ static glssao_result run_guarded(glssao_effect *effect, const call *c, const gls
     glssao__host_inputs host;
     glssao__state state;
     glssao__state_save(gl, &need, effect->host_restores_state, &state);
-    glssao_result result =
-        glssao__host_textures_check(gl, &effect->log, c->frame, effect->size, UNIT_DEPTH, known, &host);
+    glssao_result result = glssao__host_textures_check(gl, &effect->log, c->frame, effect->size, UNIT_DEPTH,
+                                                       schedule->host_names, known, &host);
     if (result == GLSSAO_OK) {
         result = glssao__resources_prepare(&effect->resources, schedule);
         if (result == GLSSAO_OK && !c->only_prepares)
@@ -140,11 +149,13 @@ static glssao_result run_call(glssao_effect *effect, call *c)
         return GLSSAO_INVALID_ARGUMENT;
     glssao_result result = check_state(effect, c->function);
     glssao__schedule schedule;
+    c->frames = glssao__history_frames(&effect->history, c->frame, c->settings);
     for (bool again = result == GLSSAO_OK; again;) {
         const glssao__request request = {.frame = c->frame,
                                          .settings = c->settings,
                                          .size = {effect->size[0], effect->size[1]},
                                          .estimates = c->estimates,
+                                         .frames = c->frames,
                                          .can = effect->can};
         glssao__schedule_make(&schedule, &request);
         if (!check_loops(effect, &schedule, &effect->log))

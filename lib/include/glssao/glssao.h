@@ -155,6 +155,11 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     glssao_tiles tiles;            /* the picture is the same with and without, within a step of R16 */
     /* For teaching: */
     bool no_angle_weight;          /* classic: occluders count at any angle, so flat surfaces darken */
+    /* Over time: */
+    uint32_t noise_index;          /* another pattern of noise for each value, for instance the number of the frame where
+                                      the host averages frames itself (TAA); 0: the pattern of docs/decisions/0028 */
+    int history;                   /* 0 to 63: earlier frames are reused, and at most so many count in a pixel's mean; 0:
+                                      none. The result has the full size. Needs frame.view; docs/integration.md has more */
 } glssao_settings;
 
 /* ---- frame: what the host hands over each time ---------------------------------------------------------- */
@@ -197,6 +202,11 @@ typedef struct glssao_frame { /* zero a field that you don't use */
                                   back, second) or 16 (normals) of memory */
     int viewport[4];           /* x, y, width, height, pixels: where the picture lies in larger textures; width and height
                                   are the effect's full size. Each texture is copied, as above. All 0: the whole texture */
+    float view[16];            /* column-major view_from_world, finite and invertible. Needed where settings.history > 0 */
+    uint32_t motion_texture;   /* settings.history > 0: for things that move by themselves, or 0. Float format, full size, red
+                                  and green: uv of the point now minus its uv in the last frame, the camera's motion
+                                  included. A value outside -2..2 leaves the pixel to `view` */
+    bool cut;                  /* settings.history > 0: nothing of the earlier frames holds */
 } glssao_frame;
 
 /* ---- what the effect tells ------------------------------------------------------------------------------ */
@@ -234,6 +244,7 @@ typedef enum glssao_pass { /* in the order of the frame */
     GLSSAO_PASS_RESOLVE,     /* glssao_accumulate: the mean of the estimates and its error */
     GLSSAO_PASS_BLUR,        /* all rounds */
     GLSSAO_PASS_UPSAMPLE,    /* brings a half-size result to full size */
+    GLSSAO_PASS_HISTORY,     /* the mean of this frame and earlier ones, at full size */
     GLSSAO_PASS_APPLY,       /* glssao_apply: multiplies accessibility into colour */
     GLSSAO_PASS_COUNT
 } glssao_pass;

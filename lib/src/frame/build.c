@@ -34,9 +34,11 @@ glssao__region glssao__region_of(const glssao__choice *c, glssao_pass pass)
     case GLSSAO_PASS_NORMALS:
         return grown(glssao__region_inner(c->size, c->margin), c->factor * c->reach, c->size);
     case GLSSAO_PASS_DISTANCE: /* occluders are looked for in the margin too */
+        return whole(c->is_dense ? c->size : c->estimate);
     case GLSSAO_PASS_TILES:
         return whole(c->estimate);
     case GLSSAO_PASS_UPSAMPLE:
+    case GLSSAO_PASS_HISTORY:
         return glssao__region_inner(c->size, c->margin);
     default:
         return grown(glssao__region_inner(c->estimate, c->estimate_margin), c->reach, c->estimate);
@@ -111,6 +113,8 @@ void glssao__build_tiles(const glssao__builder *b, glssao__step *step, int facto
 /* The map that holds the value after so many of the passes that draw by turns. */
 enum glssao__map glssao__build_turn_map(const glssao__builder *b, int number)
 {
+    if (number == 0 && b->c.has_history)
+        return MAP_RAW;
     return (enum glssao__map)((b->c.paired ? MAP_PAIRED_0 : MAP_AMBIENT_0) + number % 2);
 }
 

@@ -16,7 +16,8 @@ enum {
 static const char *const pass_names[GLSSAO_PASS_COUNT] = {
     [GLSSAO_PASS_INPUTS] = "inputs", [GLSSAO_PASS_NORMALS] = "normals",   [GLSSAO_PASS_DISTANCE] = "distance",
     [GLSSAO_PASS_TILES] = "tiles",   [GLSSAO_PASS_ESTIMATE] = "estimate", [GLSSAO_PASS_RESOLVE] = "resolve",
-    [GLSSAO_PASS_BLUR] = "blur",     [GLSSAO_PASS_UPSAMPLE] = "upsample", [GLSSAO_PASS_APPLY] = "apply",
+    [GLSSAO_PASS_BLUR] = "blur",     [GLSSAO_PASS_UPSAMPLE] = "upsample", [GLSSAO_PASS_HISTORY] = "history",
+    [GLSSAO_PASS_APPLY] = "apply",
 };
 
 const char *glssao__pass_name(glssao_pass pass)
@@ -74,6 +75,7 @@ static bool chooses_compute(const glssao__capabilities *can, const glssao_settin
 static bool can_be_dispatched(const glssao__choice *c, glssao_pass pass)
 {
     return pass == GLSSAO_PASS_DISTANCE || pass == GLSSAO_PASS_BLUR || pass == GLSSAO_PASS_UPSAMPLE ||
+           pass == GLSSAO_PASS_HISTORY ||
            (pass == GLSSAO_PASS_ESTIMATE && c->is_horizon && !c->accumulates); /* a sum is added to by blending */
 }
 
@@ -124,7 +126,9 @@ static void choose_blur(glssao__choice *c, const glssao__request *q)
 static void choose_passes(glssao__choice *c, const glssao__request *q)
 {
     const glssao_frame *frame = q->frame;
-    const bool any_copy = c->copies[0] || c->copies[1] || c->copies[2] || c->copies[3];
+    bool any_copy = false;
+    for (int i = 0; i < HOST_TEXTURES; ++i)
+        any_copy = any_copy || c->copies[i];
     choose_pass(c, GLSSAO_PASS_INPUTS, any_copy,
                 any_copy ? "resolves multisampling, viewport or logarithmic depth first"
                          : "the host's textures can be read as they are");
@@ -137,8 +141,13 @@ static void choose_passes(glssao__choice *c, const glssao__request *q)
     choose_blur(c, q);
     choose_pass(c, GLSSAO_PASS_UPSAMPLE, c->upsamples,
                 c->upsamples     ? "from half size to full size along surfaces"
+                : c->has_history ? "the history brings the result to full size"
                 : c->factor == 2 ? "the host takes the half-size map"
                                  : "the estimate is at full size");
+    choose_pass(c, GLSSAO_PASS_HISTORY, c->has_history,
+                !c->has_history ? "settings.history is 0: each frame stands alone"
+                : q->frames > 0 ? "the mean of this frame and earlier ones"
+                                : "the history begins with this frame");
     const char *refusal = tiles_refusal(c, q);
     c->has_tiles = refusal == NULL;
     choose_pass(c, GLSSAO_PASS_TILES, c->has_tiles,
@@ -152,9 +161,12 @@ static void choose_copies(glssao__choice *c, const glssao_frame *frame)
 {
     const bool all = frame->multisample || frame->viewport[2] != 0 || frame->viewport[3] != 0;
     glssao__host_names(frame, c->host_names);
+    if (!c->has_history)
+        c->host_names[HOST_MOTION] = 0;
     for (int i = 0; i < HOST_TEXTURES; ++i)
         c->copies[i] =
-            c->host_names[i] != 0 && (all || (frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC && i != HOST_NORMAL));
+            c->host_names[i] != 0 && (all || (frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC && i != HOST_NORMAL &&
+                                              i != HOST_MOTION));
 }
 
 /* Where depth and normals are read from, and how they are stored there. */
@@ -168,6 +180,8 @@ static void choose_inputs(glssao__choice *c, const glssao__request *q)
     c->inputs.values[MACRO_DEPTH] = in_alpha                                   ? DEPTH_ALPHA
                                     : frame->depth_kind == GLSSAO_DEPTH_WINDOW ? DEPTH_WINDOW
                                                                                : DEPTH_DISTANCE;
+    c->inputs.values[MACRO_VARIES] = c->has_history || (q->settings->noise_index != 0 && q->estimates == 0);
+    c->inputs.values[MACRO_DENSE] = c->is_dense;
     c->inputs.values[MACRO_PERSPECTIVE] = frame->projection[11] != 0.0f; /* clip w depends on z */
     c->inputs.values[MACRO_BRANCHES] = !q->can.is_software; /* a software rasteriser takes both sides of a branch */
 }
@@ -176,7 +190,8 @@ static void choose_reach(glssao__choice *c, const glssao_settings *settings)
 {
     const int first = c->is_planar || settings->blur == GLSSAO_BLUR_BOX ? 2 : 5, later = c->is_planar ? 3 : first;
     const bool blurs = c->blurs || c->inner_rounds > 0;
-    c->reach = (blurs ? first + later * (settings->blur_rounds - 1) : 0) + (c->upsamples ? 1 : 0);
+    const bool enlarges = c->upsamples || (c->has_history && c->factor == 2);
+    c->reach = (blurs ? first + later * (settings->blur_rounds - 1) : 0) + (enlarges ? 1 : 0);
     c->tile_rings = (c->reach + TILE_SIDE - 1) / TILE_SIDE;
 }
 
@@ -186,6 +201,7 @@ void glssao__choose(glssao__choice *c, const glssao__request *q)
     memset(c, 0, sizeof *c);
     for (int i = 0; i < 2; ++i)
         c->size[i] = q->size[i];
+    c->has_history = settings->history > 0 && q->estimates == 0;
     choose_copies(c, q->frame);
     glssao__choose_estimate_size(settings, q->size, c->estimate);
     c->factor = settings->half_resolution ? 2 : 1;
@@ -193,6 +209,7 @@ void glssao__choose(glssao__choice *c, const glssao__request *q)
     c->estimate_margin = c->margin / c->factor;
     c->accumulates = q->estimates > 0;
     c->is_horizon = settings->technique == GLSSAO_HORIZON;
+    c->is_dense = c->has_history && c->is_horizon && c->factor == 2;
     c->is_planar = settings->blur == GLSSAO_BLUR_PLANAR;
     const char *nothing = nothing_to_occlude(q->frame, settings);
     glssao__choose_nothing(&c->plan, nothing ? nothing : "");
@@ -200,11 +217,12 @@ void glssao__choose(glssao__choice *c, const glssao__request *q)
     if (!nothing) {
         c->compute = chooses_compute(&q->can, settings, &c->plan.path_reason);
         c->plan.path = c->compute ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT;
-        c->upsamples = settings->half_resolution && settings->upsample;
+        c->upsamples = settings->half_resolution && settings->upsample && !c->has_history;
         choose_passes(c, q);
         choose_inputs(c, q);
         choose_reach(c, settings);
     }
-    c->paired = c->upsamples || (c->blurs && c->is_planar);
-    c->result_apart = c->upsamples || c->margin > 0;
+    c->has_history = c->has_history && !nothing;
+    c->paired = c->upsamples || c->has_history || (c->blurs && c->is_planar);
+    c->result_apart = c->upsamples || c->has_history || c->margin > 0;
 }

@@ -8,6 +8,8 @@
 #include "frame/build.h"
 
 void glssao__add_blur(glssao__builder *b);
+/* The last map that the passes by turns drew into. */
+enum glssao__map glssao__last_turn(const glssao__builder *b);
 void glssao__add_upsample(glssao__builder *b);
 
 #endif

@@ -25,6 +25,8 @@ enum glssao__shader {
     SHADER_PLANAR_TILE, /* rounds of the planar blur and upsampling in one compute shader */
     SHADER_UPSAMPLE,
     SHADER_SPREAD,
+    SHADER_HISTORY,
+    SHADER_STEADY,
     SHADER_APPLY,
     SHADER_TILE_ROWS,
     SHADER_TILE_BOUNDS,
@@ -53,7 +55,10 @@ enum glssao__shader {
     X(MULTISAMPLE, 1)     /* input: of several samples */                                                              \
     X(LOGARITHMIC, 1)     /* input: logarithmic depth */                                                               \
     X(PLANES, 1)          /* tiles: those that lie in a plane are open too */                                          \
-    X(FROM_DEPTH, 1)      /* tiles, open: occluders are looked up in the depth map, not in the distance map */
+    X(FROM_DEPTH, 1)      /* tiles, open: occluders are looked up in the depth map, not in the distance map */        \
+    X(VARIES, 1)          /* noise, and at half size the texels that are estimated, differ from frame to frame */      \
+    X(DENSE, 1)           /* distance, horizon: the distance map has the full size, the estimate half of it */         \
+    X(MOTION, 1)          /* history: there is a motion texture */
 
 enum glssao__macro {
 #define GLSSAO__ENUMERATE(name, most) MACRO_##name,

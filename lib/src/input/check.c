@@ -4,6 +4,7 @@
  */
 #include "input/check.h"
 
+#include <math.h>
 #include <stddef.h>
 
 /* One row for each number: its field, and its range. */
@@ -23,6 +24,7 @@ static const struct number {
     {"blur_sigma", offsetof(glssao_settings, blur_sigma), false, 0.1, 2.5},
     {"blur_normal_threshold", offsetof(glssao_settings, blur_normal_threshold), false, -1.0, 1.0},
     {"blur_depth_threshold", offsetof(glssao_settings, blur_depth_threshold), false, 0.0, 1e12},
+    {"history", offsetof(glssao_settings, history), true, 0.0, 63.0},
 };
 
 static bool refuse(const glssao__log *log, const char *field, long long value, const char *wanted)
@@ -109,6 +111,25 @@ static bool check_margin(const glssao_frame *frame, const int size[2], const gls
     return refuse(log, "frame.margin", margin, "want an even number that leaves at least one pixel");
 }
 
+/* The history needs to know where the camera is. */
+static bool check_view(const glssao_frame *frame, const glssao__log *log)
+{
+    double view[16], inverse[16];
+    for (int i = 0; i < 16; ++i) {
+        view[i] = (double)frame->view[i];
+        if (!(fabs(view[i]) <= 1e30)) {
+            glssao__log_write(log, GLSSAO_LOG_ERROR, "frame.view[%d] = %g: not finite", i, view[i]);
+            return false;
+        }
+    }
+    if (view[3] != 0.0 || view[7] != 0.0 || view[11] != 0.0 || view[15] != 1.0 || !glssao__invert(view, inverse)) {
+        glssao__log_write(log, GLSSAO_LOG_ERROR,
+                          "frame.view: no rotation and translation, which settings.history above 0 needs");
+        return false;
+    }
+    return true;
+}
+
 bool glssao__check_frame(const glssao_frame *frame, const glssao_settings *settings, const int size[2],
                          const glssao__log *log, glssao__projection *out_projection)
 {
@@ -130,6 +151,8 @@ bool glssao__check_frame(const glssao_frame *frame, const glssao_settings *setti
     if ((frame->back_texture == 0) != (frame->second_texture == 0))
         return refuse(log, frame->back_texture ? "frame.second_texture" : "frame.back_texture", 0,
                       "no texture, but the other layer has one");
+    if (settings->history > 0 && !check_view(frame, log))
+        return false;
     return check_margin(frame, size, log) && check_viewport(frame, size, log) && check_logarithm(frame, log) &&
            glssao__projection_analyse(frame->projection, frame->clip_zero_to_one, log, out_projection);
 }

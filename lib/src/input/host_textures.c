@@ -13,6 +13,7 @@ void glssao__host_names(const glssao_frame *frame, gl_uint out_names[HOST_TEXTUR
     out_names[HOST_NORMAL] = frame->normal_texture;
     out_names[HOST_BACK] = frame->back_texture;
     out_names[HOST_SECOND] = frame->second_texture;
+    out_names[HOST_MOTION] = frame->motion_texture;
 }
 
 /* Parameters that change what a shader reads without a sampler object having a say. */
@@ -186,14 +187,13 @@ static bool check_texture(const glssao__gl *gl, const glssao__log *log, const ch
 }
 
 glssao_result glssao__host_textures_check(const glssao__gl *gl, const glssao__log *log, const glssao_frame *frame,
-                                          const int size[2], int unit, glssao__host_textures *known,
-                                          glssao__host_inputs *out)
+                                          const int size[2], int unit, const gl_uint names[HOST_TEXTURES],
+                                          glssao__host_textures *known, glssao__host_inputs *out)
 {
     static const char *const fields[HOST_TEXTURES] = {"frame.depth_texture", "frame.normal_texture",
-                                                      "frame.back_texture", "frame.second_texture"};
+                                                      "frame.back_texture", "frame.second_texture",
+                                                      "frame.motion_texture"};
     const bool in_alpha = frame->depth_kind == GLSSAO_DEPTH_NORMAL_ALPHA;
-    gl_uint names[HOST_TEXTURES];
-    glssao__host_names(frame, names);
     memset(out, 0, sizeof *out);
     gl->ActiveTexture(GL_TEXTURE0 + (gl_enum)unit);
     for (int i = 0; i < HOST_TEXTURES; ++i) {

@@ -15,8 +15,8 @@ static bool is_finite(double value)
     return fabs(value) <= DBL_MAX;
 }
 
-/* Gauss-Jordan with partial pivoting; false where the matrix is singular to working precision. */
-static bool invert(const double m[16], double out[16])
+/* Gauss-Jordan with partial pivoting. */
+bool glssao__invert(const double m[16], double out[16])
 {
     double a[4][8];
     double largest = 0.0;
@@ -86,7 +86,7 @@ bool glssao__projection_analyse(const float projection[16], bool clip_zero_to_on
         return refuse(log, 11, p[11], "view space must look down -z, so clip w must not grow with z");
     if (p[11] == 0.0 && !(p[15] > 0.0))
         return refuse(log, 15, p[15], "an orthographic projection needs a positive clip w");
-    if (!invert(p, inverse)) {
+    if (!glssao__invert(p, inverse)) {
         glssao__log_write(log, GLSSAO_LOG_ERROR, "frame.projection is singular");
         return false;
     }

@@ -21,6 +21,9 @@ typedef struct glssao__projection {
     double ends[4];     /* distance_from_depth, not rounded */
 } glssao__projection;
 
+/* False where the column-major matrix is singular to working precision, or its inverse overflows a float. */
+bool glssao__invert(const double m[16], double out[16]);
+
 /* False, with the reason logged, where no depth map can come from the matrix. */
 bool glssao__projection_analyse(const float projection[16], bool clip_zero_to_one, const glssao__log *log,
                                 glssao__projection *out);
