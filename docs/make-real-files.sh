@@ -45,6 +45,13 @@ draw() {
                 rmse=$(compare -metric RMSE "$picture" "pictures/$(printf '%03d' $n)-${way// /}.png" null: 2>&1 | grep -o '([^)]*)' | tr -d '()' || true)
                 printf '%s\t%s\t%d\t%s\t%s\t%s\n' "$source" "$file" "$(stat -c %s "$packed")" "$way" "$rmse" "$result"
             done
+            # What lossy WebP loses is its own: the same picture from its textures as another decoder has them, in PNG files.
+            lossy=$(printf '%03d' $n)-webp.png decoded=packed/$n-webp-decoded.glb
+            if node_modules/.bin/gltf-transform png --formats '*' packed/$n-webp.glb $decoded >/dev/null 2>&1; then
+                result=$(draw $decoded "pictures/decoded-$lossy")
+                rmse=$(compare -metric RMSE "pictures/$lossy" "pictures/decoded-$lossy" null: 2>&1 | grep -o '([^)]*)' | tr -d '()' || true)
+                printf '%s\t%s\t%d\twebp against itself decoded to PNG\t%s\t%s\n' "$source" "$file" "$(stat -c %s $decoded)" "$rmse" "$result"
+            fi
         fi
     done < <(
         find /usr/share/assimp/models/glTF2 \( -name '*.gltf' -o -name '*.glb' \) -printf 'assimp-testmodels\t/usr/share/assimp/models/glTF2\t%P\n' | sort

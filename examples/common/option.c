@@ -41,14 +41,13 @@ static bool parse_whole(const char *text, double min, double max, long long *out
     return errno == 0 && (double)*out >= min && (double)*out <= max;
 }
 
-static bool parse_vector(const char *text, option_vector *out)
+static bool parse_numbers(const char *text, int count, double *out)
 {
-    for (int i = 0; i < 3; i++) {
-        if (!parse_number(text, &text, &out->value[i]) || *text != (i < 2 ? ',' : '\0'))
+    for (int i = 0; i < count; i++) {
+        if (!parse_number(text, &text, &out[i]) || *text != (i < count - 1 ? ',' : '\0'))
             return false;
         text++;
     }
-    out->given = true;
     return true;
 }
 
@@ -107,7 +106,11 @@ static bool take(const option *o, const char *text, void *out)
         ((option_number *)target)->given = true;
         return parse_in_range(o, text, &((option_number *)target)->value);
     case OPTION_VECTOR:
-        return parse_vector(text, target);
+        ((option_vector *)target)->given = true;
+        return parse_numbers(text, 3, ((option_vector *)target)->value);
+    case OPTION_MATRIX:
+        ((option_matrix *)target)->given = true;
+        return parse_numbers(text, 16, ((option_matrix *)target)->value);
     case OPTION_SIZE:
         return parse_pair(text, 'x', o->min, o->min, o->max, target);
     case OPTION_SHARD:
@@ -191,6 +194,26 @@ bool option_parse(const option_set *set, int argc, char **argv, void *out, failu
         }
     }
     return true;
+}
+
+bool option_differs(const option *o, const void *a, const void *b)
+{
+    static const size_t sizes[] = {
+        [OPTION_FLAG] = sizeof(bool),         [OPTION_INT] = sizeof(int),
+        [OPTION_INT_OR_NONE] = sizeof(int),   [OPTION_SEED] = sizeof(uint32_t),
+        [OPTION_FLOAT] = sizeof(float),       [OPTION_NUMBER] = sizeof(float),
+        [OPTION_VECTOR] = 3 * sizeof(double), [OPTION_MATRIX] = 16 * sizeof(double),
+        [OPTION_SIZE] = 2 * sizeof(int),      [OPTION_SHARD] = 2 * sizeof(int),
+        [OPTION_WORD] = sizeof(int),          [OPTION_TEXT] = sizeof(char *),
+        [OPTION_FILE] = sizeof(char *),
+    };
+    /* Structures with `given` are compared without the padding between it and the value. */
+    const size_t value = o->kind == OPTION_NUMBER   ? offsetof(option_number, value)
+                         : o->kind == OPTION_VECTOR ? offsetof(option_vector, value)
+                         : o->kind == OPTION_MATRIX ? offsetof(option_matrix, value)
+                                                    : 0;
+    const char *x = (const char *)a + o->offset, *y = (const char *)b + o->offset;
+    return (value > 0 && *(const bool *)x != *(const bool *)y) || memcmp(x + value, y + value, sizes[o->kind]) != 0;
 }
 
 void option_print_line(const char *left, const char *help)

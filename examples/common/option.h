@@ -21,6 +21,11 @@ typedef struct option_vector {
     double value[3];
 } option_vector;
 
+typedef struct option_matrix {
+    bool given;
+    double value[16];
+} option_matrix;
+
 /* The type of the member that an option sets. */
 typedef enum option_kind {
     OPTION_FLAG,        /* bool */
@@ -30,6 +35,7 @@ typedef enum option_kind {
     OPTION_FLOAT,       /* float, min to max */
     OPTION_NUMBER,      /* option_number, min to max */
     OPTION_VECTOR,      /* option_vector */
+    OPTION_MATRIX,      /* option_matrix: 16 numbers with commas between them */
     OPTION_SIZE,        /* int[2], both min to max: "640x480" */
     OPTION_SHARD,       /* int[2], the second min to max, the first below it: "0/4" */
     OPTION_WORD,        /* int: index into the words that `wanted` lists */
@@ -61,6 +67,9 @@ typedef struct option_set {
 /* Parses the arguments from argv[1] on into the structure at `out`. Its strings live as long as argv. False, with one
  * line in `why` that names the option and the value, if one is wrong. */
 bool option_parse(const option_set *set, int argc, char **argv, void *out, failure *why);
+
+/* Whether two of these structures differ in the member that the option sets. Texts are compared as pointers. */
+bool option_differs(const option *o, const void *a, const void *b);
 
 /* Prints each option that is not refused to stdout. */
 void option_print(const option_set *set);

@@ -127,6 +127,7 @@
     X(STENCILFUNC, StencilFunc)                                                                                        \
     X(TEXIMAGE2D, TexImage2D)                                                                                          \
     X(TEXIMAGE2DMULTISAMPLE, TexImage2DMultisample)                                                                    \
+    X(TEXIMAGE3D, TexImage3D)                                                                                          \
     X(TEXPARAMETERI, TexParameteri)                                                                                    \
     X(TEXSUBIMAGE2D, TexSubImage2D)                                                                                    \
     X(UNIFORM1F, Uniform1f)                                                                                            \

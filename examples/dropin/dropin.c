@@ -2,7 +2,7 @@
  *
  * The smallest host program: a window and a few boxes drawn in one forward pass. Comments with "glssao" mark what adds
  * ambient occlusion. It is compiled three times, with libGL's prototypes, libepoxy and GLEW, because glssao's loader
- * must work beside each of them.   dropin [--frames N] [--picture FILE.ppm] [--no-ao]
+ * must work beside each of them.   dropin [--frames N] [--picture FILE.ppm] [--no-ao] [--samples N]
  */
 #include "support.h"
 
@@ -56,16 +56,6 @@ static void draw_boxes(GLuint program, mat4 projection)
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, 24);
 }
 
-/* snippet: attach */
-/* Gives the texture storage and attaches it to the bound framebuffer. */
-static void attach(GLenum point, GLuint texture, GLint format, GLenum components, int width, int height)
-{
-    glBindTexture(GL_TEXTURE_2D, texture);
-    glTexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, components, GL_UNSIGNED_INT, NULL);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, point, GL_TEXTURE_2D, texture, 0);
-}
-/* end */
-
 int main(int argc, char **argv)
 {
     dropin_options o = dropin_read_options(argc, argv);
@@ -75,12 +65,6 @@ int main(int argc, char **argv)
     GLuint vertex_array, program = make_program();
     glGenVertexArrays(1, &vertex_array);
     glBindVertexArray(vertex_array);
-    /* snippet: targets */
-    GLuint framebuffer, color, depth;
-    glGenFramebuffers(1, &framebuffer);
-    glGenTextures(1, &color);
-    glGenTextures(1, &depth);
-    /* end */
     glEnable(GL_DEPTH_TEST);
 
     /* glssao, snippet: create */
@@ -93,33 +77,19 @@ int main(int argc, char **argv)
     /* end */
 
     while (!o.ended && !glfwWindowShouldClose(window)) {
-        /* snippet: bind */
-        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-        /* end */
         if (dropin_take_size(window, &width, &height)) {
-            /* snippet: storage */
-            attach(GL_COLOR_ATTACHMENT0, color, GL_RGBA8, GL_RGBA, width, height);
-            attach(GL_DEPTH_ATTACHMENT, depth, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, width, height);
             glViewport(0, 0, width, height);
-            /* end */
             glm_perspective(0.8f, (float)width / (float)height, 0.1f, 50.0f, projection);
-            /* glssao, snippet: resize */
-            glssao_resize(effect, width, height);
-            /* end */
         }
         draw_boxes(program, projection);
         if (o.with_ao) {
-            /* glssao, snippet: frame */
-            glssao_frame frame = {.depth_texture = depth};
+            /* glssao, snippet: window frame */
+            glssao_frame frame = {0};
             memcpy(frame.projection, projection, sizeof frame.projection);
-            if (glssao_compute(effect, &frame, &settings) == GLSSAO_OK)
-                glssao_apply(effect, framebuffer);
+            if (glssao_compute_framebuffer(effect, 0, &frame, &settings) == GLSSAO_OK) /* 0: the window */
+                glssao_apply(effect, 0);
             /* end */
         }
-        /* snippet: show */
-        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-        glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-        /* end */
         dropin_show(window, &o, width, height);
     }
     /* glssao, snippet: destroy */

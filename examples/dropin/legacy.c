@@ -1,26 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * A legacy host: fixed-function drawing straight into the window, with --samples multisampled. Comments with "glssao"
- * mark what adds ambient occlusion; window_depth.h copies the window's depth.
+ * A legacy host: fixed-function drawing in a compatibility context. Comments with "glssao" mark what adds ambient
+ * occlusion.
  *   dropin-legacy [--frames N] [--picture FILE.ppm] [--no-ao] [--samples N] [--egl]
  */
 #include "support.h"
 
 #include <cglm/cglm.h>
 
-/* glssao, snippet: legacy loader */
-#include "window_depth.h"
+/* glssao */
 #include <glssao/glssao.h>
-#include <string.h>
-
-static void *find_function(const char *name, void *user)
-{
-    (void)user;
-    GLFWglproc function = glfwGetProcAddress(name);
-    void *address;
-    memcpy(&address, &function, sizeof address);
-    return address;
-}
 /* end */
 
 static void draw_box(float x, float y, float z, float half_x, float half_y, float half_z)
@@ -78,30 +67,24 @@ int main(int argc, char **argv)
     GLFWwindow *window = dropin_open_window("glssao dropin-legacy", &o);
     int width = 640, height = 480;
 
-    /* glssao, snippet: legacy create */
+    /* glssao */
     glssao_effect *effect = NULL;
-    glssao_config config = {.load = find_function, .log = glssao_log_to_stderr, .width = width, .height = height};
-    window_depth *depth_copy = window_depth_create(find_function, NULL);
-    if (!depth_copy || glssao_create(&config, &effect) != GLSSAO_OK)
+    glssao_config config = {.get_proc = glfwGetProcAddress, .log = glssao_log_to_stderr, .width = 640, .height = 480};
+    if (glssao_create(&config, &effect) != GLSSAO_OK)
         return 1;
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     settings.radius = 0.5f;
     /* end */
 
     while (!o.ended && !glfwWindowShouldClose(window)) {
-        if (dropin_take_size(window, &width, &height)) {
-            /* glssao */
-            glssao_resize(effect, width, height);
-            /* end */
-        }
+        dropin_take_size(window, &width, &height);
         draw_scene(width, height);
 
         if (o.with_ao) {
             /* glssao, snippet: legacy frame */
-            const char *why;
-            glssao_frame frame = {.depth_texture = window_depth_copy(depth_copy, 0, width, height, &why)};
+            glssao_frame frame = {0};
             glGetFloatv(GL_PROJECTION_MATRIX, frame.projection);
-            if (frame.depth_texture && glssao_compute(effect, &frame, &settings) == GLSSAO_OK)
+            if (glssao_compute_framebuffer(effect, 0, &frame, &settings) == GLSSAO_OK)
                 glssao_apply(effect, 0);
             /* end */
         }
@@ -109,7 +92,6 @@ int main(int argc, char **argv)
         dropin_show(window, &o, width, height);
     }
     /* glssao */
-    window_depth_destroy(depth_copy);
     glssao_destroy(effect);
     /* end */
     glfwTerminate();

@@ -3,7 +3,6 @@
  * One effect for each context of the program: a list that grows, and an end for each with its context.
  */
 #include "inject.h"
-#include "window_depth.h"
 
 #include <GL/glcorearb.h>
 #include <glssao/glssao.h>
@@ -54,15 +53,12 @@ static bool make(inject_context *c, int width, int height)
     const glssao_config config = {
         .load = inject_real, .log = log_line, .width = width, .height = height, .no_timers = true};
     const glssao_result result = glssao_create(&config, &c->effect);
-    c->depth = result == GLSSAO_OK ? window_depth_create(inject_real, NULL) : NULL;
-    if (c->depth) {
+    if (result == GLSSAO_OK) {
         c->width = width;
         c->height = height;
         return true;
     }
     inject_say("no effect in this context (%s): %s", version_text(), glssao_result_string(result));
-    glssao_destroy(c->effect);
-    c->effect = NULL;
     c->given_up = true;
     return false;
 }
@@ -80,8 +76,6 @@ bool inject_prepare_context(inject_context *c, int width, int height)
         return make(c, width, height);
     if (c->width == width && c->height == height)
         return true;
-    if (glssao_resize(c->effect, width, height) != GLSSAO_OK)
-        return false;
     c->width = width;
     c->height = height;
     c->radius = 0.0f; /* of another picture */
@@ -96,10 +90,8 @@ void inject_forget_context(void *context, bool is_current)
         if ((*at)->context == context) {
             inject_context *const gone = *at;
             *at = gone->next;
-            if (is_current) {
+            if (is_current)
                 glssao_destroy(gone->effect);
-                window_depth_destroy(gone->depth);
-            }
             free(gone);
             return;
         }

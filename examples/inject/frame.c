@@ -5,7 +5,6 @@
  */
 #define _POSIX_C_SOURCE 200809L
 #include "inject.h"
-#include "window_depth.h"
 
 #include <GL/glcorearb.h>
 #include <glssao/glssao.h>
@@ -41,7 +40,7 @@ static void set_up(void)
 
 void inject_say_once(const char *reason)
 {
-    static char said[REASONS][160];
+    static char said[REASONS][240];
     static int count;
     for (int i = 0; i < count; ++i)
         if (strncmp(said[i], reason, sizeof said[i] - 1) == 0)
@@ -152,35 +151,41 @@ static bool find_radius(inject_context *c, unsigned depth, const inject_projecti
     return c->radius > 0.0f;
 }
 
+/* A radius of 0, which computes nothing, copies depth; the radius for this frame or the next follows from it. */
+static bool compute(inject_context *c, unsigned framebuffer, int width, int height, const inject_projection *projection)
+{
+    const inject_options *o = inject_get_options();
+    glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)o->quality);
+    if (o->power > 0.0f)
+        settings.power = o->power;
+    glssao_frame frame = {.viewport = {0, 0, width, height}, .clip_zero_to_one = projection->zero_to_one};
+    memcpy(frame.projection, projection->matrix, sizeof frame.projection);
+    for (int i = 0; i < 2; ++i) {
+        settings.radius = c->radius;
+        if (glssao_compute_framebuffer(c->effect, framebuffer, &frame, &settings) != GLSSAO_OK ||
+            !find_radius(c, glssao_map(c->effect, GLSSAO_MAP_DEPTH, NULL, NULL), projection))
+            return false;
+        if (settings.radius > 0.0f)
+            return true;
+    }
+    return false;
+}
+
 bool inject_draw_effect(inject_context *c, unsigned framebuffer, int width, int height)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     pthread_once(&once, set_up);
-    const inject_options *o = inject_get_options();
     inject_projection projection;
     if (!get_projection(c, framebuffer, width, height, &projection) || !is_on ||
         !inject_prepare_context(c, width, height))
         return false;
     follow_depth_range(&projection);
-    const char *why = NULL;
-    const GLuint depth = window_depth_copy(c->depth, framebuffer, width, height, &why);
-    if (!depth) {
-        inject_say_once(why);
+    if (!compute(c, framebuffer, width, height, &projection))
         return false;
-    }
-    if (!find_radius(c, depth, &projection))
-        return false;
-    glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)o->quality);
-    settings.radius = c->radius;
-    if (o->power > 0.0f)
-        settings.power = o->power;
-    glssao_frame frame = {.depth_texture = depth, .clip_zero_to_one = projection.zero_to_one};
-    memcpy(frame.projection, projection.matrix, sizeof frame.projection);
-    if (glssao_compute(c->effect, &frame, &settings) != GLSSAO_OK)
-        return false;
-    if (o->map)
-        inject_clear_to_white(framebuffer);
-    if (glssao_apply(c->effect, framebuffer) != GLSSAO_OK)
+    glssao_apply_options options = glssao_default_apply_options();
+    options.framebuffer = framebuffer;
+    options.show = inject_get_options()->map;
+    if (glssao_apply_with(c->effect, &options) != GLSSAO_OK)
         return false;
     has_drawn = true;
     c->drawn_time = inject_seconds();

@@ -116,7 +116,6 @@ float inject_fitting_radius(unsigned depth_texture, int width, int height, const
 
 /* The window's back buffer as a PPM. What it sets stays set: the program ends after it. */
 bool inject_write_picture(const char *path, int width, int height);
-void inject_clear_to_white(unsigned framebuffer);
 
 /* ---- scenes.c: events, in the context that is current ---- */
 
@@ -140,7 +139,6 @@ void inject_before_swap(void *context, int width, int height);
 /* ---- contexts.c ---- */
 
 struct glssao_effect;
-struct window_depth;
 
 typedef struct inject_context {
     struct inject_context *next;
@@ -148,7 +146,6 @@ typedef struct inject_context {
     bool is_embedded; /* OpenGL ES */
     bool given_up;    /* no effect can be made, which was said */
     struct glssao_effect *effect;
-    struct window_depth *depth;
     int width, height; /* of the effect */
     int frame;         /* swaps so far */
     double first;      /* seconds, of the first swap */
@@ -169,7 +166,7 @@ typedef struct inject_context {
 inject_context *inject_context_of(void *context);
 /* The next one after `c`, the first after NULL; NULL at the end. */
 inject_context *inject_next_context(inject_context *c);
-/* Makes effect and depth copy at that size; false where that can't be. */
+/* Makes an effect; false where that can't be. */
 bool inject_prepare_context(inject_context *c, int width, int height);
 /* The context is about to be destroyed; `is_current`: on this thread, so that its objects can be deleted. */
 void inject_forget_context(void *context, bool is_current);

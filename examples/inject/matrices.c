@@ -100,7 +100,7 @@ bool inject_orthographic_of(const float m[16], bool zero_to_one, float out_matri
     out_matrix[0] = (float)x;
     out_matrix[5] = (float)y;
     out_matrix[10] = (float)(is_turned ? z : -z);
-    out_matrix[14] = is_turned ? 1.0f : zero_to_one ? 0.0f : -1.0f; /* distance 0 at the near plane */
+    out_matrix[14] = (float)r[2][3]; /* the library moves the eye to the near plane */
     out_matrix[15] = 1.0f;
     return true;
 }

@@ -9,24 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void inject_clear_to_white(unsigned framebuffer)
-{
-    INJECT_REAL(PFNGLGETFLOATVPROC, GetFloatv);
-    INJECT_REAL(PFNGLCLEARCOLORPROC, ClearColor);
-    INJECT_REAL(PFNGLCLEARPROC, Clear);
-    INJECT_REAL(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer);
-    INJECT_REAL(PFNGLGETINTEGERVPROC, GetIntegerv);
-    GLfloat color[4];
-    GLint bound;
-    GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
-    GetFloatv(GL_COLOR_CLEAR_VALUE, color);
-    BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-    ClearColor(1.0f, 1.0f, 1.0f, 1.0f);
-    Clear(GL_COLOR_BUFFER_BIT);
-    ClearColor(color[0], color[1], color[2], color[3]);
-    BindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)bound);
-}
-
 bool inject_write_picture(const char *path, int width, int height)
 {
     INJECT_REAL(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer);

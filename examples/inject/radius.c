@@ -52,7 +52,8 @@ float inject_fitting_radius(unsigned texture, int width, int height, const injec
     for (size_t i = 0; depth && i < all; i += step) {
         const float ndc = projection->zero_to_one ? depth[i] : 2.0f * depth[i] - 1.0f;
         const float distance = is_perspective ? p[14] / (ndc + p[10]) : (p[14] - ndc) / p[10];
-        if (depth[i] > 0.0f && depth[i] < 1.0f && isfinite(distance) && distance > 0.0f) /* 0: never cleared */
+        const bool is_seen = depth[i] > 0.0f && depth[i] < 1.0f; /* 0: never cleared */
+        if (is_seen && isfinite(distance) && (distance > 0.0f || !is_perspective))
             distances[count++] = (double)distance;
     }
     float radius = 0.0f;

@@ -6,6 +6,7 @@
 #include "engine.h"
 
 #include "context.h"
+#include "reach.h"
 
 #include <GL/glcorearb.h>
 #include <math.h>
@@ -18,6 +19,7 @@
 #define ENGINE_FUNCTIONS(X)                                                                                            \
     X(BINDTEXTURE, BindTexture)                                                                                        \
     X(DELETETEXTURES, DeleteTextures)                                                                                  \
+    X(FINISH, Finish)                                                                                                  \
     X(GENTEXTURES, GenTextures)                                                                                        \
     X(GETERROR, GetError)                                                                                              \
     X(GETTEXIMAGE, GetTexImage)                                                                                        \
@@ -135,13 +137,23 @@ static GLuint upload(engine *e, const float *values, int channels, GLenum intern
     return texture;
 }
 
-static glssao_result run(engine *e, const glssao_frame *frame, const glssao_settings *settings, int estimates)
+/* Whether the mean of the estimates so far has the error that is asked for. That of one is not known: negative. */
+static bool is_good_enough(const engine *e, float error)
 {
-    if (estimates == 0)
+    if (error > 0.0f)
+        e->gl.Finish(); /* the error is known once the estimate is done */
+    const double reached = error > 0.0f ? glssao_get_stats(e->effect).sampling_error : -1.0;
+    return reached >= 0.0 && reached <= (double)error;
+}
+
+static glssao_result run(engine *e, const occlude_input *input, const glssao_frame *frame,
+                         const glssao_settings *settings)
+{
+    if (input->estimates == 0)
         return glssao_compute(e->effect, frame, settings);
     glssao_restart_accumulation(e->effect); /* a new texture may have the name of the last call's */
     glssao_result result = GLSSAO_OK;
-    for (int i = 0; i < estimates && result == GLSSAO_OK; ++i)
+    for (int i = 0; i < input->estimates && result == GLSSAO_OK && (i == 0 || !is_good_enough(e, input->error)); ++i)
         result = glssao_accumulate(e->effect, frame, settings);
     return result;
 }
@@ -210,6 +222,34 @@ static bool upload_all(engine *e, const occlude_input *input, float radius, glss
     return !input->solid || add_solid_ground(e, input, radius, frame, error, error_size);
 }
 
+/* A radius is estimated again at half its size until its samples, 12 to 16 on a side, are at most 4 pixels apart. */
+static const float MOST_PIXELS = 48.0f;
+
+/* The estimates of all radii; each pixel keeps the darkest, since a smaller radius can only miss occluders. */
+static glssao_result run_all(engine *e, const occlude_input *input, const glssao_frame *frame, glssao_settings settings,
+                             float pixels_per_unit, float *out, bool *out_ok, char *error, size_t error_size)
+{
+    const size_t count = (size_t)e->width * (size_t)e->height;
+    float *smaller = NULL;
+    glssao_result result = run(e, input, frame, &settings);
+    *out_ok = result == GLSSAO_OK && read_back(e, out, error, error_size);
+    while (*out_ok && settings.radius * pixels_per_unit > MOST_PIXELS) {
+        settings.radius *= 0.5f;
+        smaller = smaller ? smaller : malloc(count * sizeof *smaller);
+        if (!smaller) {
+            snprintf(error, error_size, "out of memory for a map of %d x %d pixels", e->width, e->height);
+            *out_ok = false;
+            return GLSSAO_OK;
+        }
+        result = run(e, input, frame, &settings);
+        *out_ok = result == GLSSAO_OK && read_back(e, smaller, error, error_size);
+        for (size_t i = 0; i < count && *out_ok; ++i)
+            out[i] = fminf(out[i], smaller[i]);
+    }
+    free(smaller);
+    return result;
+}
+
 bool engine_compute(engine *e, const occlude_input *input, const glssao_settings *settings, float *out_accessibility,
                     char *error, size_t error_size)
 {
@@ -219,12 +259,13 @@ bool engine_compute(engine *e, const occlude_input *input, const glssao_settings
     memcpy(frame.projection, input->projection, sizeof frame.projection);
     glssao_settings full_size = *settings;
     full_size.upsample = true;
+    const reach seen = settings->technique == GLSSAO_HORIZON ? reach_measure(input) : (reach){0};
+    if (seen.extent > 0.0f && full_size.radius > seen.extent)
+        full_size.radius = seen.extent;
     glssao_result result = fit(e, input->width, input->height);
-    bool ok = result == GLSSAO_OK && upload_all(e, input, settings->radius, &frame, error, error_size);
-    if (ok) {
-        result = run(e, &frame, &full_size, input->estimates);
-        ok = result == GLSSAO_OK && read_back(e, out_accessibility, error, error_size);
-    }
+    bool ok = result == GLSSAO_OK && upload_all(e, input, full_size.radius, &frame, error, error_size);
+    if (ok)
+        result = run_all(e, input, &frame, full_size, seen.pixels_per_unit, out_accessibility, &ok, error, error_size);
     if (result != GLSSAO_OK)
         snprintf(error, error_size, "%s", e->line[0] ? e->line : glssao_result_string(result));
     const GLuint textures[] = {frame.depth_texture, frame.normal_texture, frame.back_texture, frame.second_texture};

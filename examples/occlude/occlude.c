@@ -164,6 +164,10 @@ static bool check(const occlude_input *input, const glssao_settings *settings, c
         snprintf(error, error_size, "estimates = %d: want 0 to 65536", input->estimates);
         return false;
     }
+    if (!(input->error >= 0.0f)) {
+        snprintf(error, error_size, "error = %g: want 0 or more", (double)input->error);
+        return false;
+    }
     if (input->solid && input->window_depth) {
         snprintf(error, error_size, "input.solid needs view distance, not window depth");
         return false;

@@ -25,6 +25,7 @@ typedef struct occlude_input { /* zero a field that you don't use */
     bool solid;    /* with view distance: what is seen reaches down without end, as in a height map. Else the
                       horizon technique guesses how thick an occluder is */
     int estimates; /* horizon, 1 to 65536: the mean of so many full-size estimates; 0: one frame */
+    float error;   /* with estimates: enough of them once their sampling error is at most this; 0: all of them */
 } occlude_input;
 
 /* Opens a context; NULL on failure. `seed` is that of glssao_config. */
@@ -37,9 +38,15 @@ void occlude_destroy(occlude *o);
 const char *occlude_description(const occlude *o);
 
 /* Writes width * height accessibilities: 1 is open, 0 fully occluded, 1 where there is no surface. A half-size estimate
- * is always brought to full size along surfaces, whatever settings.upsample says. */
+ * is always brought to full size along surfaces, whatever settings.upsample says. Where the radius of the horizon
+ * technique is more than 48 pixels, smaller radii are estimated too, and each pixel keeps the darkest: one estimate
+ * has at most 16 samples on a side, which would pass over what is near. */
 bool occlude_compute(occlude *o, const occlude_input *input, const glssao_settings *settings, float *out_accessibility,
                      char *error, size_t error_size);
+
+/* The diagonal of the box around the map's surfaces, scene units; 0 where it shows none. Nothing is farther away, so a
+ * larger radius changes nothing. The input must hold depth. */
+float occlude_extent(const occlude_input *input);
 
 /* For terrain and other height maps: turns heights into what an orthographic camera sees that looks straight down.
  * `heights` and `spacing`, the distance between neighbouring heights, are scene units; a height that is not finite is a

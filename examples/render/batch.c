@@ -9,6 +9,7 @@
 #include "batch_isolated.h"
 #include "batch_list.h"
 #include "clock.h"
+#include "depth_map.h"
 #include "outputs.h"
 #include "progress.h"
 #include "session.h"
@@ -33,6 +34,7 @@ typedef struct batch {
     batch_list list;
     session session;
     stage_cache *stages;
+    depth_mapper mapper;
     flight flights[FLIGHTS]; /* ring buffer */
     int first, count;
     progress shown;
@@ -105,7 +107,7 @@ static void load_ahead(batch *b, size_t from)
 {
     bool started = false;
     for (size_t i = from, looked = 0; i < b->list.count && looked < LOOK_AHEAD && !started; i++) {
-        if (is_mine(b, i) && !b->list.jobs[i].error) {
+        if (is_mine(b, i) && !b->list.jobs[i].error && !b->list.jobs[i].options.depth_in) {
             started = stage_cache_load_ahead(b->stages, &b->list.jobs[i].options);
             looked++;
         }
@@ -117,6 +119,8 @@ static bool draw_job(batch *b, size_t index, flight *f)
     session *s = &b->session;
     const options *o = &b->list.jobs[index].options;
     const double start_ms = clock_wall_ms(), start_cpu_ms = clock_cpu_ms();
+    if (o->depth_in)
+        return depth_mapper_run(&b->mapper, o, true, s->writer, &f->slip, FAULT(f->error));
     s->times = (stopwatch){.last_ms = start_ms};
     stage *st = stage_cache_get(b->stages, o,
                                 FAULT(f->error)); /* before the outputs are checked: the scene may be loaded already */
@@ -206,6 +210,7 @@ bool batch_run(const options *o)
         run_isolated(&b);
     else
         ran = ran && run_together(&b, FAULT(error));
+    depth_mapper_close(&b.mapper);
     stage_cache_destroy(b.stages);
     session_close(&b.session);
     if (ran)

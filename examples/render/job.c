@@ -5,6 +5,7 @@
 #include "job.h"
 
 #include "clock.h"
+#include "depth_map.h"
 #include "outputs.h"
 #include "session.h"
 
@@ -77,11 +78,24 @@ static bool render(job *j, double start_ms, failure *why)
     return session_finish(s, &j->slip, why) && (!o->stats || session_write_stats(s, start_ms, 0, why));
 }
 
+/* A depth map needs neither a scene nor this thread's context. */
+static bool run_depth_map(const options *o, bool quiet, writer_slip *slip, failure *why)
+{
+    depth_mapper d = {0};
+    writer *w = writer_create();
+    bool done = w ? depth_mapper_run(&d, o, quiet, w, slip, why) : fault_set(why, "out of memory");
+    if (w && !writer_wait(w, slip) && done)
+        done = fault_set(why, "%s", slip->error);
+    writer_destroy(w);
+    depth_mapper_close(&d);
+    return done;
+}
+
 bool job_run(const options *o, bool quiet, double start_ms, size_t *out_pictures, failure *why)
 {
     static job j; /* too large for the stack */
     j = (job){.options = o, .quiet = quiet};
-    const bool done = render(&j, start_ms, why);
+    const bool done = o->depth_in ? run_depth_map(o, quiet, &j.slip, why) : render(&j, start_ms, why);
     if (j.stage.scene)
         stage_close(&j.stage);
     session_close(&j.session);

@@ -20,7 +20,8 @@ static void print_help(options_program program)
              : "usage: glssao-render [options] [scene.gltf|scene.glb]\n"
                "       glssao-render [options] --batch LIST [--shard I/N]\n"
                "Renders a glTF scene or a built-in scene with screen-space ambient occlusion. It needs no display.\n"
-               "The scene - reads a glTF file from standard input.\n");
+               "The scene - reads a glTF file from standard input.\n"
+               "With --depth-in, it estimates the occlusion of a depth map instead.\n");
     option_print(&set);
     puts("\nSettings for --set, such as --set blur=none,half=off:");
     for (int i = 0; i < setting_count; i++) {
@@ -43,6 +44,7 @@ static options_result parse(int argc, char **argv, options_program program, opti
                      .technique = GLSSAO_HORIZON,
                      .blur_rounds = -1,
                      .cache_mib = 1024};
+    const options start = *out;
     const option_set set = options_set(program);
     if (!option_parse(&set, argc, argv, out, why))
         return OPTIONS_WRONG;
@@ -56,9 +58,9 @@ static options_result parse(int argc, char **argv, options_program program, opti
                GLSSAO_VERSION_MAJOR, GLSSAO_VERSION_MINOR, GLSSAO_VERSION_PATCH, v >> 16, v >> 8 & 255, v & 255);
         return OPTIONS_DONE;
     }
-    if (!options_check(out, program, why))
+    if (!options_check_depth_map(&start, out, program, why) || !options_check(out, program, why))
         return OPTIONS_WRONG;
-    if (!out->scene_path && !out->scene_name)
+    if (!out->scene_path && !out->scene_name && !out->depth_in)
         out->scene_name = "columns";
     return OPTIONS_RUN;
 }
@@ -80,9 +82,11 @@ bool options_parse_job(const options *defaults, int argc, char **argv, options *
     const option_set set = options_set(OPTIONS_JOB);
     if (!option_parse(&set, argc, argv, out, why))
         return false;
-    if (!out->scene_path && !out->scene_name) {
+    if (out->scene_path || out->scene_name) {
+        out->depth_in = out->depth_in == defaults->depth_in ? NULL : out->depth_in;
+    } else if (!out->depth_in) {
         out->scene_path = defaults->scene_path;
         out->scene_name = defaults->scene_name;
     }
-    return options_check(out, OPTIONS_JOB, why);
+    return options_check_depth_map(defaults, out, OPTIONS_JOB, why) && options_check(out, OPTIONS_JOB, why);
 }

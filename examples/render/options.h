@@ -13,16 +13,20 @@
 #include <glssao/glssao.h>
 
 typedef struct options {
-    const char *scene_path;                            /* NULL: a built-in scene */
-    const char *scene_name;                            /* the built-in scene; NULL if a file is given */
-    scene_load_options file;                           /* how to load the file; its time and memory are set by: */
-    int memory_mib;                                    /* 0: half of the machine's memory */
+    const char *scene_path;            /* NULL: a built-in scene */
+    const char *scene_name;            /* the built-in scene; NULL if a file is given */
+    scene_load_options file;           /* how to load the file; its time and memory are set by: */
+    int memory_mib;                    /* 0: half of the machine's memory */
+    const char *depth_in, *normals_in; /* a depth map instead of a scene, and its normals; NULL: none */
+    int depth_kind;                    /* options_depth */
+    option_number depth_scale, ortho_height, heightmap;
+    option_matrix projection;                          /* of the depth map, in columns */
     const char *set;                                   /* text of --set, see setting_table.h; NULL: nothing */
     const char *output, *ao, *normals, *depth, *stats; /* NULL: not written */
     int width, height;
     int quality, technique, context, path; /* glssao_quality, glssao_technique, context_kind, glssao_path */
-    option_number radius, power, fov_deg, near_plane, far_plane, error, budget_ms, time_s;
-    option_vector eye, target, up;
+    option_number radius, power, intensity, fov_deg, near_plane, far_plane, error, budget_ms, time_s;
+    option_vector eye, target, up, sky_up;
     int sample_count;  /* 0: the default of the quality */
     int blur_rounds;   /* -1: the default of the quality */
     int margin;        /* pixels on each side */
@@ -45,6 +49,11 @@ typedef struct options {
     bool isolate;                 /* batch: each job in a process of its own */
     int cache_mib;                /* memory for scenes that later jobs may need */
 } options;
+
+#define OPTIONS_DEPTH_WORDS "distance|window|window-0-1"
+/* What the values of a depth map are: view distance, or what a depth buffer stores under clip space of -1 to 1 or of 0
+ * to 1. */
+typedef enum options_depth { OPTIONS_DEPTH_DISTANCE, OPTIONS_DEPTH_WINDOW, OPTIONS_DEPTH_WINDOW_0_1 } options_depth;
 
 /* Where options come from. Each place accepts different ones. */
 typedef enum options_program { OPTIONS_RENDER, OPTIONS_JOB, OPTIONS_VIEWER } options_program;

@@ -157,6 +157,8 @@ static bool check_together(const options *o, bool is_viewer, failure *why)
                                            : "camera");
     if (o->eye.given && o->target.given && memcmp(&o->eye, &o->target, sizeof o->eye) == 0)
         return fault_set(why, "--eye and --target are the same point");
+    if (o->sky_up.given && o->sky_up.value[0] == 0 && o->sky_up.value[1] == 0 && o->sky_up.value[2] == 0)
+        return fault_set(why, "--sky-up 0,0,0: has no direction");
     if (is_viewer && traced)
         return fault_set(why, "--technique raytrace: the viewer shows ray-traced accessibility with the keys T and Y");
     if (!file_wanted)

@@ -15,4 +15,8 @@ option_set options_set(options_program program);
 /* options_check.c: checks what no value alone tells, and the text of --set. False, with one line in `why`. */
 bool options_check(const options *o, options_program program, failure *why);
 
+/* options_depth.c: checks the options of a depth map; refuses those that differ from `start` and do not apply to it, or
+ * only to it. False, with one line in `why`. */
+bool options_check_depth_map(const options *start, const options *o, options_program program, failure *why);
+
 #endif

@@ -110,7 +110,9 @@ static bool spare_inputs(const char *path, void *user)
     const spare *s = user;
     static const inputs none = {0};
     return inputs_spare(s->read, s->options->environment, path, s->why) &&
-           inputs_spare(&none, s->options->batch, path, s->why);
+           inputs_spare(&none, s->options->batch, path, s->why) &&
+           inputs_spare(&none, s->options->depth_in, path, s->why) &&
+           inputs_spare(&none, s->options->normals_in, path, s->why);
 }
 
 bool outputs_spare_inputs(const options *o, const inputs *read, failure *why)

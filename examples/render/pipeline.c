@@ -15,8 +15,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* A radius that differs from the default scales the other lengths of the effect by the same factor. */
-glssao_settings pipeline_settings(const options *o, const scene *s)
+/* A radius that differs from that of the level scales the other lengths of the effect by the same factor. */
+glssao_settings pipeline_settings_at(const options *o, float radius)
 {
     const bool traced = o->technique == OPTIONS_RAYTRACE;
     glssao_settings settings =
@@ -25,12 +25,7 @@ glssao_settings pipeline_settings(const options *o, const scene *s)
         settings.power = 1;
         settings.sample_count = 512;
     }
-    float radius = settings.radius;
-    if (o->radius.given)
-        radius = o->radius.value;
-    else if (o->scene_path)
-        radius = camera_suggest_radius(s);
-    setting_scale_radius(&settings, radius);
+    setting_scale_radius(&settings, o->radius.given ? o->radius.value : radius > 0 ? radius : settings.radius);
     if (o->power.given)
         settings.power = o->power.value;
     if (o->sample_count)
@@ -41,6 +36,11 @@ glssao_settings pipeline_settings(const options *o, const scene *s)
         setting_apply(o->set, &settings, &(failure){0}); /* options_parse made sure that it is valid */
     }
     return settings;
+}
+
+glssao_settings pipeline_settings(const options *o, const scene *s)
+{
+    return pipeline_settings_at(o, o->scene_path ? camera_suggest_radius(s) : 0);
 }
 
 /* The last error that the library logged. It becomes part of the line that reports a failed job. */
@@ -122,6 +122,7 @@ bool pipeline_surround(pipeline *p, const stage *st, const char *path, failure *
     }
     p->lighting = st->lighting;
     scene_lighting_surround(&p->lighting, st->scene, p->environment);
+    scene_lighting_turn(&p->lighting, st->scene, p->up);
     p->lighting.plain = p->plain;
     memcpy(p->lighting.background, p->background, sizeof p->background);
     return true;
@@ -135,6 +136,8 @@ bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_us
     p->renderer = st->renderer;
     p->plain = options_parse_background(o->background, p->background);
     p->transparent = p->plain && p->background[3] == 0;
+    for (int i = 0; i < 3; i++)
+        p->up[i] = o->sky_up.given ? (float)o->sky_up.value[i] : o->up.given ? (float)o->up.value[i] : i == 1;
     if (!pipeline_surround(p, st, wants.picture ? o->environment : NULL, why))
         return false;
     if ((width != p->width || height != p->height) && !pipeline_change_size(p, width, height, why))
@@ -148,8 +151,10 @@ bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_us
                                            .mapped_normals = o->mapped_normals,
                                            .specular_occlusion = o->specular_occlusion,
                                            .multi_bounce = o->multi_bounce,
+                                           .left_out = o->intensity.given ? 1 - o->intensity.value : 0,
                                            .layers = wants.ao && o->layers == 2,
-                                           .no_picture = !wants.picture};
+                                           .no_picture = !wants.picture,
+                                           .no_prepass = !wants.prepass};
     p->debug_map = (options_map)o->debug_map;
     if (!scene_renderer_configure(p->renderer, &p->lighting, &p->draw_options, why->text, why->size))
         return false;

@@ -52,6 +52,7 @@ typedef struct pipeline {
     progressive_report reached;
     scene_draw_options draw_options;
     options_map debug_map;
+    float up[3];         /* of the sky */
     bool plain;          /* a background replaces the sky */
     bool transparent;    /* the background has alpha 0, and the picture straight alpha */
     float background[4]; /* linear colour and alpha */
@@ -115,6 +116,9 @@ bool pipeline_is_in_memory(const pipeline *p, pipeline_output output, pixel_kind
 
 /* Accessibility as PIXELS_GREY8 or PIXELS_FLOAT. The caller frees it. NULL if memory is short. */
 void *pipeline_read_ao(pipeline *p, pixel_kind kind);
+
+/* The settings that the options ask for, with this radius unless they name one; 0: that of the level. */
+glssao_settings pipeline_settings_at(const options *o, float radius);
 
 /* Prints a table of the passes that a frame runs and skips to stdout. */
 void pipeline_print_plan(const pipeline *p, const scene_view *view);

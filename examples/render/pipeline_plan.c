@@ -29,6 +29,7 @@ void pipeline_print_plan(const pipeline *p, const scene_view *view)
     print_row("pre-pass", p->wants.prepass, -1, p->width, p->height,
               pipeline_reads_normals(p, view) ? "depth and view-space normals"
               : p->wants.prepass              ? "depth alone: nothing reads normals"
+              : p->wants.picture              ? "nothing reads depth, and there are more triangles than pixels"
                                               : "rays find their surfaces themselves");
     if (p->wants.traced) {
         print_row("raytrace", true, 0, p->width, p->height, "rays from each pixel's surface, on the processor");

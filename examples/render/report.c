@@ -129,17 +129,10 @@ static void print_ms(FILE *f, const char *name, double ms)
 
 static void print_scene(FILE *f, const scene *s)
 {
-    uint64_t triangles = 0;
-    for (uint32_t m = 0; m < s->mesh_count; m++) {
-        for (uint32_t p = 0; p < s->meshes[m].primitive_count; p++) {
-            const scene_primitive *primitive = &s->primitives[s->meshes[m].first_primitive + p];
-            const uint64_t count = primitive->index_count / 3;
-            triangles += primitive->topology == SCENE_TRIANGLES ? count * s->meshes[m].instance_count : 0;
-        }
-    }
     fputs("  \"scene\": {\"name\": ", f);
     print_string(f, s->name);
-    fprintf(f, ", \"triangles\": %" PRIu64 ", \"instances\": %u},\n  \"warnings\": [", triangles, s->instance_count);
+    fprintf(f, ", \"triangles\": %" PRIu64 ", \"instances\": %u},\n  \"warnings\": [", scene_count_triangles(s),
+            s->instance_count);
     for (size_t i = 0; i < s->warning_count; i++) {
         fputs(i ? ", " : "", f);
         print_string(f, s->warnings[i]);

@@ -59,7 +59,10 @@ static pipeline_wants choose_wants(const session *s)
     wants.normal_map = o->normals || o->debug_map == OPTIONS_MAP_NORMALS;
     wants.normals = (wants.ao && !wants.traced) || wants.normal_map || o->debug_map == OPTIONS_MAP_RANDOM;
     wants.timers = o->stats || o->bench;
-    wants.prepass = wants.picture || wants.normals || o->depth;
+    /* Where nothing reads depth, a pre-pass pays if it saves shading of hidden surfaces; more triangles than pixels
+     * cost more than that. */
+    const bool shades_more = scene_count_triangles(s->scene) <= (uint64_t)o->width * (uint64_t)o->height;
+    wants.prepass = wants.normals || o->depth || o->debug_map == OPTIONS_MAP_DEPTH || (wants.picture && shades_more);
     return wants;
 }
 

@@ -30,6 +30,10 @@ typedef struct camera_framing {
 /* From a little above and to the right of the front, 45 degrees, +y up, the whole picture. */
 camera_framing camera_default_framing(float aspect);
 
+/* The shortest turn that takes +y to `up` (any length but 0): what +x, +y and +z become. +x is then the right side of
+ * the scene and +z its front. */
+void camera_find_turn(const float up[3], double out[3][3]);
+
 /* A camera that sees all vertices with equal margins left and right, and equal margins top and bottom. The narrower
  * pair is 2.5 % of the picture's width or height. The target is as far away as the middle of the scene's bounds; the
  * planes fit the bounds. An empty scene is seen from distance 1. */

@@ -11,6 +11,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const float default_fov_y_rad = 0.785398163f;                           /* 45 degrees */
 static const float default_azimuth_rad = 0.30f, default_elevation_rad = 0.35f; /* tuned by eye: shows depth */
@@ -222,27 +223,25 @@ camera_framing camera_default_framing(float aspect)
                             .free_right = 1};
 }
 
-/* The camera's axes for a direction: azimuth and elevation are 0 at the front of the scene, which is +z where +y is up.
- * The shortest turn that takes +y to `up` takes +z to the front and +x to the right side of any other scene. */
+void camera_find_turn(const float up[3], double out[3][3])
+{
+    const double length =
+        sqrt((double)up[0] * (double)up[0] + (double)up[1] * (double)up[1] + (double)up[2] * (double)up[2]);
+    const double x = (double)up[0] / length, y = (double)up[1] / length, z = (double)up[2] / length;
+    const bool over = y < -1 + 1e-9;
+    const double k = over ? 0 : 1 / (1 + y); /* Rodrigues' formula about the cross product of +y and up */
+    const double turn[3][3] = {
+        {over ? -1 : 1 - k * x * x, over ? 0 : -x, -k * x * z}, {x, y, z}, {-k * x * z, over ? 0 : -z, 1 - k * z * z}};
+    memcpy(out, turn, sizeof turn);
+}
+
+/* The camera's axes for a direction: azimuth and elevation are 0 at the front of the scene. */
 static void find_axes(const camera_framing *how, outline *o)
 {
-    double front[3] = {0, 0, 1}, side[3] = {1, 0, 0};
-    const double length = sqrt((double)how->up[0] * (double)how->up[0] + (double)how->up[1] * (double)how->up[1] +
-                               (double)how->up[2] * (double)how->up[2]);
-    for (int i = 0; i < 3; i++)
-        o->axis[i] = (double)how->up[i] / length;
-    const double *u = o->axis;
-    if (u[1] < -1 + 1e-9) {
-        side[0] = -1;
-    } else { /* Rodrigues' formula about the cross product of +y and up */
-        const double k = 1 / (1 + u[1]);
-        side[0] = 1 - k * u[0] * u[0];
-        side[1] = -u[0];
-        side[2] = -k * u[0] * u[2];
-        front[0] = -k * u[0] * u[2];
-        front[1] = -u[2];
-        front[2] = 1 - k * u[2] * u[2];
-    }
+    double turn[3][3];
+    camera_find_turn(how->up, turn);
+    const double *side = turn[0], *front = turn[2], *u = o->axis;
+    memcpy(o->axis, turn[1], sizeof o->axis);
     const double sin_a = sin((double)how->azimuth_rad), cos_a = cos((double)how->azimuth_rad);
     const double sin_e = sin((double)how->elevation_rad), cos_e = cos((double)how->elevation_rad);
     for (int i = 0; i < 3; i++) {

@@ -72,10 +72,11 @@ static void use_program(draw_pass *pass, const draw_program *p)
     gl.Uniform1f(p->depth_offset, pass->depth_offset);
     gl.UniformMatrix3fv(p->normal_view_from_world, 1, GL_FALSE, &pass->normal_view_from_world[0][0]);
     if (pass->kind == DRAW_MAIN) {
+        gl.Uniform1f(p->intensity, 1.0f - pass->renderer->options.left_out);
         gl.Uniform3fv(p->ambient, 1, pass->ambient);
         gl.Uniform3fv(p->ambient_tilt, 1, pass->ambient_tilt);
         gl.Uniform3fv(p->up_view, 1, pass->up_view);
-        gl.UniformMatrix3fv(p->world_from_view, 1, GL_FALSE, &pass->world_from_view[0][0]);
+        gl.UniformMatrix3fv(p->sky_from_view, 1, GL_FALSE, &pass->sky_from_view[0][0]);
         if (pass->environment)
             gl.Uniform3fv(p->irradiance, 9, &pass->environment->irradiance[0][0]);
         gl.Uniform3fv(p->directional, 1, pass->directional);

@@ -30,6 +30,7 @@ typedef struct scene_environment scene_environment;
 typedef struct scene_lighting {
     float ambient[3];         /* linear radiance of the environment at the horizon, scaled by accessibility */
     float ambient_tilt[3];    /* how much more comes from straight above, and less from straight below */
+    float up[3];              /* where the sky is straight above, in world space; 0, 0, 0: +y */
     float direction_world[3]; /* unit, the way the light travels */
     float directional[3];     /* linear irradiance; all 0: no such light */
     float sky[3];             /* linear, at the horizon; drawn where nothing is */
@@ -59,6 +60,8 @@ void scene_environment_destroy(scene_environment *e);
 /* Puts an environment (NULL: none), which must outlive the lighting, in the place of the built-in one, and of its sun;
  * the scene's own lights stay. */
 void scene_lighting_surround(scene_lighting *lighting, const scene *s, const scene_environment *e);
+/* Turns sky and environment, and the built-in sun where the scene has no lights, so that `up` is up. */
+void scene_lighting_turn(scene_lighting *lighting, const scene *s, const float up[3]);
 /* False where no ambient light comes from anywhere. */
 bool scene_lighting_has_ambient(const scene_lighting *lighting);
 
@@ -69,10 +72,12 @@ typedef struct scene_draw_options { /* zero is the plainest */
     bool specular_occlusion; /* accessibility darkens ambient reflections by their lobe; else like the rest */
     bool layers;             /* scene_draw_layer will be called */
     bool no_picture;         /* the main pass is not drawn: neither its programs nor a shadow map are made */
+    bool no_prepass; /* scene_draw_normals will not be called: the main pass finds the nearest surfaces itself */
     /* For measuring what leaving out spares: every part of the shaders on every surface, whatever the scene holds,
      * nothing culled, and shadow map and sky drawn in each frame. Matte and unlit materials then look otherwise. */
     bool everything;
     bool multi_bounce; /* occluded ambient light takes on the surface's colour */
+    float left_out;    /* the share of occlusion, 0 to 1, that the picture does not show */
 } scene_draw_options;
 
 /* Uploads the scene through the table in gl.h, which must be loaded. Shaders and textures only for what the scene
@@ -129,11 +134,11 @@ typedef enum scene_layer { SCENE_LAYER_BACK, SCENE_LAYER_SECOND } scene_layer;
 void scene_draw_layer(scene_renderer *r, const scene_view *view, unsigned depth_texture, scene_layer layer);
 
 /* Draws the picture into the bound framebuffer, whose depth buffer holds the pre-pass's depth: clears colour to
- * the sky at the horizon, opaque with depth EQUAL, the sky where it is no single colour with depth LEQUAL (unless the
- * last drawing of the same view, without scissors, showed none of it), then blended materials back to front with depth
- * LEQUAL and no depth write. Output is linear; the caller's framebuffer is GL_SRGB8_ALPHA8 with GL_FRAMEBUFFER_SRGB
- * enabled by this call. `ambient_map` is an accessibility texture (red; any size, sampled linearly by uv), 0: fully
- * accessible. */
+ * the sky at the horizon, opaque with depth EQUAL (with options.no_prepass: clears depth, opaque with depth LEQUAL),
+ * the sky where it is no single colour with depth LEQUAL (unless the last drawing of the same view, without scissors,
+ * showed none of it), then blended materials back to front with depth LEQUAL and no depth write. Output is linear; the
+ * caller's framebuffer is GL_SRGB8_ALPHA8 with GL_FRAMEBUFFER_SRGB enabled by this call. `ambient_map` is an
+ * accessibility texture (red; any size, sampled linearly by uv), 0: fully accessible. */
 void scene_draw_main(scene_renderer *r, const scene_view *view, const scene_lighting *lighting, unsigned ambient_map);
 
 /* Draws texture `map` over the whole bound framebuffer of width x height, through one channel transform:

@@ -128,7 +128,7 @@ typedef struct draw_pass {
     float lights[MOST_LIGHTS][4][4];
     int light_count;
     const scene_environment *environment;
-    float world_from_view[3][3];
+    float sky_from_view[3][3];
 
     const draw_program *program;
     unsigned variant;

@@ -2,7 +2,7 @@
  *
  * Light: the built-in environment and sun, or a scene's own lights.
  */
-#include "draw.h"
+#include "camera.h"
 
 #include <math.h>
 #include <string.h>
@@ -61,4 +61,18 @@ scene_lighting scene_lighting_of(const scene *s, scene_light *out_rest)
     }
     lighting.lights = out_rest;
     return lighting;
+}
+
+void scene_lighting_turn(scene_lighting *lighting, const scene *s, const float up[3])
+{
+    double turn[3][3];
+    camera_find_turn(up, turn);
+    memcpy(lighting->up, up, sizeof lighting->up);
+    if (s->light_count)
+        return;
+    const scene_lighting standing = scene_default_lighting();
+    for (int i = 0; i < 3; i++)
+        lighting->direction_world[i] = (float)((double)standing.direction_world[0] * turn[0][i] +
+                                               (double)standing.direction_world[1] * turn[1][i] +
+                                               (double)standing.direction_world[2] * turn[2][i]);
 }

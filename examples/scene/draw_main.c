@@ -4,6 +4,7 @@
  * to front.
  */
 #define CGLM_ALL_UNALIGNED /* the matrices are plain float[16] */
+#include "camera.h"
 #include "draw_internal.h"
 #include "gl.h"
 
@@ -95,24 +96,38 @@ static void pack_light(const scene_light *light, const scene_view *view, float o
     out[3][0] = spot ? 1 / fmaxf(light->inner_cos - light->outer_cos, 1e-3f) : 1;
 }
 
+/* The sky's axes (+y straight above) in view space. */
+static void find_sky(const scene_view *view, const scene_lighting *lighting, mat3 out_view_from_sky)
+{
+    static const float standing[3] = {0, 1, 0};
+    const float *up = lighting->up[0] == 0 && lighting->up[1] == 0 && lighting->up[2] == 0 ? standing : lighting->up;
+    double turn[3][3];
+    camera_find_turn(up, turn);
+    for (int c = 0; c < 3; c++) {
+        const float axis[3] = {(float)turn[c][0], (float)turn[c][1], (float)turn[c][2]};
+        rotate_to_view(view, axis, out_view_from_sky[c]);
+        glm_vec3_normalize(out_view_from_sky[c]);
+    }
+}
+
 static void set_lighting(draw_pass *pass, const scene_lighting *lighting)
 {
-    static const float up_world[3] = {0, 1, 0};
+    mat3 view_from_sky;
+    find_sky(pass->view, lighting, view_from_sky);
     for (int i = 0; i < 3; i++) {
         pass->ambient[i] = lighting->ambient[i];
         pass->ambient_tilt[i] = lighting->ambient_tilt[i];
         /* A white matte surface sends pi-th of the irradiance towards the eye. */
         pass->directional[i] = lighting->directional[i] / GLM_PIf;
     }
-    rotate_to_view(pass->view, up_world, pass->up_view);
+    glm_vec3_copy(view_from_sky[1], pass->up_view);
     rotate_to_view(pass->view, lighting->direction_world, pass->to_light_view);
     glm_vec3_negate(pass->to_light_view);
     glm_vec3_normalize(pass->to_light_view);
-    glm_vec3_normalize(pass->up_view);
     pass->environment = lighting->environment;
     for (int c = 0; c < 3; c++)
-        for (int row = 0; row < 3; row++) /* a view only turns: its inverse is its transpose */
-            pass->world_from_view[c][row] = pass->view->view_from_world[4 * row + c];
+        for (int row = 0; row < 3; row++) /* a turn's inverse is its transpose */
+            pass->sky_from_view[c][row] = view_from_sky[row][c];
     pass->light_count = (int)(lighting->light_count < MOST_LIGHTS ? lighting->light_count : MOST_LIGHTS);
     for (int i = 0; i < pass->light_count; i++)
         pack_light(&lighting->lights[i], pass->view, pass->lights[i]);
@@ -135,12 +150,13 @@ static bool is_sky_hidden(scene_renderer *r, const scene_view *view)
 /* At the far plane, where opaque surfaces left it to be seen. */
 static void draw_sky(scene_renderer *r, const scene_view *view, const scene_lighting *lighting)
 {
-    mat4 clip_from_world, world_from_clip, view_from_world;
-    memcpy(view_from_world, view->view_from_world, sizeof view_from_world);
+    mat4 clip_from_sky, sky_from_clip, view_from_sky = GLM_MAT4_IDENTITY_INIT;
+    mat3 axes;
+    find_sky(view, lighting, axes);
     /* Only directions matter: without the eye's place, nothing is lost to large coordinates. */
-    view_from_world[3][0] = view_from_world[3][1] = view_from_world[3][2] = 0;
-    glm_mat4_mul((vec4 *)view->clip_from_view, view_from_world, clip_from_world);
-    glm_mat4_inv(clip_from_world, world_from_clip);
+    glm_mat4_ins3(axes, view_from_sky);
+    glm_mat4_mul((vec4 *)view->clip_from_view, view_from_sky, clip_from_sky);
+    glm_mat4_inv(clip_from_sky, sky_from_clip);
     char error[1024];
     const int program = draw_find_sky(r, lighting, error, sizeof error); /* as a rule there since configuring */
     if (program < 0) {
@@ -150,7 +166,7 @@ static void draw_sky(scene_renderer *r, const scene_view *view, const scene_ligh
     const draw_program *p = &r->pool->variants[program].program;
     gl.UseProgram(p->name);
     gl.BindVertexArray(r->empty_vertex_array);
-    gl.UniformMatrix4fv(p->world_from_clip, 1, GL_FALSE, world_from_clip[0]);
+    gl.UniformMatrix4fv(p->sky_from_clip, 1, GL_FALSE, sky_from_clip[0]);
     gl.Uniform3fv(p->sky, 1, lighting->sky);
     gl.Uniform3fv(p->sky_tilt, 1, lighting->sky_tilt);
     if (lighting->environment)
@@ -189,9 +205,15 @@ void scene_draw_main(scene_renderer *r, const scene_view *view, const scene_ligh
         draw_bind_texture(UNIT_ENVIRONMENT, lighting->environment->mirrors, lighting->environment->sampler);
     if (r->shadow.used)
         draw_bind_texture(UNIT_SHADOW, r->shadow.texture, r->shadow.sampler);
-    gl.DepthMask(GL_FALSE);
-    gl.DepthFunc(GL_EQUAL);
+    if (r->options.no_prepass) {
+        const float far_depth = 1;
+        gl.ClearBufferfv(GL_DEPTH, 0, &far_depth);
+    }
+    /* Either way, the last of several surfaces at the same depth is seen. */
+    gl.DepthMask(r->options.no_prepass);
+    gl.DepthFunc(r->options.no_prepass ? GL_LEQUAL : GL_EQUAL);
     r->counts.main = draw_opaque(&pass, &r->counts.culled);
+    gl.DepthMask(GL_FALSE);
     if (r->opaque_count < r->first_blended)
         draw_thin(&pass, r);
     if (r->options.everything || (draw_has_sky(lighting) && !is_sky_hidden(r, view))) {

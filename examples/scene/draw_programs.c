@@ -106,7 +106,7 @@ static bool choose_programs(scene_renderer *r, const scene_lighting *lighting, c
                 find_program(r->pool, DRAW_MAIN, main_variant(item, lighting, options, shadowed), error, error_size);
             done = chosen[DRAW_MAIN] >= 0;
         }
-        if (done && casts) {
+        if (done && casts && !options->no_prepass) {
             chosen[DRAW_NORMALS] = find_program(r->pool, DRAW_NORMALS, normals, error, error_size);
             done = chosen[DRAW_NORMALS] >= 0;
         }

@@ -4,7 +4,8 @@
  * mirrors of growing roughness show. No OpenGL.
  *
  * The picture is equirectangular: twice as wide as high, straight up along its upper edge, straight down along its
- * lower one. Its middle lies along -z of the world, to the right of it +x.
+ * lower one. Its middle lies along -z of the world, to the right of it +x; for another
+ * up than +y it is turned the shortest way.
  */
 #ifndef GLSSAO_EXAMPLES_ENVIRONMENT_H
 #define GLSSAO_EXAMPLES_ENVIRONMENT_H

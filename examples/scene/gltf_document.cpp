@@ -90,6 +90,7 @@ void read_all(gltf_owner *owner, gltf_source *source, const json &parsed, const 
     if (std::string(out->version).compare(0, 2, "2.") != 0)
         throw gltf_json_error("glTF version '" + std::string(out->version).substr(0, 16) + "', only 2 is known");
     gltf_check_extensions(source, root);
+    root.extension("CESIUM_RTC").numbers("center", out->center);
     if (owner->file.unaligned)
         warn(source, "the length of a GLB chunk is no multiple of 4");
     const tinygltf::Model model = parse(gltf_outline(source, root));

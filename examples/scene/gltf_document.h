@@ -175,6 +175,7 @@ typedef struct gltf_document {
     memory_budget budget; /* what the file may still make the loader allocate */
     scene_warnings *warnings;
     const char *version, *min_version;
+    double center[3]; /* CESIUM_RTC: added to the place of every node */
     int default_scene;
     const gltf_buffer *buffers;
     const gltf_buffer_view *buffer_views;

@@ -10,11 +10,22 @@ namespace
 {
 
 // Drawn as they say, or without any influence on a picture.
-const char *const known[] = {"EXT_mesh_gpu_instancing", "KHR_lights_punctual",    "KHR_materials_emissive_strength",
-                             "KHR_materials_unlit",     "KHR_materials_variants", "KHR_mesh_quantization",
-                             "KHR_node_visibility",     "KHR_texture_transform",  "EXT_feature_metadata",
-                             "EXT_instance_features",   "EXT_mesh_features",      "EXT_structural_metadata",
-                             "KHR_node_hoverability",   "KHR_node_selectability", "KHR_xmp_json_ld"};
+const char *const known[] = {"EXT_mesh_gpu_instancing",
+                             "KHR_lights_punctual",
+                             "KHR_materials_emissive_strength",
+                             "KHR_materials_unlit",
+                             "KHR_materials_variants",
+                             "KHR_mesh_quantization",
+                             "KHR_node_visibility",
+                             "KHR_texture_transform",
+                             "EXT_feature_metadata",
+                             "EXT_instance_features",
+                             "EXT_mesh_features",
+                             "EXT_structural_metadata",
+                             "KHR_node_hoverability",
+                             "KHR_node_selectability",
+                             "KHR_xmp_json_ld",
+                             "CESIUM_RTC"};
 
 // Drawn with what glTF itself says of the surface or the node.
 const struct {

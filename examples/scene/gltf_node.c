@@ -113,7 +113,10 @@ static bool for_each_root(gltf_loader *l, bool (*visit)(gltf_loader *l, size_t n
 
 static bool place_root(gltf_loader *l, size_t node)
 {
-    return place_branch(l, node, identity);
+    double world_from_root[16];
+    memcpy(world_from_root, identity, sizeof world_from_root);
+    memcpy(world_from_root + 12, l->document->center, sizeof l->document->center);
+    return place_branch(l, node, world_from_root);
 }
 
 bool gltf_place_nodes(gltf_loader *l)

@@ -65,11 +65,11 @@ typedef struct draw_program {
     int base_color_uv, normal_uv, metallic_roughness_uv, occlusion_uv, emission_uv;
     int base_color, alpha_cutoff;
     int handedness, normal_scale, metallic_roughness, occlusion_strength, emission;
-    int ambient, ambient_tilt, up_view, directional, to_light_view, is_orthographic;
+    int intensity, ambient, ambient_tilt, up_view, directional, to_light_view, is_orthographic;
     int shadow_from_world, lights, light_count;
     int pixel_uv, origin, depth_offset;
-    int world_from_clip, sky, sky_tilt;
-    int irradiance, world_from_view;
+    int sky_from_clip, sky, sky_tilt;
+    int irradiance, sky_from_view;
     int scale, bias, red_only;
     int numerator, denominator, far_depth;
 } draw_program;

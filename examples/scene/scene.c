@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Frees scenes.
+ * Counts and frees.
  */
 #include "scene.h"
 
@@ -28,4 +28,16 @@ void scene_destroy(scene *s)
     free(s->cameras);
     free(s->lights);
     free(s);
+}
+
+uint64_t scene_count_triangles(const scene *s)
+{
+    uint64_t triangles = 0;
+    for (uint32_t m = 0; m < s->mesh_count; ++m)
+        for (uint32_t p = 0; p < s->meshes[m].primitive_count; ++p) {
+            const scene_primitive *primitive = &s->primitives[s->meshes[m].first_primitive + p];
+            if (primitive->topology == SCENE_TRIANGLES)
+                triangles += (uint64_t)(primitive->index_count / 3) * s->meshes[m].instance_count;
+        }
+    return triangles;
 }

@@ -166,6 +166,9 @@ scene *scene_load(const char *path, char *error, size_t error_size);
 /* Makes a built-in scene: "columns", "cornell", "steps" or "plane". NULL on failure, as above. */
 scene *scene_make(const char *name, char *error, size_t error_size);
 
+/* Triangles of all instances. */
+uint64_t scene_count_triangles(const scene *s);
+
 /* Frees the scene; NULL is fine. */
 void scene_destroy(scene *s);
 

@@ -101,16 +101,20 @@ static progressive_goal frame_goal(const viewer *v)
     return (progressive_goal){(double)v->options.error.value, (double)v->options.budget_ms.value};
 }
 
+static bool find_view(viewer *v)
+{
+    const bool found = viewpoint_view(&v->viewpoint, v->scene, 0, v->width, v->height, &v->view, FAULT(v->error));
+    if (!found)
+        viewer_say(v, true, "%s", v->error);
+    return found;
+}
+
 static bool draw_frame(viewer *v)
 {
     stopwatch times = {.finish = true};
     v->pipeline.settings = frame_settings(v);
     v->pipeline.goal = frame_goal(v);
     stopwatch_start(&times);
-    if (!viewpoint_view(&v->viewpoint, v->scene, 0, v->width, v->height, &v->view, FAULT(v->error))) {
-        viewer_say(v, true, "%s", v->error);
-        return false;
-    }
     /* If compiling takes long, a picture without occlusion comes first. */
     v->pipeline.wants.ao = v->updates > 0 || compiles_quickly(v);
     if (!pipeline_draw(&v->pipeline, &v->view, &times, FAULT(v->error))) {
@@ -122,16 +126,38 @@ static bool draw_frame(viewer *v)
     return true;
 }
 
-/* The picture without occlusion uses the depth of the frame and shows no map of occlusion. */
-static void draw_off(viewer *v)
+/* A picture that is averaged from several needs the depth of each. */
+static bool averages(const viewer *v)
 {
-    const options_map corner = v->pipeline.debug_map;
+    return v->pipeline.wants.samples > 1 || v->pipeline.transparent;
+}
+
+/* The picture without occlusion shows no map of occlusion. It uses the depth of the frame, or draws its own and then
+ * comes before the frame. */
+static bool draw_off(viewer *v)
+{
+    pipeline *p = &v->pipeline;
+    const options_map corner = p->debug_map;
+    const GLuint on = p->color_framebuffer;
+    bool done = true;
     if (!v->off_color)
-        v->off_color = make_target(GL_SRGB8_ALPHA8, v->width, v->height, v->pipeline.depth, &v->off_framebuffer);
+        v->off_color = make_target(GL_SRGB8_ALPHA8, v->width, v->height, p->depth, &v->off_framebuffer);
     if (corner == OPTIONS_MAP_AO || corner == OPTIONS_MAP_TILES)
-        v->pipeline.debug_map = OPTIONS_MAP_NONE;
-    pipeline_shade(&v->pipeline, &v->view, 0, v->off_framebuffer);
-    v->pipeline.debug_map = corner;
+        p->debug_map = OPTIONS_MAP_NONE;
+    if (averages(v)) {
+        stopwatch times = {.finish = false};
+        p->wants.ao = false;
+        p->color_framebuffer = v->off_framebuffer;
+        done = pipeline_draw(p, &v->view, &times, FAULT(v->error));
+        p->color_framebuffer = on;
+        p->wants.ao = true;
+    } else {
+        pipeline_shade(p, &v->view, 0, v->off_framebuffer);
+    }
+    p->debug_map = corner;
+    if (!done)
+        viewer_say(v, true, "%s", v->error);
+    return done;
 }
 
 static void draw_map(viewer *v)
@@ -187,14 +213,15 @@ static void compose(const viewer *v, GLuint to)
 
 void viewer_display(viewer *v)
 {
-    const bool due = v->frame_due;
-    if (due && !draw_frame(v)) {
+    const bool off_due = needs_off(v) && (v->frame_due || !v->off_color), off_first = off_due && averages(v);
+    const bool due = v->frame_due || off_first;
+    if (due && !(find_view(v) && (!off_first || draw_off(v)) && draw_frame(v))) {
         v->frame_due = false;
         gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
         return;
     }
     v->frame_due = !v->pipeline.wants.ao;
-    if (needs_off(v) && (due || !v->off_color))
+    if (off_due && !off_first)
         draw_off(v);
     if (v->shown != SHOWN_PICTURE)
         draw_map(v);

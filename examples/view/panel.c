@@ -71,14 +71,17 @@ static void draw_drawing(viewer *v)
     options *o = &v->options;
     bool shadows = !o->no_shadows;
     int size = o->shadow_size ? o->shadow_size : 2048;
+    float intensity = o->intensity.given ? o->intensity.value : 1;
     bool changed = gui_check("shadows (J)", &shadows);
     changed = gui_slider_whole("shadow map", "texels", &size, 64, 4096, 2048) || changed;
     changed = gui_check("apply normal maps before occlusion (K)", &o->mapped_normals) || changed;
     changed = gui_check("specular occlusion (L)", &o->specular_occlusion) || changed;
     changed = gui_check("multi-bounce tint (B)", &o->multi_bounce) || changed;
+    changed = gui_slider("strength of occlusion", "", &intensity, 0, 1, false, 1) || changed;
     changed = gui_choice("map in the corner (I)", &o->debug_map, OPTIONS_MAP_WORDS) || changed;
     o->no_shadows = !shadows;
     o->shadow_size = size == 2048 ? 0 : size;
+    o->intensity = (option_number){intensity != 1, intensity};
     if (changed)
         viewer_configure(v);
 }

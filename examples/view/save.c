@@ -40,11 +40,12 @@ void viewer_save_picture(viewer *v)
         viewer_say(v, true, "%s: out of memory", name);
         return;
     }
-    /* drop alpha, as glssao-render does */
+    /* drop alpha, as glssao-render does, unless the background has none */
+    const int channels = v->pipeline.transparent && v->shown == SHOWN_PICTURE ? 4 : 3;
     const size_t count = (size_t)v->width * (size_t)v->height;
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count && channels == 3; i++)
         memmove(pixels + 3 * i, pixels + 4 * i, 3);
-    if (picture_write(name, v->width, v->height, 3, pixels, v->error, sizeof v->error))
+    if (picture_write(name, v->width, v->height, channels, pixels, v->error, sizeof v->error))
         viewer_say(v, false, "saved %s", name);
     else
         viewer_say(v, true, "%s", v->error);
@@ -106,6 +107,8 @@ static void add_camera(line *l, const viewer *v)
         add_vector(l, "target", c->target, v->scene->origin);
     if (placed || o->up.given)
         add_vector(l, "up", placed ? c->up : given_up, NULL);
+    if (placed || o->sky_up.given)
+        add_vector(l, "sky-up", v->pipeline.up, NULL);
     if (placed || o->fov_deg.given)
         add(l, " --fov %.9g", (double)viewpoint_fov_deg(&v->viewpoint));
     if (o->near_plane.given)
@@ -164,11 +167,18 @@ bool viewer_command_line(const viewer *v, char *out, size_t out_size)
         add(&l, " --shadow-size %d", o->shadow_size);
     add(&l, "%s%s%s", o->mapped_normals ? " --mapped-normals" : "",
         o->specular_occlusion ? " --specular-occlusion" : "", o->multi_bounce ? " --multi-bounce" : "");
+    if (o->intensity.given)
+        add(&l, " --intensity %.9g", (double)o->intensity.value);
     if (o->environment) {
         add(&l, " --environment");
         add_quoted(&l, o->environment);
     }
+    if (o->background) {
+        add(&l, " --background");
+        add_quoted(&l, o->background);
+    }
     add_debug_map(&l, v);
+    add(&l, " --samples-per-pixel %d", v->pipeline.wants.samples);
     if (o->seed)
         add(&l, " --seed %u", o->seed);
     if (o->time_s.given)

@@ -86,8 +86,10 @@ void viewer_toggle_panel(viewer *v)
 
 static bool make_pipeline(viewer *v, pipeline *p, const scene *s)
 {
+    const int count = v->options.samples_per_pixel ? v->options.samples_per_pixel : 1;
     const pipeline_wants wants = {.picture = true,
-                                  .samples = 1,
+                                  .samples = count,
+                                  .maps = count > 1, /* the maps that are shown belong to the pixels' centres */
                                   .ao = true,
                                   .ao_map = true,
                                   .prepass = true,
@@ -110,7 +112,7 @@ bool viewer_open(viewer *v, const char *path, const char *name)
     v->options.scene_name = name;
     if (!first) { /* these belong to the old scene */
         v->options.radius.given = v->options.near_plane.given = v->options.far_plane.given = false;
-        v->options.time_s.given = false;
+        v->options.time_s.given = v->options.up.given = v->options.sky_up.given = false;
     }
     inputs in;
     scene *s = stage_load_scene(&v->options, &in, FAULT(v->error));
@@ -141,7 +143,8 @@ bool viewer_open(viewer *v, const char *path, const char *name)
         v->options.camera = 0;
         v->options.view = NULL;
         v->options.orthographic = false;
-        v->options.eye.given = v->options.target.given = v->options.up.given = v->options.fov_deg.given = false;
+        v->options.eye.given = v->options.target.given = false;
+        v->options.fov_deg.given = false;
         setting_scale_radius(&v->settings, path ? camera_suggest_radius(s) : viewer_standard(v).radius);
         viewer_say(v, false, "%s: %u triangles stored, opened in %.0f ms", s->name, s->index_count / 3,
                    1e3 * (glfwGetTime() - start));
@@ -221,6 +224,7 @@ void viewer_configure(viewer *v)
     o->mapped_normals = v->options.mapped_normals;
     o->specular_occlusion = v->options.specular_occlusion;
     o->multi_bounce = v->options.multi_bounce;
+    o->left_out = v->options.intensity.given ? 1 - v->options.intensity.value : 0;
     v->pipeline.debug_map = (options_map)v->options.debug_map;
     if (!scene_renderer_configure(v->pipeline.renderer, &v->pipeline.lighting, o, v->error, sizeof v->error))
         viewer_say(v, true, "%s", v->error);

@@ -35,6 +35,7 @@ void main()
     if (distance == FAR_AWAY || normal_view == vec3(0.0))
         return;
     vec3 position_view = position_view_from_uv(uv_from_texel(texel), distance);
+    normal_view = seen_normal_at(texel, position_view, normal_view);
     // Not normalised, as in the reference; a vector of length 0 leaves every offset as it is.
     vec2 random_uv = 4.0 * pixel_uv();
 #if VARIES

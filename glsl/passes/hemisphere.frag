@@ -33,6 +33,7 @@ void main()
     if (center_distance == FAR_AWAY || normal_view == vec3(0.0))
         return;
     vec3 position_view = position_view_from_uv(uv_from_texel(texel), center_distance);
+    normal_view = seen_normal_at(texel, position_view, normal_view);
     mat3 basis = view_from_tangent(normal_view);
 
     // Within this, the depth format and its filter can't tell a surface in reach from the point's own.

@@ -56,7 +56,7 @@ vec3 last_position(vec2 uv, float distance)
     ivec2 texel = ivec2(clamp(floor(uv / gFullTexel), gLastRegion.xy, gLastRegion.zw));
     vec4 tap = texelFetch(u_history_map, texel, 0);
     float seen = orthographic() ? tap.z : 1.0 / tap.z;
-    distance = abs(seen - distance) < gOcclusionRadius ? seen : distance;
+    distance = abs(seen - distance) < radius_at(distance) ? seen : distance;
     return vec3(uv * gLastRayOrigin.xy + gLastRayOrigin.zw + distance * (uv * gLastRayDirection.xy + gLastRayDirection.zw),
                 -distance);
 }
@@ -117,7 +117,7 @@ RESULT result()
         vec3 position = (gLastView * vec4(position_view_from_uv(uv, distance), 1.0)).xyz;
         vec3 normal = mat3(gLastView) * normal_view;
         vec2 pixel_width = abs(gLastRayOrigin.xy - position.z * gLastRayDirection.xy) * gFullTexel;
-        float tolerance = PLANE * gOcclusionRadius + max(pixel_width.x, pixel_width.y) + depth_step(-position.z);
+        float tolerance = PLANE * radius_at(distance) + max(pixel_width.x, pixel_width.y) + depth_step(-position.z);
         vec2 place = last_uv(position);
 #if MOTION
         vec2 moved = uv - textureLod(u_motion_map, uv, 0.0).rg;
@@ -133,7 +133,7 @@ RESULT result()
     float frames = min(floor(last.z + 0.5) + 1.0, gHistory.x);
     // What changes for longer than noise does is taken over at once, and what was known before is soon forgotten.
     float change = frames > 1.0 ? mix(last.w, now.y - last.y, LATELY) : 0.0;
-    float jump = clamp(abs(change) / (NOISE + DETAIL * abs(last.x - last.y)) - 1.0, 0.0, 1.0);
+    float jump = clamp(abs(change) / (NOISE + min(DETAIL * abs(last.x - last.y), NOISE)) - 1.0, 0.0, 1.0);
     frames = jump > 0.0 ? min(frames, FORGET) : frames;
     vec2 means = clamp(last.xy + jump * change, 0.0, 1.0);
     change -= jump * change;

@@ -49,9 +49,8 @@ const float CALIBRATION = CALIBRATION_6;
 const float BEFORE_THE_POINT = -100.0;
 // Straight below the point, where a sample hides nothing.
 const vec2 BELOW_THE_POINT = vec2(0.0, -1e6);
-// Bounds of layers, so that no square overflows, and of steps, so that pixel coordinates stay exact.
+// A bound of layers, so that no square overflows.
 const float MOST_RADII = 1e6;
-const float MOST_PIXELS = 1e5;
 // Seen edge-on, the tangent plane is all slope: the bound keeps the height of a snapped sample of the order of its x.
 const float STEEPEST = 40.0;
 
@@ -88,6 +87,8 @@ struct point {
     float distance;       // scene units
     float scale;          // a pixel's width grows with it: the view distance in perspective, else 1
     float per_scale;      // STEP / scale: the width of a step
+    float radius;         // scene units
+    vec2 pixel;           // radii that a pixel is wide, in perspective per unit of view distance
     float y_per_distance; // radii per scene unit, along the ray
     float y_step;         // a step of the depth format, in radii
     vec3 normal_view;
@@ -247,12 +248,12 @@ vec2 tile_noise()
 float slice_occlusion(point p, float angle)
 {
     vec2 direction = vec2(cos(PI * angle), sin(PI * angle));
-    vec2 step_px = STEP * clamp(float(STEPS) * p.per_scale * direction * gPixel.zw, -MOST_PIXELS, MOST_PIXELS);
+    vec2 step_px = p.radius * p.per_scale * direction * gPixel.zw;
     vec2 way = mix(vec2(-1.0), vec2(1.0), greaterThan(step_px, vec2(0.0)));
     vec3 along = vec3(direction, 0.0);
     along = normalize(along - p.up_view * dot(along, p.up_view)); // never of length 0: up is a ray that leaves the picture
     vec3 across = cross(p.up_view, along);
-    // Shading normals may look away from the eye; the hemisphere is then seen from its rim.
+    // A smooth normal may look away a little beside a silhouette; the hemisphere is then seen from its rim.
     float normal_up = max(dot(p.normal_view, p.up_view), 0.0);
     float normal_along = dot(p.normal_view, along);
     float slope = clamp(dot(p.normal_view, across) / max(normal_up, 1e-3), -STEEPEST, STEEPEST);
@@ -268,8 +269,8 @@ float slice_occlusion(point p, float angle)
     slice_side side;
     side.step_px = abs(step_px);
     side.first_px = (1.0 - p.jitter) * side.step_px;
-    side.x_per_px = way * gPixel.xy * along.xy;
-    vec2 y_per_px = gPixel.xy * (p.up_view.xy + slope * across.xy);
+    side.x_per_px = way * p.pixel * along.xy;
+    vec2 y_per_px = p.pixel * (p.up_view.xy + slope * across.xy);
     // A fifth of a pixel.
     vec2 pixel_x = p.scale * side.x_per_px;
     side.least_x = 0.2 * sqrt(dot(pixel_x, pixel_x));
@@ -292,6 +293,16 @@ float slice_occlusion(point p, float angle)
     // (6)
     float hidden = total * float(count_bits(mask)) * (1.0 / SECTORS);
     return projected * mix(hidden, veiled, VEIL);
+}
+
+// From the point, whose ray has a length of 1 along the view axis, to the pixel `offset` beside it. Beyond the map's border
+// nothing is known.
+vec3 step_to(vec2 offset, vec2 map_uv, vec3 ray, float distance)
+{
+    vec2 uv = map_uv + offset * gInvRenderTargetSize;
+    float there = uv == clamp(uv, 0.0, 1.0) ? textureLod(u_distance_map, uv, 0.0).r : FAR_AWAY;
+    vec2 across = offset * gPixel.xy * (orthographic() ? 1.0 : there);
+    return vec3(across, 0.0) + ray * (there - distance);
 }
 
 RESULT result()
@@ -318,6 +329,12 @@ RESULT result()
         return open;
     vec3 ray = vec3(uv * gRayDirection.xy + gRayDirection.zw, -1.0);
     float ray_length = length(ray);
+    vec3 up = -ray / ray_length;
+    if (dot(normal_view, up) < 0.0) {
+        vec2 lean = lean_of(normal_view, up);
+        normal_view = seen_normal(normal_view, up, step_to(lean, map_uv, ray, distance),
+                                  -step_to(-lean, map_uv, ray, distance));
+    }
     vec2 noise = tile_noise();
     point p;
     p.uv = map_uv;
@@ -326,10 +343,12 @@ RESULT result()
     p.distance = distance;
     p.scale = orthographic() ? 1.0 : distance;
     p.per_scale = STEP / p.scale;
-    p.y_per_distance = ray_length * gPerRadius;
-    p.y_step = p.y_per_distance * depth_step(distance + gOcclusionRadius);
+    p.radius = radius_at(distance);
+    p.pixel = gPixel.xy / p.radius;
+    p.y_per_distance = ray_length / p.radius;
+    p.y_step = p.y_per_distance * depth_step(distance + p.radius);
     p.normal_view = normal_view;
-    p.up_view = -ray / ray_length;
+    p.up_view = up;
     p.jitter = noise.y;
     float occlusion = 0.0;
     UNROLL_IF_SHORT for (int i = 0; i < SLICES; ++i) {

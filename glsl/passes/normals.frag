@@ -90,5 +90,10 @@ void main()
     // A projection that mirrors the picture reverses the order of the steps.
     vec4 gain = orthographic() ? gRayOrigin : gRayDirection;
     normal = gain.x * gain.y < 0.0 ? -normal : normal;
-    o_normal = vec4(known ? normal * inversesqrt(length_squared) : vec3(0.0, 0.0, 1.0), 0.0);
+    normal = known ? normal * inversesqrt(length_squared) : vec3(0.0, 0.0, 1.0);
+#if TURNED
+    // Back to the host's view space, in which the map is stored.
+    normal.xy = vec2(gRoll.x * normal.x - gRoll.y * normal.y, gRoll.y * normal.x + gRoll.x * normal.y);
+#endif
+    o_normal = vec4(normal, 0.0);
 }

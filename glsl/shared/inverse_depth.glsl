@@ -30,10 +30,24 @@ float linear_from_depth(float depth)
 #endif
 }
 
-// The change of the linear quantity for an error of `length` (scene units) about a surface.
-float linear_error(float length, float linear)
+// The longer side of the picture (scene units, in perspective per unit of view distance).
+float longer_side()
 {
-    return orthographic() ? length : length * linear * linear;
+    vec2 sides = abs(orthographic() ? gRayOrigin.xy : gRayDirection.xy);
+    return max(sides.x, sides.y);
+}
+
+// The radius at a view distance (scene units). The picture shows nothing farther away than its own sides, so a radius beyond
+// them counts as one as long as the longer: samples spread over more would miss what is near.
+float radius_at(float distance)
+{
+    return min(gOcclusionRadius, longer_side() * (orthographic() ? 1.0 : distance));
+}
+
+// The change of the linear quantity for a change of view distance by the radius.
+float radius_in_linear(float linear)
+{
+    return orthographic() ? radius_at(0.0) : min(gOcclusionRadius * linear, longer_side()) * linear;
 }
 
 // The change of the linear quantity for a step of the depth format.

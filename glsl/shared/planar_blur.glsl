@@ -11,7 +11,7 @@
 
 float line_tolerance(float linear)
 {
-    return max(linear_error(BLUR_TOLERANCE * gOcclusionRadius, linear), linear_step(linear));
+    return max(BLUR_TOLERANCE * radius_in_linear(linear), linear_step(linear));
 }
 
 // Accessibility of a pixel from the paired values of itself and of the two on each side along `way`.
@@ -38,7 +38,7 @@ float blurred(vec2 before_2, vec2 before, vec2 center, vec2 after, vec2 after_2,
     vec4 weights = vec4(on_before && joins.x ? 0.5 : 0.0, (on_before || on_line) && joins.y ? 1.0 : 0.0,
                         (on_after || on_line) && joins.z ? 1.0 : 0.0, on_after && joins.w ? 0.5 : 0.0);
     if (weights.y + weights.z == 0.0) {
-        float near = linear_error(BLUR_NEAR * gOcclusionRadius, center.y);
+        float near = BLUR_NEAR * radius_in_linear(center.y);
         weights.yz = vec2(joins.y && abs(before.y - center.y) < near ? 1.0 : 0.0,
                           joins.z && abs(after.y - center.y) < near ? 1.0 : 0.0);
     }
@@ -56,7 +56,7 @@ float blurred_wide(vec2 left, vec2 below, vec2 center, vec2 above, vec2 right)
         return accessibility_of(center);
 #endif
     float tolerance = line_tolerance(center.y);
-    float hollow = linear_error(BLUR_HOLLOW * gOcclusionRadius, center.y);
+    float hollow = BLUR_HOLLOW * radius_in_linear(center.y);
     vec2 bend = vec2(left.y, below.y) - 2.0 * center.y + vec2(right.y, above.y);
     bend = orthographic() ? -bend : bend; // above 0 in a hollow
     bvec2 counts = bvec2(bend.x > -tolerance && bend.x < hollow, bend.y > -tolerance && bend.y < hollow);

@@ -25,9 +25,9 @@ vec4 upsample_weights(vec2 a, vec2 b, vec2 c, vec2 d, vec2 odd, vec2 full_uv, fl
                              turns_away(projected_normal(codes.w) - projected, odd));
         off = mix(off, vec4(AROUND_CREASE), turned);
     }
-    float tolerance = max(linear_error(UPSAMPLE_TOLERANCE * gOcclusionRadius, own), 0.5 * linear_step(own));
+    float tolerance = max(UPSAMPLE_TOLERANCE * radius_in_linear(own), 0.5 * linear_step(own));
     bool on_plane = abs(dot(apart, vec4(0.25))) < tolerance;
-    float near = on_plane ? 0.5 * AROUND_CREASE : linear_error(UPSAMPLE_NEAR * gOcclusionRadius, own);
+    float near = on_plane ? 0.5 * AROUND_CREASE : UPSAMPLE_NEAR * radius_in_linear(own);
     // The nearest neighbour always counts.
     near = max(near, min(min(off.x, off.y), min(off.z, off.w)));
     return vec4(lessThanEqual(off, vec4(near)));

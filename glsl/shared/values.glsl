@@ -23,3 +23,11 @@
 #define FILTER_GAUSSIAN 0
 #define FILTER_BILATERAL 1
 #define FILTER_BOX 2
+
+// Formats of a picture that apply.frag can load and store.
+#define IMAGE_RGBA8 1
+#define IMAGE_RGBA16 2
+#define IMAGE_RGBA16F 3
+#define IMAGE_RGBA32F 4
+#define IMAGE_RGB10_A2 5
+#define IMAGE_R11F_G11F_B10F 6

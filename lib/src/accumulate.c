@@ -21,7 +21,9 @@ static bool is_same_view(const glssao_frame *a, const glssao_settings *s, const 
            a->multisample == b->multisample && memcmp(a->viewport, b->viewport, sizeof a->viewport) == 0 &&
            a->log_depth_far == b->log_depth_far && a->log_depth_constant == b->log_depth_constant &&
            memcmp(a->projection, b->projection, sizeof a->projection) == 0 &&
-           a->clip_zero_to_one == b->clip_zero_to_one && s->radius == t->radius && s->sample_count == t->sample_count;
+           a->clip_zero_to_one == b->clip_zero_to_one && a->world_normals == b->world_normals &&
+           (!a->world_normals || memcmp(a->view, b->view, sizeof a->view) == 0) && s->radius == t->radius &&
+           s->sample_count == t->sample_count;
 }
 
 static int count(const glssao__accumulation *a)

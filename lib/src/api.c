@@ -8,14 +8,16 @@
 #include "frame/schedule.h"
 #include "input/check.h"
 
-static bool is_closed(const glssao_effect *effect, const char *function)
+#include <string.h>
+
+bool glssao__effect_is_closed(const glssao_effect *effect, const char *function)
 {
     if (effect->normals.is_open)
         glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "%s called before glssao_end_normals", function);
     return !effect->normals.is_open;
 }
 
-static glssao_result check_state(const glssao_effect *effect, const char *function)
+glssao_result glssao__effect_check_state(const glssao_effect *effect, const char *function)
 {
     return effect->host_restores_state ? GLSSAO_OK : glssao__state_check(&effect->gl, &effect->log, function);
 }
@@ -36,17 +38,43 @@ static bool check_loops(const glssao_effect *effect, const glssao__schedule *sch
     return true;
 }
 
+static glssao__request request_of(const glssao_effect *effect, const glssao_frame *frame,
+                                  const glssao_settings *settings, int estimates, const glssao__projection *projection)
+{
+    return (glssao__request){.frame = frame,
+                             .settings = settings,
+                             .size = {effect->size[0], effect->size[1]},
+                             .estimates = estimates,
+                             .frames = glssao__history_frames(&effect->history, frame, settings, projection),
+                             .is_orthographic = projection->is_orthographic,
+                             .is_oblique = projection->is_oblique,
+                             .is_turned = projection->is_turned,
+                             .can = effect->can};
+}
+
+/* A matrix that works but was hardly meant is told once. */
+static void warn_of_projection(glssao_effect *effect, const glssao_frame *frame, enum glssao__doubt doubt)
+{
+    if (doubt == DOUBT_NONE || effect->doubts & 1u << doubt)
+        return;
+    effect->doubts |= 1u << doubt;
+    if (doubt == DOUBT_IDENTITY)
+        glssao__log_write(&effect->log, GLSSAO_LOG_WARNING,
+                          "frame.projection is the identity: hand over the matrix that depth was drawn with "
+                          "(GL_PROJECTION_MATRIX is the identity in programs with shaders)");
+    else
+        glssao__log_write(&effect->log, GLSSAO_LOG_WARNING,
+                          "frame.projection[14] = %g, [15] = %g: the matrix looks transposed; want column-major",
+                          (double)frame->projection[14], (double)frame->projection[15]);
+}
+
 glssao_plan glssao_plan_frame(const glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
 {
     static const glssao__log silent = {0};
     glssao__projection projection;
     glssao__schedule schedule;
     if (effect && glssao__check_frame(frame, settings, effect->size, &silent, &projection)) {
-        const glssao__request request = {.frame = frame,
-                                         .settings = settings,
-                                         .size = {effect->size[0], effect->size[1]},
-                                         .frames = glssao__history_frames(&effect->history, frame, settings),
-                                         .can = effect->can};
+        const glssao__request request = request_of(effect, frame, settings, 0, &projection);
         glssao__schedule_make(&schedule, &request);
         if (check_loops(effect, &schedule, &silent))
             return schedule.plan;
@@ -103,12 +131,13 @@ static void run_schedule(glssao_effect *effect, const call *c, const glssao__sch
     last->other = schedule->other;
     last->has_tiles = schedule->has_tiles;
     last->margin = c->frame->margin;
+    memcpy(last->viewport, c->frame->viewport, sizeof last->viewport);
     last->depth_texture =
         c->frame->depth_kind == GLSSAO_DEPTH_NORMAL_ALPHA ? c->frame->normal_texture : c->frame->depth_texture;
     for (int i = 0; i < GLSSAO_PASS_COUNT; ++i)
         last->draw_calls[i] = schedule->plan.passes[i].draw_calls;
 
-    const bool is_window = c->frame->depth_kind == GLSSAO_DEPTH_WINDOW;
+    const bool is_window = glssao__projection_reads_window_depth(c->frame, c->projection.is_oblique);
     glssao__timers_frame(&effect->resources.timers, last->number);
     glssao__execute(&effect->resources, schedule, host, &effect->uniforms,
                     is_window ? c->projection.sky_depth : SKY_DISTANCE);
@@ -144,19 +173,15 @@ static glssao_result run_guarded(glssao_effect *effect, const call *c, const gls
  * rejects is made again without. */
 static glssao_result run_call(glssao_effect *effect, call *c)
 {
-    if (!is_closed(effect, c->function) ||
+    if (!glssao__effect_is_closed(effect, c->function) ||
         !glssao__check_frame(c->frame, c->settings, effect->size, &effect->log, &c->projection))
         return GLSSAO_INVALID_ARGUMENT;
-    glssao_result result = check_state(effect, c->function);
+    warn_of_projection(effect, c->frame, c->projection.doubt);
+    glssao_result result = glssao__effect_check_state(effect, c->function);
     glssao__schedule schedule;
-    c->frames = glssao__history_frames(&effect->history, c->frame, c->settings);
+    c->frames = glssao__history_frames(&effect->history, c->frame, c->settings, &c->projection);
     for (bool again = result == GLSSAO_OK; again;) {
-        const glssao__request request = {.frame = c->frame,
-                                         .settings = c->settings,
-                                         .size = {effect->size[0], effect->size[1]},
-                                         .estimates = c->estimates,
-                                         .frames = c->frames,
-                                         .can = effect->can};
+        const glssao__request request = request_of(effect, c->frame, c->settings, c->estimates, &c->projection);
         glssao__schedule_make(&schedule, &request);
         if (!check_loops(effect, &schedule, &effect->log))
             return GLSSAO_INVALID_ARGUMENT;
@@ -207,84 +232,18 @@ void glssao_restart_accumulation(glssao_effect *effect)
         glssao__accumulate_stop(&effect->accumulation, &effect->gl);
 }
 
-/* ---- apply ---- */
-
-/* Whether the bound framebuffer has the texture for a colour, drawn into or not: reading it then is a feedback loop
- * (OpenGL 3.3, section 4.4.3). */
-static bool is_attached(const glssao__gl *gl, gl_uint framebuffer, gl_uint texture)
-{
-    for (int i = 0; framebuffer != 0 && i < gl->max_color_attachments; ++i) {
-        const gl_enum attachment = GL_COLOR_ATTACHMENT0 + (gl_enum)i;
-        gl_int type = 0, name = 0;
-        gl->GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE,
-                                                &type);
-        if (type != GL_TEXTURE)
-            continue;
-        gl->GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME,
-                                                &name);
-        if ((gl_uint)name == texture)
-            return true;
-    }
-    return false;
-}
-
-/* Binds the framebuffer and checks that it can be drawn into. */
-static glssao_result check_framebuffer(const glssao_effect *effect, gl_uint framebuffer)
-{
-    const glssao__gl *gl = &effect->gl;
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-    const gl_enum status = gl->CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
-    if (status != GL_FRAMEBUFFER_COMPLETE) {
-        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "framebuffer = %u: not complete: 0x%04X", framebuffer,
-                          status);
-        return GLSSAO_FRAMEBUFFER_ERROR;
-    }
-    if (is_attached(gl, framebuffer, effect->resources.targets[effect->last.result].texture))
-        return glssao__log_refuse(
-            &effect->log, "framebuffer = %u: the accessibility map itself is attached, which would be read and written",
-            framebuffer);
-    return GLSSAO_OK;
-}
-
-glssao_result glssao_apply(glssao_effect *effect, uint32_t framebuffer)
-{
-    if (!effect || !is_closed(effect, "glssao_apply"))
-        return GLSSAO_INVALID_ARGUMENT;
-    if (effect->last.number == 0)
-        return glssao__log_refuse(&effect->log, "glssao_apply called before glssao_compute");
-    const glssao__gl *gl = &effect->gl;
-    glssao_result result = check_state(effect, "glssao_apply");
-    if (result != GLSSAO_OK)
-        return result;
-    if (!effect->host_restores_state && framebuffer != 0 && !gl->IsFramebuffer(framebuffer))
-        return glssao__log_refuse(&effect->log, "framebuffer = %u: no framebuffer of this context", framebuffer);
-    const glssao__state_need need = {STATE_DRAW | STATE_BLEND | STATE_ALL_MASKS, .units = 1u << UNIT_AMBIENT};
-    glssao__state state;
-    glssao__state_save(gl, &need, effect->host_restores_state, &state);
-    if (!effect->host_restores_state)
-        result = check_framebuffer(effect, framebuffer);
-    if (result == GLSSAO_OK) {
-        glssao__execute_apply(&effect->resources, framebuffer, effect->last.result,
-                              effect->size[0] - 2 * effect->last.margin, effect->size[1] - 2 * effect->last.margin);
-        effect->last.draw_calls[GLSSAO_PASS_APPLY] = 1;
-    }
-    glssao__state_restore(gl, &state);
-    glssao__resources_check(&effect->resources, "glssao_apply");
-    return result;
-}
-
 /* ---- normals ---- */
 
 glssao_result glssao_begin_normals(glssao_effect *effect, uint32_t depth_texture)
 {
-    if (!effect || !is_closed(effect, "glssao_begin_normals"))
+    if (!effect || !glssao__effect_is_closed(effect, "glssao_begin_normals"))
         return GLSSAO_INVALID_ARGUMENT;
     const glssao__gl *gl = &effect->gl;
     const bool host_restores = effect->host_restores_state;
     const glssao__target *normal_map = &effect->resources.targets[MAP_NORMAL];
     const glssao__state_need need = glssao__normals_need();
     glssao__state state;
-    glssao_result result = check_state(effect, "glssao_begin_normals");
+    glssao_result result = glssao__effect_check_state(effect, "glssao_begin_normals");
     if (result != GLSSAO_OK)
         return result;
     glssao__state_save(gl, &need, host_restores, &state);

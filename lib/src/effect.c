@@ -124,6 +124,7 @@ void glssao_destroy(glssao_effect *effect)
         glssao__normals_close(&effect->normals, &effect->gl, &effect->resources.targets[MAP_NORMAL],
                               effect->host_restores_state);
     glssao__accumulate_destroy(&effect->accumulation, &effect->gl);
+    glssao__depth_copy_destroy(&effect->depth_copy, &effect->gl);
     glssao__resources_destroy(&effect->resources);
     free(effect);
 }
@@ -160,6 +161,7 @@ glssao_result glssao_resize(glssao_effect *effect, int width, int height)
     effect->last.other = MAP_AMBIENT_1;
     effect->last.has_tiles = false;
     effect->last.margin = 0;
+    memset(effect->last.viewport, 0, sizeof effect->last.viewport);
     return GLSSAO_OK;
 }
 

@@ -8,6 +8,7 @@
 #include "accumulate.h"
 #include "frame/execute.h"
 #include "history.h"
+#include "input/depth_copy.h"
 #include "input/host_textures.h"
 #include "log.h"
 #include "normals.h"
@@ -18,6 +19,7 @@ typedef struct glssao__last_frame {
     enum glssao__map result, other;
     bool has_tiles;
     int margin;
+    int viewport[4];       /* the frame's */
     gl_uint depth_texture; /* the host's, as last handed over */
     int draw_calls[GLSSAO_PASS_COUNT];
 } glssao__last_frame;
@@ -27,6 +29,7 @@ struct glssao_effect {
     glssao__log log;
     glssao__capabilities can;
     bool host_restores_state;
+    unsigned doubts; /* told of: a bit for each enum glssao__doubt */
     uint32_t seed;
     int size[2]; /* full size, pixels */
     glssao__resources resources;
@@ -35,7 +38,14 @@ struct glssao_effect {
     glssao__accumulation accumulation;
     glssao__history history;
     glssao__normals normals;
+    glssao__depth_copy depth_copy;
     glssao__last_frame last;
+    unsigned told; /* bit i: what glssao_apply ignores was logged */
 };
+
+/* False, after a line in the log, between glssao_begin_normals and glssao_end_normals. */
+bool glssao__effect_is_closed(const glssao_effect *effect, const char *function);
+/* Refuses state of the host that no call can work with. */
+glssao_result glssao__effect_check_state(const glssao_effect *effect, const char *function);
 
 #endif

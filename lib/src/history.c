@@ -4,16 +4,13 @@
  */
 #include "history.h"
 
+#include "input/matrix.h"
+
 #include <math.h>
 #include <string.h>
 
 /* Frames count up to twice this; then as many are taken off. A multiple of the period of the picks and of the turns. */
 enum { COUNT_PERIOD = 1 << 16 };
-
-static bool is_orthographic(const float projection[16])
-{
-    return projection[11] == 0.0f;
-}
 
 static bool has_same_estimate(const glssao_settings *a, const glssao_settings *b)
 {
@@ -23,27 +20,41 @@ static bool has_same_estimate(const glssao_settings *a, const glssao_settings *b
            a->no_angle_weight == b->no_angle_weight;
 }
 
-int glssao__history_frames(const glssao__history *h, const glssao_frame *frame, const glssao_settings *settings)
+int glssao__history_frames(const glssao__history *h, const glssao_frame *frame, const glssao_settings *settings,
+                           const glssao__projection *projection)
 {
-    const bool holds = settings->history > 0 && h->frames > 0 && !frame->cut && h->frame.margin == frame->margin &&
-                       is_orthographic(h->frame.projection) == is_orthographic(frame->projection) &&
+    const bool holds = settings->history > 0 && h->frames > 0 && !frame->cut && h->margin == frame->margin &&
+                       h->is_orthographic == projection->is_orthographic &&
                        has_same_estimate(&h->settings, settings);
     return holds ? h->frames : 0;
 }
 
-/* view_now from world, inverted, then the last frame's view. In double precision: far from the origin both move points by much
- * more than the two views differ. */
-static void last_view(const float last[16], const float now[16], float out[16])
+/* The passes' view space from world space: the host's turned about the view axis, and moved along it (projection.h). */
+static void find_view(const glssao__uniforms_source *source, double out[16])
 {
-    double n[16], inverse[16];
-    for (int i = 0; i < 16; ++i)
-        n[i] = (double)now[i];
-    (void)glssao__invert(n, inverse); /* it was checked */
+    const glssao__projection *p = source->projection;
+    const double cosine = (double)p->turn[0], sine = (double)p->turn[1];
+    for (int col = 0; col < 4; ++col) {
+        const float *v = source->frame->view + 4 * col;
+        const double last = col == 3 ? 1.0 : 0.0;
+        out[4 * col] = cosine * (double)v[0] + sine * (double)v[1];
+        out[4 * col + 1] = cosine * (double)v[1] - sine * (double)v[0];
+        out[4 * col + 2] = (double)v[2] + p->eye * last;
+        out[4 * col + 3] = last;
+    }
+}
+
+/* The last view space from this one. In double precision: far from the origin both matrices move points by much more than the two
+ * views differ. */
+static void find_last_view(const double last[16], const double now[16], float out[16])
+{
+    double inverse[16];
+    (void)glssao__matrix_invert(now, inverse); /* the view was checked */
     for (int col = 0; col < 4; ++col)
         for (int row = 0; row < 4; ++row) {
             double sum = 0.0;
             for (int k = 0; k < 4; ++k)
-                sum += (double)last[4 * k + row] * inverse[4 * col + k];
+                sum += last[4 * k + row] * inverse[4 * col + k];
             out[4 * col + row] = (float)sum;
         }
 }
@@ -62,7 +73,9 @@ void glssao__history_fill(const glssao__history *h, const glssao__uniforms_sourc
         block->gPick[i] = source->settings->half_resolution ? pick[i] : 0.0f;
     if (frames == 0)
         return;
-    last_view(h->frame.view, source->frame->view, block->gLastView);
+    double now[16];
+    find_view(source, now);
+    find_last_view(h->view, now, block->gLastView);
     memcpy(block->gLastRayOrigin, h->ray_origin, sizeof h->ray_origin);
     memcpy(block->gLastRayDirection, h->ray_direction, sizeof h->ray_direction);
     block->gLastRegion[0] = (float)h->region.x;
@@ -79,7 +92,9 @@ void glssao__history_keep(glssao__history *h, const glssao__uniforms_source *sou
     if (source->settings->history == 0)
         return;
     h->frames = frames + 1 == 2 * COUNT_PERIOD ? COUNT_PERIOD : frames + 1;
-    h->frame = *source->frame;
+    h->margin = source->frame->margin;
+    h->is_orthographic = source->projection->is_orthographic;
+    find_view(source, h->view);
     h->settings = *source->settings;
     memcpy(h->ray_origin, source->projection->ray_origin, sizeof h->ray_origin);
     memcpy(h->ray_direction, source->projection->ray_direction, sizeof h->ray_direction);

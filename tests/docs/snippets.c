@@ -25,6 +25,8 @@ void forward_normals(glssao_effect *effect, GLuint depth, const float *projectio
                      void (*draw_opaque_with_normals)(void));
 void deferred(glssao_effect *effect, GLuint depth, GLuint normals, const float *projection, glssao_settings settings,
               void (*draw_lights)(void));
+void world_normals(glssao_effect *effect, GLuint depth, GLuint normals, const float *projection, const float *view,
+                   glssao_settings settings);
 void linear_depth(glssao_effect *effect, GLuint view_distance, const float *projection, glssao_settings settings);
 void multisampled(glssao_effect *effect, GLuint multisampled_framebuffer, GLuint resolved_framebuffer, GLuint depth,
                   const float *projection, glssao_settings settings, int width, int height);
@@ -46,6 +48,13 @@ glssao_effect *ahead_of_time(glssao_config config, GLuint depth, const float *pr
 void print_costs(glssao_effect *effect, glssao_frame frame, glssao_settings settings);
 void night(glssao_effect *effect, glssao_frame frame, glssao_settings settings, bool has_ambient_light);
 glssao_effect *without_compute(glssao_config config);
+void apply_with(glssao_effect *effect, GLuint framebuffer, GLuint strength, GLuint albedo);
+void first_look(glssao_effect *effect);
+void own_depth(glssao_effect *effect, GLuint depth, GLuint framebuffer, const float *projection,
+               glssao_settings settings);
+void follow_size(glssao_effect *effect, int width, int height);
+void four_views(glssao_effect *effect, GLuint depth, GLuint framebuffer, const eye *views, glssao_settings settings,
+                int width, int height);
 
 void forward_normals(glssao_effect *effect, GLuint depth, const float *projection, glssao_settings settings,
                      void (*draw_opaque_with_normals)(void))
@@ -73,6 +82,17 @@ void deferred(glssao_effect *effect, GLuint depth, GLuint normals, const float *
     glActiveTexture(GL_TEXTURE0 + 5);
     glBindTexture(GL_TEXTURE_2D, glssao_map(effect, GLSSAO_MAP_AMBIENT, NULL, NULL));
     draw_lights(); /* its shader scales ambient light alone */
+    /* end */
+}
+
+void world_normals(glssao_effect *effect, GLuint depth, GLuint normals, const float *projection, const float *view,
+                   glssao_settings settings)
+{
+    /* snippet: world normals */
+    glssao_frame frame = {.depth_texture = depth, .normal_texture = normals, .world_normals = true};
+    memcpy(frame.projection, projection, sizeof frame.projection);
+    memcpy(frame.view, view, sizeof frame.view); /* view from world, column-major, as for the vertex shader */
+    glssao_compute(effect, &frame, &settings);
     /* end */
 }
 
@@ -125,6 +145,60 @@ void two_eyes(glssao_effect *effect, const eye eyes[2], glssao_settings settings
         if (glssao_compute(effect, &frame, &settings) == GLSSAO_OK)
             glssao_apply(effect, eyes[i].framebuffer);
     }
+    /* end */
+}
+
+void four_views(glssao_effect *effect, GLuint depth, GLuint framebuffer, const eye *views, glssao_settings settings,
+                int width, int height)
+{
+    /* snippet: four views */
+    for (int i = 0; i < 4; ++i) { /* one depth texture and one framebuffer hold four views of width by height */
+        glssao_frame frame = {.depth_texture = depth, .viewport = {i % 2 * width, i / 2 * height, width, height}};
+        memcpy(frame.projection, views[i].projection, sizeof frame.projection);
+        if (glssao_compute(effect, &frame, &settings) == GLSSAO_OK)
+            glssao_apply(effect, framebuffer); /* into the same part of the framebuffer */
+    }
+    /* end */
+}
+
+void apply_with(glssao_effect *effect, GLuint framebuffer, GLuint strength, GLuint albedo)
+{
+    /* snippet: apply with */
+    glssao_apply_options options = glssao_default_apply_options();
+    options.framebuffer = framebuffer;
+    options.intensity = 0.8f;            /* 80 % of the darkening */
+    options.color[2] = 0.05f;            /* full occlusion is a dark blue instead of black */
+    options.strength_texture = strength; /* red: 0 where nothing may darken, for instance emissive objects */
+    options.albedo_texture = albedo;     /* rgb, linear: light that bounces keeps coloured surfaces brighter */
+    options.keep_stencil = true;         /* only where your stencil test passes */
+    glssao_apply_with(effect, &options);
+    /* end */
+}
+
+void own_depth(glssao_effect *effect, GLuint depth, GLuint framebuffer, const float *projection,
+               glssao_settings settings)
+{
+    /* snippet: frame */
+    glssao_frame frame = {.depth_texture = depth};
+    memcpy(frame.projection, projection, sizeof frame.projection);
+    if (glssao_compute(effect, &frame, &settings) == GLSSAO_OK)
+        glssao_apply(effect, framebuffer);
+    /* end */
+}
+
+void follow_size(glssao_effect *effect, int width, int height)
+{
+    /* snippet: resize */
+    glssao_resize(effect, width, height);
+    /* end */
+}
+
+void first_look(glssao_effect *effect)
+{
+    /* snippet: show map */
+    glssao_apply_options options = glssao_default_apply_options();
+    options.show = true; /* the map itself, white where open, in the window */
+    glssao_apply_with(effect, &options);
     /* end */
 }
 

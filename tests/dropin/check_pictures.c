@@ -4,7 +4,11 @@
  * occlusion. It must be darker where boxes meet the floor and each other, unchanged in the open and in the sky, nowhere
  * brighter, and close to the reference everywhere. With --alike, for other views of the scene, it must be darker in
  * some places, nowhere brighter, and close to the reference.
+ *
+ * check_pictures --nearest TRUTH.ppm A.ppm B.ppm...: each picture must be nearer to the truth than the next by a fifth
+ * of the root mean square error at least.
  */
+#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -38,8 +42,37 @@ static int patch(const unsigned char *rgb, int x, int y)
     return sum;
 }
 
+static double rmse(const unsigned char *a, const unsigned char *b)
+{
+    double sum = 0.0;
+    for (int i = 0; i < WIDTH * HEIGHT * 3; ++i)
+        sum += (double)((a[i] - b[i]) * (a[i] - b[i]));
+    return sqrt(sum / (WIDTH * HEIGHT * 3)) / 255.0;
+}
+
+static int check_nearest(int count, char **paths)
+{
+    unsigned char *const truth = read_picture(paths[0]);
+    double last = 0.0;
+    int bad = 0;
+    for (int i = 1; i < count; ++i) {
+        unsigned char *const picture = read_picture(paths[i]);
+        const double error = rmse(picture, truth);
+        printf("%s: %.4f from the truth\n", paths[i], error);
+        bad += error < 1.2 * last || error == 0.0;
+        last = error;
+        free(picture);
+    }
+    free(truth);
+    if (bad)
+        fprintf(stderr, "the order is another\n");
+    return bad != 0;
+}
+
 int main(int argc, char **argv)
 {
+    if (argc > 3 && strcmp(argv[1], "--nearest") == 0)
+        return check_nearest(argc - 2, argv + 2);
     static const struct {
         const char *name;
         int x, y;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# dropin.sh CHECK PROGRAM...: runs each program under Xvfb with and without occlusion and checks the pictures; the legacy one
-# also with 4 samples a pixel. The first program's picture is the reference for the others.
+# dropin.sh CHECK PROGRAM...: runs each program under Xvfb with and without occlusion and checks the pictures, also with 4
+# samples a pixel. The first program's picture is the reference for the others.
 set -euo pipefail
 check=$1
 shift
@@ -27,7 +27,5 @@ for program in "$@"; do
     name=$(basename "$program")
     try "$name" "$program"
     reference=("$scratch/$(basename "$1")-with.ppm")
-    if [ "$name" = dropin-legacy ]; then
-        try "$name-samples" "$program" --samples 4
-    fi
+    try "$name-samples" "$program" --samples 4
 done

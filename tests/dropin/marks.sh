@@ -7,15 +7,15 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 folder=$1 amalgamation=$2 cc=$3 cglm=$4
 mkdir "$scratch/glssao"
 cp "$amalgamation"/glssao.[ch] "$scratch/glssao"
-cp "$folder"/window_depth.[ch] "$folder"/support.[ch] "$scratch"
+cp "$folder"/support.[ch] "$scratch"
 cd "$scratch"
 for program in dropin legacy; do
     loader=$([ $program = legacy ] && echo DROPIN_LEGACY || echo DROPIN_PROTOTYPES)
     awk '/\/\* glssao/{inside = 1} !inside {print} /\/\* end \*\//{inside = 0}' "$folder/$program.c" >"bare-$program.c"
     awk '/\/\* end \*\//{inside = 0} inside && NF {++n} /\/\* glssao/{inside = 1} END {print n}' "$folder/$program.c" >count
-    ! grep -E 'glssao_|window_depth_' "bare-$program.c" || fail "$program.c uses glssao outside its marks"
+    ! grep glssao_ "bare-$program.c" || fail "$program.c uses glssao outside its marks"
     quietly "$cc" -std=c11 -D$loader -I"$cglm" "bare-$program.c" support.c -lglfw -lGL -lm -o "bare-$program"
     cp "$folder/$program.c" .
-    quietly "$cc" -std=c11 -D$loader -I. -I"$cglm" "$program.c" support.c window_depth.c glssao/glssao.c -lglfw -lGL -lm -o "$program"
+    quietly "$cc" -std=c11 -D$loader -I. -I"$cglm" "$program.c" support.c glssao/glssao.c -lglfw -lGL -lm -o "$program"
     echo "$program: $(cat count) lines added to $(grep -c . "bare-$program.c")"
 done

@@ -20,7 +20,6 @@
  * Options as dropin's.
  */
 #include "support.h"
-#include "window_depth.h"
 
 #include <cglm/cglm.h>
 #include <glssao/glssao.h>
@@ -305,8 +304,7 @@ int main(int argc, char **argv)
 
     glssao_effect *effect = NULL;
     glssao_config config = {.load = find_function, .log = glssao_log_to_stderr, .width = 640, .height = 480};
-    window_depth *depth = own ? window_depth_create(find_function, NULL) : NULL;
-    if (own && (!depth || glssao_create(&config, &effect) != GLSSAO_OK))
+    if (own && glssao_create(&config, &effect) != GLSSAO_OK)
         return 1;
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     settings.radius = 0.5f;
@@ -339,14 +337,13 @@ int main(int argc, char **argv)
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, 24);
         if (own) {
-            glssao_frame frame = {.depth_texture = window_depth_copy(depth, b.scene, WIDTH, HEIGHT, NULL),
-                                  .clip_zero_to_one = reversed};
+            glssao_frame frame = {.clip_zero_to_one = reversed};
             memcpy(frame.projection, projection, sizeof frame.projection);
             if (range) { /* depth runs the other way round */
                 frame.projection[10] = -frame.projection[10];
                 frame.projection[14] = -frame.projection[14];
             }
-            if (glssao_compute(effect, &frame, &settings) == GLSSAO_OK)
+            if (glssao_compute_framebuffer(effect, b.scene, &frame, &settings) == GLSSAO_OK)
                 glssao_apply(effect, b.scene);
         }
         if (small_one)
@@ -371,7 +368,6 @@ int main(int argc, char **argv)
             glfwMakeContextCurrent(other);
     }
     glssao_destroy(effect);
-    window_depth_destroy(depth);
     glfwTerminate();
     return o.failed;
 }

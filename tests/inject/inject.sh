@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # inject.sh LIBRARY CHECK FOLDER FOREIGN: the preload library in the dropin programs with their own effect off, under Xvfb: in the
-# fixed-function one, which draws into its window, and in the one that draws into a framebuffer of its own and blits it;
-# switched off by the environment and by a signal; in a program of ours that draws as many others do (foreign.c), where the
+# fixed-function one and in the core one, which draw into their window; switched off by the environment and by a signal; in a program of ours that draws as many others do (foreign.c), where the
 # picture must be that of a program that hands over its matrix itself. Then in Debian's gears, and in an OpenGL ES program, which
 # must run on and get one line that says why nothing happens.
 set -euo pipefail

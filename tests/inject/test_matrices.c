@@ -153,7 +153,8 @@ static void orthographic_projections_are_told(void **state)
         model_view(1.0f, 1.0f, 1.0f, v);
         multiply(p, v, product);
         assert_true(inject_orthographic_of(product, zero_to_one, found));
-        assert_alike(p, found); /* centred, though v moves it */
+        p[14] = product[14]; /* v moves the eye along the axis; across it the picture is centred */
+        assert_alike(p, found);
         assert_false(inject_perspective_of(product, zero_to_one, found));
     }
 }

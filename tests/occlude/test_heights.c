@@ -46,6 +46,59 @@ static void test_cliff_of_a_height_map_agrees_with_traced_rays(void **state)
     }
 }
 
+/* Beyond the map's size there is nothing to find, and an estimate's few samples must not spread over it. The cliff is
+ * as long as the map is high, so that a point at distance d sees a strip of half length l: the form factor of a
+ * rectangle with an edge in the point's plane. */
+static void test_large_radius_brightens_nothing(void **state)
+{
+    (void)state;
+    static const float radii[] = {6.0f, 12.0f, 24.0f, 48.0f, 96.0f, 1e3f, 1e6f};
+    float out[COUNT], beyond[COUNT];
+    double before = 1.0;
+    for (size_t r = 0; r < sizeof radii / sizeof *radii; ++r) {
+        worst_at_cliff(radii[r], true, out);
+        double mean = 0.0;
+        for (int i = 0; i < COUNT; ++i)
+            mean += (double)out[i] / COUNT;
+        assert_true(mean < before + 1e-3);
+        before = mean;
+        for (int x = WIDTH / 2; x < WIDTH / 2 + 8 && radii[r] >= 12.0f; ++x) {
+            const double d = (x + 0.5 - WIDTH / 2.0) * 0.5, h = 6.0, l = 0.5 * HEIGHT * 0.5;
+            const double blocked = (atan(l / d) - d / hypot(d, h) * atan(l / hypot(d, h))) / acos(-1.0);
+            assert_true(fabs((double)out[HEIGHT / 2 * WIDTH + x] - (1.0 - blocked)) < 0.05);
+        }
+    }
+    worst_at_cliff(1e3f, true, beyond);
+    assert_memory_equal(out, beyond, sizeof out); /* either is cut to the map's extent */
+}
+
+/* The box around what is seen, whatever the projection and the kind of depth. */
+static void test_extent_is_that_of_the_surfaces(void **state)
+{
+    (void)state;
+    for (int projection = 0; projection < PROJECTION_COUNT; ++projection) {
+        const analytic_shape wall = {ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, 0.0, 1.0}};
+        picture p = make_picture(&wall, 1, (analytic_projection)projection);
+        const float *m = p.view.projection;
+        const double w = fabs((double)m[11] * -6.0 + (double)m[15]);
+        const double wanted = hypot(2.0 * w / fabs((double)m[0]) * (WIDTH - 1) / WIDTH,
+                                    2.0 * w / fabs((double)m[5]) * (HEIGHT - 1) / HEIGHT);
+        for (int kind = 0; kind < 2; ++kind) {
+            occlude_input input = input_of(&p, kind == 1);
+            assert_true(fabs((double)occlude_extent(&input) - wanted) < 1e-3 * wanted);
+        }
+        p.distance[5] = INFINITY;
+        p.distance[6] = NAN;
+        p.distance[7] = 0.0f;
+        occlude_input input = input_of(&p, false);
+        assert_true(fabs((double)occlude_extent(&input) - wanted) < 1e-3 * wanted);
+        for (int i = 0; i < COUNT; ++i)
+            p.distance[i] = 0.0f;
+        assert_true(occlude_extent(&input) == 0.0f);
+        free_picture(&p);
+    }
+}
+
 static void test_holes_and_flat_height_maps(void **state)
 {
     (void)state;
@@ -73,6 +126,8 @@ int main(void)
 #define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         TEST(test_cliff_of_a_height_map_agrees_with_traced_rays),
+        TEST(test_large_radius_brightens_nothing),
+        TEST(test_extent_is_that_of_the_surfaces),
         TEST(test_holes_and_flat_height_maps),
     };
 #undef TEST

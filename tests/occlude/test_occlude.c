@@ -180,6 +180,34 @@ static void test_more_estimates_bring_less_noise(void **state)
     free_picture(&p);
 }
 
+/* A bound on the error ends the estimates early: the result is that of as many estimates as it took. */
+static void test_error_ends_the_estimates(void **state)
+{
+    (void)state;
+    analytic_shape room[ANALYTIC_ROOM_SHAPES];
+    analytic_room(room, 1.0);
+    picture p = make_picture(room, ANALYTIC_ROOM_SHAPES, PERSPECTIVE);
+    const glssao_settings settings = settings_of(1.0f);
+    static const struct {
+        int estimates;
+        float error;
+    } cases[] = {{64, 0.0f}, {64, 1e-9f}, {64, 1.0f}, {2, 0.0f}};
+    float *out[4];
+    for (int i = 0; i < 4; ++i) {
+        occlude_input input = input_of(&p, false);
+        input.estimates = cases[i].estimates;
+        input.error = cases[i].error;
+        out[i] = malloc(COUNT * sizeof *out[i]);
+        compute(&input, &settings, out[i]);
+    }
+    assert_memory_equal(out[0], out[1], COUNT * sizeof *out[0]); /* out of reach */
+    assert_memory_equal(out[2], out[3], COUNT * sizeof *out[0]); /* reached as soon as it is known, after the second */
+    assert_memory_not_equal(out[0], out[2], COUNT * sizeof *out[0]);
+    for (int i = 0; i < 4; ++i)
+        free(out[i]);
+    free_picture(&p);
+}
+
 int main(void)
 {
 #define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
@@ -187,7 +215,7 @@ int main(void)
         TEST(test_result_is_the_effects_own),       TEST(test_view_distance_and_window_depth_agree),
         TEST(test_plane_and_sky_are_open),          TEST(test_corner_agrees_with_traced_rays),
         TEST(test_any_size_and_any_quality),        TEST(test_hostile_normals_give_finite_results),
-        TEST(test_more_estimates_bring_less_noise),
+        TEST(test_more_estimates_bring_less_noise), TEST(test_error_ends_the_estimates),
     };
 #undef TEST
     return cmocka_run_group_tests(tests, occlude_setup, occlude_teardown);

@@ -40,6 +40,9 @@ static void test_wrong_input_gives_one_line(void **state)
     input.estimates = -1;
     refuse(&input, &settings, "estimates = -1: want 0 to 65536");
     input = good;
+    input.error = NAN;
+    refuse(&input, &settings, "error = nan: want 0 or more");
+    input = good;
     input.projection[5] = NAN;
     refuse(&input, &settings, "frame.projection[5] = nan: not finite");
     glssao_settings wrong = settings;

@@ -183,6 +183,13 @@ static void depth_equal_covers_what_the_prepass_covered(void **state)
         differing += frame_is_drawn(&f, i) != (f.color[i][1] != 0);
     assert_true(frame_count_drawn(&f, LARGE * LARGE) > LARGE * LARGE / 5);
     assert_int_equal(differing, 0);
+    /* Without a pre-pass, the main pass finds the same surfaces itself. */
+    const scene_draw_options alone = {.no_prepass = true};
+    frame g = frame_draw_with(s, &view, &lighting, &alone, 0);
+    assert_memory_equal(f.color, g.color, LARGE * LARGE * sizeof *f.color);
+    assert_memory_equal(f.depth, g.depth, LARGE * LARGE * sizeof *f.depth);
+    assert_int_equal(g.counts.normals, 0);
+    frame_free(&g);
     frame_free(&f);
     free(s);
 }

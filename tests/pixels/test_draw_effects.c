@@ -55,6 +55,31 @@ static void shadow_takes_direct_light_and_leaves_ambient(void **state)
     free(s);
 }
 
+/* Ambient light loses the share that is not left out; direct light none. */
+static void occlusion_is_left_out_by_its_share(void **state)
+{
+    (void)state;
+    const scene_lighting lighting = {
+        .ambient = {0.5f, 0.5f, 0.5f}, .direction_world = {0, 0, -1}, .directional = {0.3f, 0.3f, 0.3f}};
+    small_scene *s = frame_one_quad(small_scene_material(), NULL);
+    const float access = 0.25f;
+    GLuint map;
+    gl.GenTextures(1, &map);
+    gl.BindTexture(GL_TEXTURE_2D, map);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, 1, 1, 0, GL_RED, GL_FLOAT, &access);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    for (int i = 0; i <= 4; i++) {
+        const scene_draw_options options = {.left_out = (float)i / 4};
+        const double open = 1 - (1 - i / 4.0) * 0.75, color = 0.5 * open + 0.3 / 3.14159265;
+        frame f = frame_draw_with(s, &frame_front, &lighting, &options, map);
+        frame_assert_color(f.color[FRAME_MIDDLE], color, color, color);
+        frame_free(&f);
+    }
+    gl.DeleteTextures(1, &map);
+    free(s);
+}
+
 static void holes_and_blended_cast_no_shadow(void **state)
 {
     (void)state;
@@ -280,6 +305,7 @@ int main(void)
 #define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         TEST(shadow_takes_direct_light_and_leaves_ambient),
+        TEST(occlusion_is_left_out_by_its_share),
         TEST(holes_and_blended_cast_no_shadow),
         TEST(smooth_surfaces_alone_do_not_shadow_themselves),
         TEST(normal_map_bends_normals_in_the_tangent_frame),

@@ -315,13 +315,75 @@ static void a_picture_surrounds_the_scene(void **state)
     scene_environment_destroy(e);
 }
 
+/* A shiny and a matte sphere, for a world with that direction up. */
+static frame draw_world(const float up[3], const scene_environment *e)
+{
+    double turn[3][3];
+    camera_find_turn(up, turn);
+    small_scene *s = small_scene_create();
+    for (int ball = 0; ball < 2; ball++) {
+        scene_material material = small_scene_material();
+        material.metallic_roughness = ball == 0;
+        material.metallic = 1;
+        material.roughness = 0.25f;
+        small_scene_begin_mesh(s, small_scene_add_material(s, material));
+        small_scene_add_sphere(s);
+        float m[16] = {[15] = 1};
+        for (int i = 0; i < 3; i++) {
+            for (int c = 0; c < 3; c++)
+                m[4 * c + i] = (float)turn[c][i];
+            m[12 + i] = (float)(turn[0][i] * (ball ? 1.2 : -1.2));
+        }
+        small_scene_add_instance(s, m);
+    }
+    scene_lighting lighting = scene_default_lighting();
+    scene_lighting_surround(&lighting, &s->scene, e);
+    scene_lighting_turn(&lighting, &s->scene, up);
+    camera_framing how = camera_default_framing(1);
+    memcpy(how.up, up, sizeof how.up);
+    const camera c = camera_frame(&s->scene, &how);
+    const scene_view view = camera_view(&c, FRAME_SIZE, FRAME_SIZE);
+    frame f = frame_draw_with(s, &view, &lighting, &(scene_draw_options){.shadows = true, .shadow_size = 512}, 0);
+    free(s);
+    return f;
+}
+
+/* Sun, sky and environment follow the world's up: the picture of a world that stands another way is the same. */
+static void light_follows_up(void **state)
+{
+    (void)state;
+    static const float ups[][3] = {{0, 1, 0}, {0, 0, 1}, {0, -2, 0}, {1, 0, 0}, {-1, 2, 0.5f}};
+    scene_environment *environments[] = {NULL, load_gradients(false)};
+    for (int kind = 0; kind < 2; kind++) {
+        frame wanted = draw_world(ups[0], environments[kind]);
+        for (size_t u = 1; u < sizeof ups / sizeof ups[0]; u++) {
+            frame f = draw_world(ups[u], environments[kind]);
+            int apart = 0;
+            for (int i = 0; i < FRAME_SIZE * FRAME_SIZE; i++)
+                for (int k = 0; k < 3; k++)
+                    apart += abs(f.color[i][k] - wanted.color[i][k]) > 2;
+            /* Silhouettes, and the shadow map's texels, may round the other way. */
+            if (apart > 3 * FRAME_SIZE * FRAME_SIZE / 100)
+                fail_msg("up %g, %g, %g: %d values differ", (double)ups[u][0], (double)ups[u][1], (double)ups[u][2],
+                         apart);
+            frame_free(&f);
+        }
+        frame_free(&wanted);
+    }
+    scene_environment_destroy(environments[1]);
+}
+
 int main(void)
 {
 #define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
-        TEST(gradient_lights_as_its_integral_says),      TEST(reflection_is_that_of_the_model),
-        TEST(nothing_is_brighter_than_its_surroundings), TEST(punctual_lights_fall_off_as_the_extension_says),
-        TEST(lights_of_the_scene_take_the_suns_place),   TEST(a_picture_surrounds_the_scene),
+        TEST(gradient_lights_as_its_integral_says),
+        TEST(reflection_is_that_of_the_model),
+        TEST(nothing_is_brighter_than_its_surroundings),
+        TEST(punctual_lights_fall_off_as_the_extension_says),
+        TEST(lights_of_the_scene_take_the_suns_place),
+        TEST(a_picture_surrounds_the_scene),
+        TEST(light_follows_up),
     };
 #undef TEST
     return cmocka_run_group_tests_name("draw light", tests, fixture_setup, fixture_teardown);

@@ -46,7 +46,7 @@ typedef struct vagueness {
     double mean, wide;
 } vagueness;
 
-static const vagueness ORDINARY = {2e-4, 0.002};
+static const vagueness ORDINARY = {2e-4, 0.002}, VAGUE = {0.005, 0.01};
 
 /* Error of the distance map against the depth, in units of what float rounding allows. */
 static double distance_error(const setup *s, const float *depth, const float *distance)
@@ -166,7 +166,7 @@ static int make_posts(analytic_shape shapes[SCENE_SHAPES])
 typedef struct scene_options {
     analytic_projection projection;
     int width, height;
-    bool posts, rebuilt;
+    bool posts, rebuilt, vague; /* vague: samples lie midway between texels */
 } scene_options;
 
 static void check_scene(fixture *f, const scene_options *o, const glssao_settings *settings, const char *what)
@@ -190,7 +190,7 @@ static void check_scene(fixture *f, const scene_options *o, const glssao_setting
     memcpy(s.frame.projection, view.projection, sizeof view.projection);
     if (!o->rebuilt)
         s.frame.normal_texture = fixture_normal_texture(o->width, o->height, normals);
-    const double occluded = check(&s, depth, &ORDINARY, what);
+    const double occluded = check(&s, depth, o->vague ? &VAGUE : &ORDINARY, what);
     assert_true(occluded > 0.01);
     gl.DeleteTextures(1, &s.frame.depth_texture);
     gl.DeleteTextures(1, &s.frame.normal_texture);
@@ -210,8 +210,8 @@ static void agrees_for_every_sample_count_and_size(void **state)
                 char what[100];
                 snprintf(what, sizeof what, "%d samples, %s, %s, %s", counts[i], half ? "half size" : "full size",
                          orthographic ? "orthographic" : "perspective", posts ? "posts" : "room");
-                const scene_options o = {orthographic ? ORTHOGRAPHIC : PERSPECTIVE, half ? 160 : 80, half ? 101 : 51,
-                                         posts, false};
+                const scene_options o = {
+                    orthographic ? ORTHOGRAPHIC : PERSPECTIVE, half ? 160 : 80, half ? 101 : 51, posts, false, false};
                 const glssao_settings s = bare_settings(counts[i], half == 1, 0.8);
                 check_scene(*state, &o, &s, what);
             }
@@ -222,7 +222,7 @@ static void agrees_for_every_projection(void **state)
     for (int p = 0; p < PROJECTION_COUNT; ++p) {
         char what[40];
         snprintf(what, sizeof what, "projection %d", p);
-        const scene_options o = {(analytic_projection)p, 120, 80, p % 2 == 1, false};
+        const scene_options o = {(analytic_projection)p, 120, 80, p % 2 == 1, false, false};
         const glssao_settings s = bare_settings(32, false, 1.0);
         check_scene(*state, &o, &s, what);
     }
@@ -231,17 +231,20 @@ static void agrees_for_every_projection(void **state)
 /* Radii from a few pixels to far more than the picture; another exponent; rebuilt normals. */
 static void agrees_at_other_settings(void **state)
 {
-    static const double radii[] = {0.15, 4.0};
-    const scene_options o = {PERSPECTIVE, 120, 80, true, false};
-    for (int i = 0; i < 2; ++i) {
-        glssao_settings s = bare_settings(48, false, radii[i]);
-        check_scene(*state, &o, &s, i == 0 ? "small radius" : "large radius");
+    static const double radii[] = {0.15, 4.0, 1e3, 1e6};
+    for (int i = 0; i < 8; ++i) {
+        const scene_options o = {i % 2 == 0 ? PERSPECTIVE : ORTHOGRAPHIC, 120, 80, .posts = true, .vague = i >= 4};
+        glssao_settings s = bare_settings(48, false, radii[i / 2]);
+        char what[100];
+        snprintf(what, sizeof what, "radius %g, %s", radii[i / 2], i % 2 == 0 ? "perspective" : "orthographic");
+        check_scene(*state, &o, &s, what);
     }
+    const scene_options o = {PERSPECTIVE, 120, 80, true, false, false};
     glssao_settings s = bare_settings(48, true, 1.0);
     s.power = 2.5f;
     check_scene(*state, &o, &s, "power 2.5");
     s.power = 1.0f;
-    const scene_options rebuilt = {PERSPECTIVE, 120, 80, true, true};
+    const scene_options rebuilt = {PERSPECTIVE, 120, 80, true, true, false};
     check_scene(*state, &rebuilt, &s, "rebuilt normals");
 }
 
@@ -320,8 +323,7 @@ static void check_random_frame(fixture *f, const random_options *o, uint32_t *ra
     snprintf(what, sizeof what, "%s: %dx%d, %d samples, radius %.3f, roughness %.4f%s%s", name, width, height,
              o->sample_count, o->radius, o->roughness, o->orthographic ? ", orthographic" : "",
              o->layers ? ", layers" : "");
-    const vagueness most = {0.005, 0.01};
-    (void)check(&s, distance, &most, what);
+    (void)check(&s, distance, &VAGUE, what);
     gl.DeleteTextures(1, &s.frame.depth_texture);
     gl.DeleteTextures(1, &s.frame.normal_texture);
     gl.DeleteTextures(1, &s.frame.back_texture);
@@ -352,12 +354,12 @@ static void agrees_on_random_frames(void **state)
 }
 
 /* The radius is some 10^5 pixels, which is the bound. In some pixels the first sample is then still in the picture. */
-static void agrees_where_steps_are_bounded(void **state)
+static void agrees_where_the_radius_is_beyond_the_picture(void **state)
 {
     uint32_t random = 1;
     const random_options o = {
         .width = 401, .height = 81, .sample_count = 16, .roughness = 0.1, .radius = 25000.0, .scale = 1.0};
-    check_random_frame(*state, &o, &random, "steps that are bounded");
+    check_random_frame(*state, &o, &random, "a radius beyond the picture");
 }
 
 /* Lengths so small that the squared distance of a missing layer, in radii, exceeds a float. */
@@ -461,7 +463,7 @@ int main(void)
         GL_TEST(agrees_for_every_projection),
         GL_TEST(agrees_at_other_settings),
         GL_TEST(agrees_on_random_frames),
-        GL_TEST(agrees_where_steps_are_bounded),
+        GL_TEST(agrees_where_the_radius_is_beyond_the_picture),
         GL_TEST(agrees_on_layers_of_a_small_scene),
         GL_TEST(agrees_for_each_estimate_of_a_still_view),
     };

@@ -65,6 +65,8 @@ size="-s 65x37"
         want 2 "--radius \"$bad\"" --radius "$bad" -o a.png
     done
     want 2 "--power" --power 65 -o a.png
+    want 2 "--intensity" --intensity 1.01 -o a.png
+    want 2 "--intensity" --intensity nan -o a.png
     want 2 "--samples" -t classic --samples 15 -o a.png
     want 2 "--samples" --samples 1.5 -o a.png
     want 2 "horizon takes" --set samples=13 -o a.png
@@ -78,6 +80,7 @@ size="-s 65x37"
     for bad in 1,2 1,2,3,4 1,2,x 1,,3 nan,0,0; do
         want 2 "--eye \"$bad\"" --eye "$bad" -o a.png
     done
+    want 2 "--sky-up 0,0,0: has no direction" --sky-up 0,0,0 -o a.png
     want 2 "same point" --eye 1,2,3 --target 1,2,3 -o a.png
     want 2 "--frames" --frames 0 -o a.png
     want 2 "--frames" --frames 3 --plan
@@ -143,7 +146,7 @@ size="-s 65x37"
     done
 
     # The picture's own options, which leave accessibility as it is. The columns are matte and have no normal map.
-    for options in "--no-shadows" "--shadow-size 64" "--multi-bounce" "--debug-map ao" "--debug-map normals" \
+    for options in "--sky-up 0,0,1" "--no-shadows" "--intensity 0.5" "--shadow-size 64" "--multi-bounce" "--debug-map ao" "--debug-map normals" \
         "--debug-map depth" "--debug-map random" "--debug-map shadow"; do
         want 0 "" $size --seed=7 -o p3.png --ao p3.pfm $options
         ! cmp -s a1.png p3.png || fail "$options changes nothing"
@@ -193,6 +196,12 @@ size="-s 65x37"
     done
     want 0 "" $size --plan --no-ao
     grep -q '^occlusion  *skip' out || fail "the plan of --no-ao runs occlusion"
+    want 0 "" -s 320x180 --plan --no-ao
+    grep -q '^pre-pass  *run' out || fail "the plan has no pre-pass although there are more pixels than triangles"
+    want 0 "" -s 4x4 --plan --no-ao
+    grep -q '^pre-pass  *skip' out || fail "the plan has a pre-pass although there are more triangles than pixels"
+    want 0 "" -s 4x4 --plan --no-ao --depth d.pfm
+    grep -q '^pre-pass  *run' out || fail "the plan has no pre-pass for --depth"
     want 0 "" $size --bench 3
     grep -q 'median.*p95' out || fail "the benchmark prints no times"
 

@@ -162,7 +162,7 @@ static void levels_on_scenes(void)
     static const char *const scenes[] = {"columns", "cornell", "steps", "plane"};
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; ++i) {
         gbuffer g = drawn(scenes[i], 0);
-        const glssao_frame with = gbuffer_frame(&g);
+        const glssao_frame with = gbuffer_frame(&g, false);
         glssao_frame alone = with;
         alone.normal_texture = 0;
         for (int k = 0; k < CONFIGURATIONS; ++k)
@@ -228,7 +228,7 @@ static void margins_and_layers(void)
 {
     for (int margin = 8; margin <= 26; margin += 18) {
         gbuffer g = drawn("columns", margin);
-        const glssao_frame layers = gbuffer_frame(&g);
+        const glssao_frame layers = gbuffer_frame(&g, false);
         glssao_frame one = layers;
         one.back_texture = one.second_texture = 0;
         for (int k = 0; k < CONFIGURATIONS; ++k)
@@ -251,7 +251,7 @@ static void accumulations(void)
 {
     static const int samples[] = {12, 16, 24, 32, 48, 64}, counts[] = {1, 2, 5, 16, 17};
     gbuffer g = drawn("columns", 0);
-    const glssao_frame frame = gbuffer_frame(&g);
+    const glssao_frame frame = gbuffer_frame(&g, false);
     for (size_t i = 0; i < sizeof samples / sizeof *samples; ++i)
         for (size_t k = 0; k < sizeof counts / sizeof *counts; ++k)
             for (int path = 0; path < PATHS; ++path) {

@@ -17,7 +17,7 @@ run() { # test, its first argument, the rest as its second
     [ -x "$program" ] || program=$build/tests/$1
     GALLIVM_PERF=nopt GLSSAO_TEST_CONTEXT=egl timeout 300 "$program" ${2:+"$2"} ${3:+"$3"} >"$copy/log" 2>&1
 }
-make test_hard_cases test_relations test_random test_inputs test_faults || { cat "$copy/log"; exit 1; }
+make test_hard_cases test_relations test_random test_inputs test_faults test_projections || { cat "$copy/log"; exit 1; }
 
 held=0 loose=0
 declare -A passes # with all guards

@@ -89,6 +89,25 @@ static glssao_result apply(glssao_effect **effect, fixture *f)
     return glssao_apply(*effect, framebuffer);
 }
 
+/* Compiles a program of its own. */
+static glssao_result apply_with_strength(glssao_effect **effect, fixture *f)
+{
+    (void)f;
+    glssao_apply_options options = glssao_default_apply_options();
+    options.framebuffer = framebuffer;
+    options.strength_texture = plain.normal_texture;
+    return glssao_apply_with(*effect, &options);
+}
+
+static glssao_result compute_framebuffer(glssao_effect **effect, fixture *f)
+{
+    (void)f;
+    const glssao_settings s = horizon_low(false);
+    glssao_frame frame = {.viewport = {0, 0, W, H}};
+    memcpy(frame.projection, plain.projection, sizeof frame.projection);
+    return glssao_compute_framebuffer(*effect, framebuffer, &frame, &s);
+}
+
 static glssao_result resize(glssao_effect **effect, fixture *f)
 {
     (void)f;
@@ -188,10 +207,15 @@ static void each_call_survives_each_fault(void **state)
         {"accumulate", accumulate, NULL, false},
         {"accumulate, by compute shaders, too", accumulate, NULL, true},
         {"apply", apply, NULL, false},
+        {"apply, by a compute shader", apply, NULL, true},
+        {"apply with a strength texture", apply_with_strength, NULL, false},
+        {"apply with a strength texture, by a compute shader", apply_with_strength, NULL, true},
+        {"compute framebuffer", compute_framebuffer, NULL, false},
         {"resize", resize, NULL, false},
         {"begin normals", begin_normals, NULL, false},
     };
-    static const int least[] = {12, 20, 19, 6, 6, 15, 15, 15, 1, 6, 1}; /* apply's program compiles with the effect */
+    static const int least[] = {12, 20, 19, 6, 6, 15, 15, 15,
+                                1,  5,  6,  5, 5, 6,  1}; /* apply's program compiles with the effect */
     for (size_t i = 0; i < sizeof acts / sizeof *acts; ++i) {
         int faults = 0;
         if (acts[i].dispatches && fixture_hides_newer()) {
@@ -224,10 +248,12 @@ static int set_up(void **state)
     gl.GenTextures(1, &color);
     gl.BindTexture(GL_TEXTURE_2D, color);
     gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, W, H, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* a dispatch may write it */
     gl.BindTexture(GL_TEXTURE_2D, 0);
     gl.GenFramebuffers(1, &framebuffer);
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, plain.depth_texture, 0);
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     return 0;
 }

@@ -243,6 +243,137 @@ static void unreadable_inputs_are_named(void **state)
     subject_free(&s);
 }
 
+static GLuint empty_texture(GLenum target, GLenum internal, GLenum format, GLenum type)
+{
+    GLuint texture;
+    gl.GenTextures(1, &texture);
+    gl.BindTexture(target, texture);
+    if (target == GL_TEXTURE_2D_MULTISAMPLE)
+        gl.TexImage2DMultisample(target, 4, internal, W, H, GL_TRUE);
+    else if (target == GL_TEXTURE_2D_ARRAY)
+        gl.TexImage3D(target, 0, (GLint)internal, W, H, 2, 0, format, type, NULL);
+    else
+        gl.TexImage2D(target == GL_TEXTURE_CUBE_MAP ? GL_TEXTURE_CUBE_MAP_POSITIVE_X : target, 0, (GLint)internal, W,
+                      target == GL_TEXTURE_CUBE_MAP ? W : H, 0, format, type, NULL);
+    gl.BindTexture(target, 0);
+    return texture;
+}
+
+static void formats_that_cannot_hold_it_are_named(void **state)
+{
+    static const struct {
+        GLenum internal, format, type;
+        glssao_depth depth_kind;
+        int normal_kind;   /* -1: the texture is depth */
+        const char *named; /* NULL: fits */
+    } cases[] = {
+        {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, GLSSAO_DEPTH_WINDOW, -1, "%u: GL_RGBA8 can't hold depth"},
+        {GL_R8, GL_RED, GL_UNSIGNED_BYTE, GLSSAO_DEPTH_LOGARITHMIC, -1, "%u: GL_R8 can't hold depth"},
+        {GL_R16, GL_RED, GL_UNSIGNED_SHORT, GLSSAO_DEPTH_WINDOW, -1, NULL},
+        {GL_R32F, GL_RED, GL_FLOAT, GLSSAO_DEPTH_WINDOW, -1, NULL},
+        {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, GLSSAO_DEPTH_WINDOW, -1, "GL_R32UI is an integer format"},
+        {GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_FLOAT, GLSSAO_DEPTH_VIEW_DISTANCE, -1,
+         "GL_DEPTH_COMPONENT24 can't hold view distance"},
+        {GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, GLSSAO_DEPTH_VIEW_DISTANCE, -1,
+         "GL_DEPTH24_STENCIL8 can't hold view distance"},
+        {GL_R16, GL_RED, GL_UNSIGNED_SHORT, GLSSAO_DEPTH_VIEW_DISTANCE, -1, "GL_R16 can't hold view distance"},
+        {GL_R16F, GL_RED, GL_FLOAT, GLSSAO_DEPTH_VIEW_DISTANCE, -1, NULL},
+        {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, GLSSAO_DEPTH_WINDOW, GLSSAO_NORMAL_SIGNED,
+         "%u: GL_RGBA8 can't hold numbers below 0: want GLSSAO_NORMAL_UNSIGNED"},
+        {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, GLSSAO_DEPTH_WINDOW, GLSSAO_NORMAL_UNSIGNED, NULL},
+        {GL_RGBA8_SNORM, GL_RGBA, GL_BYTE, GLSSAO_DEPTH_WINDOW, GLSSAO_NORMAL_SIGNED, NULL},
+        {GL_R11F_G11F_B10F, GL_RGB, GL_FLOAT, GLSSAO_DEPTH_WINDOW, GLSSAO_NORMAL_SIGNED,
+         "GL_R11F_G11F_B10F can't hold numbers below 0"},
+        {GL_RG16F, GL_RG, GL_FLOAT, GLSSAO_DEPTH_WINDOW, GLSSAO_NORMAL_SIGNED, "GL_RG16F has no third channel"},
+        {GL_RG16F, GL_RG, GL_FLOAT, GLSSAO_DEPTH_WINDOW, GLSSAO_NORMAL_OCTAHEDRAL, NULL},
+        {GL_RG8, GL_RG, GL_UNSIGNED_BYTE, GLSSAO_DEPTH_WINDOW, GLSSAO_NORMAL_OCTAHEDRAL,
+         "GL_RG8 can't hold numbers below 0"},
+        {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, GLSSAO_DEPTH_WINDOW, GLSSAO_NORMAL_UNSIGNED,
+         "GL_RGBA32UI is an integer format"},
+        {GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_FLOAT, GLSSAO_DEPTH_WINDOW, GLSSAO_NORMAL_SIGNED,
+         "GL_DEPTH_COMPONENT24 can't hold normals"},
+        {GL_RGB16F, GL_RGB, GL_FLOAT, GLSSAO_DEPTH_NORMAL_ALPHA, GLSSAO_NORMAL_SIGNED,
+         "GL_RGB16F can't hold view distance in alpha"},
+        {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, GLSSAO_DEPTH_NORMAL_ALPHA, GLSSAO_NORMAL_UNSIGNED,
+         "GL_RGBA8 can't hold view distance in alpha"},
+        {GL_RGBA16F, GL_RGBA, GL_FLOAT, GLSSAO_DEPTH_NORMAL_ALPHA, GLSSAO_NORMAL_SIGNED, NULL},
+    };
+    fixture *f = *state;
+    const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
+    subject s = room();
+    const glssao_frame good = subject_frame(&s, DEPTH_24, NORMAL_NONE);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        const GLuint texture = empty_texture(GL_TEXTURE_2D, cases[i].internal, cases[i].format, cases[i].type);
+        glssao_frame frame = good;
+        frame.depth_kind = cases[i].depth_kind;
+        frame.log_depth_far = 10.0f;
+        *(cases[i].normal_kind < 0 ? &frame.depth_texture : &frame.normal_texture) = texture;
+        frame.normal_kind = cases[i].normal_kind < 0 ? GLSSAO_NORMAL_SIGNED : (glssao_normal)cases[i].normal_kind;
+        if (cases[i].named) {
+            char named[128];
+            const char *number = strstr(cases[i].named, "%u");
+            snprintf(named, sizeof named, "%s", number ? number + 2 : cases[i].named);
+            assert_refused(f, &frame, named);
+        } else if (glssao_compute(fixture_shared_effect(f, W, H), &frame, &settings) != GLSSAO_OK) {
+            fail_msg("case %zu: %s", i, f->log);
+        }
+        gl.DeleteTextures(1, &texture);
+    }
+    subject_frame_free((glssao_frame *)&good);
+    subject_free(&s);
+}
+
+/* Each message names what was found and what helps, and no binding changes. */
+static void targets_and_sizes_are_named(void **state)
+{
+    static const struct {
+        GLenum target, binding;
+        bool multisample;
+        const char *named;
+    } cases[] = {
+        {GL_TEXTURE_2D_MULTISAMPLE, GL_TEXTURE_BINDING_2D_MULTISAMPLE, false,
+         "a GL_TEXTURE_2D_MULTISAMPLE, not a GL_TEXTURE_2D: set frame.multisample"},
+        {GL_TEXTURE_2D, GL_TEXTURE_BINDING_2D, true,
+         "a GL_TEXTURE_2D, not a GL_TEXTURE_2D_MULTISAMPLE: frame.multisample must"},
+        {GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BINDING_2D_ARRAY, false,
+         "a GL_TEXTURE_2D_ARRAY, not a GL_TEXTURE_2D: hand over"},
+        {GL_TEXTURE_CUBE_MAP, GL_TEXTURE_BINDING_CUBE_MAP, false,
+         "a GL_TEXTURE_CUBE_MAP, not a GL_TEXTURE_2D: hand over"},
+        {GL_TEXTURE_RECTANGLE, GL_TEXTURE_BINDING_RECTANGLE, false,
+         "a GL_TEXTURE_RECTANGLE, not a GL_TEXTURE_2D: copy it"},
+    };
+    subject s = room();
+    const glssao_frame good = subject_frame(&s, DEPTH_24, NORMAL_NONE);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        const GLuint texture = empty_texture(cases[i].target, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_FLOAT);
+        const GLuint other = empty_texture(cases[i].target, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_FLOAT);
+        glssao_frame frame = good;
+        frame.depth_texture = texture;
+        frame.multisample = cases[i].multisample;
+        for (int bound = 0; bound < 3; ++bound) { /* nothing, another one, the texture itself */
+            const GLuint names[] = {0, other, texture};
+            GLint after = -1;
+            gl.ActiveTexture(GL_TEXTURE1);
+            gl.BindTexture(cases[i].target, names[bound]);
+            assert_refused(*state, &frame, cases[i].named);
+            gl.GetIntegerv(cases[i].binding, &after);
+            assert_int_equal(after, names[bound]);
+            gl.BindTexture(cases[i].target, 0);
+            gl.ActiveTexture(GL_TEXTURE0);
+        }
+        gl.DeleteTextures(1, &texture);
+        gl.DeleteTextures(1, &other);
+    }
+    glssao_effect *effect = fixture_shared_effect(*state, W + 2, H);
+    const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
+    fixture *f = *state;
+    fixture_clear_log(f);
+    assert_int_equal(glssao_compute(effect, &good, &settings), GLSSAO_INVALID_ARGUMENT);
+    assert_non_null(strstr(f->log, "a GL_TEXTURE_2D of 60 x 44, not of the full size, 62 x 44: call glssao_resize"));
+    subject_frame_free((glssao_frame *)&good);
+    subject_free(&s);
+}
+
 static void a_map_that_a_pass_draws_into_is_refused(void **state)
 {
     fixture *f = *state;
@@ -331,6 +462,8 @@ int main(void)
         GL_TEST(viewports_are_crops),
         GL_TEST(logarithms_are_undone),
         GL_TEST(unreadable_inputs_are_named),
+        GL_TEST(formats_that_cannot_hold_it_are_named),
+        GL_TEST(targets_and_sizes_are_named),
         GL_TEST(a_map_that_a_pass_draws_into_is_refused),
         GL_TEST(applying_into_what_is_read_is_refused),
         GL_TEST(depth_may_stay_attached_to_the_bound_framebuffer),

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * Relations between two pictures that hold without knowing the right one: scale, direction of depth, tiles, quarter
- * turns, radius, power and repetition.
+ * turns, radius, power, repetition, and normals that look away.
  */
 #include "techniques.h"
 
@@ -29,13 +29,15 @@ static bool same_bits(const picture *a, const picture *b)
            memcmp(a->values, b->values, (size_t)a->width * (size_t)a->height * sizeof *a->values) == 0;
 }
 
-/* The room seen by a view, after a quarter turn about the view axis if wanted. */
-static picture shade_room(fixture *f, const analytic_view *view, int width, int height, double scale, bool turned,
+/* What is done to the room: nothing; a quarter turn about the view axis; all normals turned the other way. */
+typedef enum change { AS_IT_IS, TURNED, LOOKING_AWAY } change;
+
+static picture shade_room(fixture *f, const analytic_view *view, int width, int height, double scale, change how,
                           const glssao_settings *settings)
 {
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     analytic_room(room, scale);
-    for (int i = 0; i < ANALYTIC_ROOM_SHAPES && turned; ++i) {
+    for (int i = 0; i < ANALYTIC_ROOM_SHAPES && how == TURNED; ++i) {
         const analytic_shape s = room[i];
         const bool plane = s.kind == ANALYTIC_PLANE;
         room[i].center[0] = -s.center[1];
@@ -46,6 +48,8 @@ static picture shade_room(fixture *f, const analytic_view *view, int width, int 
         room[i].size[1] = s.size[0];
     }
     subject s = subject_of(view, room, ANALYTIC_ROOM_SHAPES, width, height);
+    for (int i = 0; i < 3 * width * height && how == LOOKING_AWAY; ++i)
+        s.normals[i] = -s.normals[i];
     glssao_frame frame = subject_frame(&s, DEPTH_32F, NORMAL_32F);
     const glssao_settings scaled = settings_scaled(settings, scale);
     picture p = subject_shade(f, width, height, &frame, &scaled);
@@ -58,7 +62,7 @@ static picture shade_room(fixture *f, const analytic_view *view, int width, int 
 static picture plain(fixture *f, const glssao_settings *settings)
 {
     const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
-    return shade_room(f, &view, W, H, 1.0, false, settings);
+    return shade_room(f, &view, W, H, 1.0, AS_IT_IS, settings);
 }
 
 typedef void (*relation)(fixture *f, const configuration *c, const picture *first);
@@ -92,7 +96,7 @@ static void check_scale(fixture *f, const configuration *c, const picture *first
     static const double scales[] = {0x1p-13, 0x1p13, 1e-4, 1e4};
     for (int i = 0; i < 4; ++i) {
         const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, scales[i]);
-        picture scaled = shade_room(f, &view, W, H, scales[i], false, &c->settings);
+        picture scaled = shade_room(f, &view, W, H, scales[i], AS_IT_IS, &c->settings);
         const double apart = mean_apart(first, &scaled);
         /* Powers of two are exact; other scales flip samples on a threshold. */
         if (i < 2 ? apart > 0.0 : apart > 1e-3)
@@ -112,7 +116,7 @@ static void check_directions(fixture *f, const configuration *c, const picture *
                                                  PERSPECTIVE_INFINITE_REVERSED_ZERO_TO_ONE};
     for (int i = 0; i < 3; ++i) {
         const analytic_view view = analytic_make_view(others[i], (double)W / H, 0.5, 40.0, 1.0);
-        picture other = shade_room(f, &view, W, H, 1.0, false, &c->settings);
+        picture other = shade_room(f, &view, W, H, 1.0, AS_IT_IS, &c->settings);
         const double apart = mean_apart(first, &other);
         if (apart > 1.5e-3)
             fail_msg("%s: projection %d: %g apart", c->name, (int)others[i], apart);
@@ -137,7 +141,7 @@ static void check_tile(fixture *f, const configuration *c, const picture *first)
         view.projection[5 * axis] *= (float)stretch;
         view.projection[8 + axis] = (float)(1.0 - stretch);
     }
-    picture tile = shade_room(f, &view, TILE, TILE, 1.0, false, &c->settings);
+    picture tile = shade_room(f, &view, TILE, TILE, 1.0, AS_IT_IS, &c->settings);
     double sum = 0.0, bias = 0.0;
     int count = 0;
     for (int y = 0; y < TILE - MARGIN; ++y)
@@ -161,7 +165,7 @@ static void tiles_are_crops(void **state)
 static void check_turn(fixture *f, const configuration *c, const picture *first)
 {
     const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
-    picture turned = shade_room(f, &view, W, H, 1.0, true, &c->settings);
+    picture turned = shade_room(f, &view, W, H, 1.0, TURNED, &c->settings);
     double sum = 0.0, bias = 0.0;
     for (int y = 0; y < H; ++y)
         for (int x = 0; x < W; ++x) {
@@ -179,11 +183,33 @@ static void quarter_turns_turn_the_picture(void **state)
     for_each_configuration(state, check_turn);
 }
 
+/* The filters compare stored normals, which project to a plane that has no place for those straight away from the eye.
+ */
+static void check_away(fixture *f, const configuration *c, const picture *first)
+{
+    const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
+    picture away = shade_room(f, &view, W, H, 1.0, LOOKING_AWAY, &c->settings);
+    const double apart = mean_apart(first, &away);
+    if (apart > 0.003)
+        fail_msg("%s: normals that look away: %g apart", c->name, apart);
+    free(away.values);
+}
+
+static void normals_may_look_away(void **state)
+{
+    for_each_configuration(state, check_away);
+}
+
 static void check_radius(fixture *f, const configuration *c, const picture *first)
 {
     (void)first;
+    /* The last is a million times the distance of what is farthest. */
+    static const float radii[] = {0.0625f, 0.125f, 0.25f, 0.5f, 1.0f, 4.0f, 1e2f, 1e3f, 1e4f, 1e7f};
+    /* Samples of the others spread over more than the picture shows. */
+    const int count = c->settings.technique == GLSSAO_HORIZON ? 10 : 5;
     double before = 2.0;
-    for (float radius = 0.0625f; radius <= 1.0f; radius *= 2.0f) {
+    for (int i = 0; i < count; ++i) {
+        const float radius = radii[i];
         glssao_settings s = c->settings;
         s.radius = radius;
         s.surface_epsilon = 0.01f; /* the same for all */
@@ -234,6 +260,7 @@ int main(int argc, char **argv)
         GL_TEST(depth_directions_agree),
         GL_TEST(tiles_are_crops),
         GL_TEST(quarter_turns_turn_the_picture),
+        GL_TEST(normals_may_look_away),
         GL_TEST(greater_radius_never_brightens_the_mean),
         GL_TEST(greater_power_never_brightens),
     };

@@ -78,7 +78,8 @@ frame frame_draw_with(const small_scene *s, const scene_view *view, const scene_
     gl.BindFramebuffer(GL_FRAMEBUFFER, t.normals_framebuffer);
     gl.ClearBufferfv(GL_COLOR, 0, cleared);
     gl.ClearBufferfv(GL_DEPTH, 0, &far_depth);
-    scene_draw_normals(r, view);
+    if (!options || !options->no_prepass)
+        scene_draw_normals(r, view);
     frame f = {.normals = fixture_read_texture(t.normals, t.size, t.size, 4)};
     gl.BindFramebuffer(GL_FRAMEBUFFER, t.color_framebuffer);
     scene_draw_main(r, view, lighting, ambient_map);

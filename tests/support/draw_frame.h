@@ -26,7 +26,7 @@ typedef struct frame {
     scene_draw_counts counts;
 } frame;
 
-/* Pre-pass and main pass; `ambient_map` as for scene_draw_main. */
+/* Pre-pass (not with options.no_prepass) and main pass; `ambient_map` as for scene_draw_main. */
 frame frame_draw(const small_scene *s, const scene_view *view, const scene_lighting *lighting, unsigned ambient_map);
 /* The same with options; NULL takes the renderer's defaults. */
 frame frame_draw_with(const small_scene *s, const scene_view *view, const scene_lighting *lighting,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "horizon_slice.h"
+#include "seen_normal.h"
 
 #include <stddef.h>
 
@@ -58,7 +59,7 @@ static void take_sample(const point *p, const slice *s, double along, candidate 
         const double distance = (double)in->distance[ty * in->width + tx];
         const rounded offset[2] = {exactly(tx - center[0]), exactly(ty - center[1])};
         const rounded scale = exactly(p->orthographic ? 1.0 : distance);
-        const rounded deeper = divide(p->ray_length, once_rounded(in->radius));
+        const rounded deeper = divide(p->ray_length, p->radius);
         const double direction = along < 0.0 ? -1.0 : 1.0;
         candidate *c = &out[(*out_count)++];
         c->x = multiply(scale, add(multiply(offset[0], s->x_per_px[0]), multiply(offset[1], s->x_per_px[1])));
@@ -79,13 +80,11 @@ static void take_sample(const point *p, const slice *s, double along, candidate 
 
 static slice make_slice(const point *p, double angle, double jitter)
 {
-    const horizon_input *in = p->in;
     slice s = {.jitter = jitter};
     const rounded direction[2] = {{cos(PI * angle), TRIGONOMETRY}, {sin(PI * angle), TRIGONOMETRY}};
-    const rounded radius = once_rounded(in->radius);
     for (int axis = 0; axis < 2; ++axis) {
-        const rounded reach = p->orthographic ? radius : divide(radius, exactly(p->distance));
-        s.step_px[axis] = clamp_to(divide(multiply(reach, direction[axis]), p->px[axis]), -1e5, 1e5);
+        const rounded reach = p->orthographic ? p->radius : divide(p->radius, exactly(p->distance));
+        s.step_px[axis] = divide(multiply(reach, direction[axis]), p->px[axis]);
         s.step_px[axis].e += 4.0 * ROUNDING * fabs(s.step_px[axis].v);
     }
     vector along = {direction[0], direction[1], exactly(0.0)};
@@ -98,8 +97,8 @@ static slice make_slice(const point *p, double angle, double jitter)
     const rounded slope = clamp_to(divide(dot(p->normal, across), at_least(normal_up, 1e-3)), -40.0, 40.0);
     const rounded ups[2] = {p->up.x, p->up.y}, alongs[2] = {along.x, along.y}, acrosses[2] = {across.x, across.y};
     for (int axis = 0; axis < 2; ++axis) {
-        s.x_per_px[axis] = divide(multiply(p->px[axis], alongs[axis]), radius);
-        s.y_per_px[axis] = divide(multiply(p->px[axis], add(ups[axis], multiply(slope, acrosses[axis]))), radius);
+        s.x_per_px[axis] = divide(multiply(p->px[axis], alongs[axis]), p->radius);
+        s.y_per_px[axis] = divide(multiply(p->px[axis], add(ups[axis], multiply(slope, acrosses[axis]))), p->radius);
     }
     s.projected =
         square_root(at_least(add(multiply(normal_along, normal_along), multiply(normal_up, normal_up)), 1e-12));
@@ -166,18 +165,29 @@ static void tile_noise(const horizon_input *in, int x, int y, double out[2])
         out[i] = noise[i] + in->noise_offset[i] - floor(noise[i] + in->noise_offset[i]);
 }
 
+/* At most the longer side of the picture, measured where the point is. */
+static rounded radius_at(const horizon_input *in, bool orthographic, double distance)
+{
+    const float *m = in->projection;
+    double longer =
+        0.0; /* clip x or y of -w to w, where w = P15 - P11 t at view distance t, is what the picture shows */
+    for (int axis = 0; axis < 2; ++axis)
+        longer = fmax(longer, fabs(2.0 * (orthographic ? (double)m[15] : -(double)m[11]) / (double)m[5 * axis]));
+    longer *= orthographic ? 1.0 : distance;
+    return in->radius < longer ? once_rounded(in->radius) : (rounded){longer, 4.0 * ROUNDING * longer};
+}
+
 static bool make_point(const horizon_input *in, int x, int y, point *out)
 {
     const float *m = in->projection;
     *out = (point){.in = in, .x = x, .y = y, .orthographic = !(m[11] < 0.0f)};
     out->distance = (double)in->distance[y * in->width + x];
-    const double far = out->distance + in->radius;
-    const double step = in->depth_step[0] + far * (in->depth_step[1] + far * in->depth_step[2]);
     const int full[2] = {x * in->factor, y * in->factor}, size[2] = {in->full_width, in->full_height};
     const float *n = in->normals + 3 * ((size_t)full[1] * (size_t)in->full_width + (size_t)full[0]);
     const double length2 = (double)n[0] * (double)n[0] + (double)n[1] * (double)n[1] + (double)n[2] * (double)n[2];
     if (out->distance >= SKY || !(length2 > 1e-20 && length2 < 1e20))
         return false;
+    out->radius = radius_at(in, out->orthographic, out->distance);
     out->normal = unit((vector){exactly((double)n[0]), exactly((double)n[1]), exactly((double)n[2])});
     rounded ray[2];
     for (int axis = 0; axis < 2; ++axis) {
@@ -193,9 +203,47 @@ static bool make_point(const horizon_input *in, int x, int y, point *out)
     }
     const vector back = {{-ray[0].v, ray[0].e}, {-ray[1].v, ray[1].e}, exactly(1.0)};
     out->ray_length = square_root(dot(back, back));
-    out->y_step = multiply(divide(out->ray_length, once_rounded(in->radius)), (rounded){step, 8.0 * ROUNDING * step});
+    const double far = out->distance + out->radius.v;
+    const double step = in->depth_step[0] + far * (in->depth_step[1] + far * in->depth_step[2]);
+    out->y_step = multiply(divide(out->ray_length, out->radius), (rounded){step, 8.0 * ROUNDING * step});
     out->up = unit(back);
     return true;
+}
+
+static void step_to(const void *user, int x, int y, double out_step[3])
+{
+    const point *p = user;
+    const horizon_input *in = p->in;
+    const int tx = p->x + x, ty = p->y + y;
+    const bool inside = tx >= 0 && ty >= 0 && tx < in->width && ty < in->height;
+    const double distance = inside ? (double)in->distance[ty * in->width + tx] : SKY, deeper = distance - p->distance;
+    const double scale = p->orthographic ? 1.0 : distance, ray_length = p->ray_length.v;
+    out_step[0] = x * p->px[0].v * scale - deeper * p->up.x.v * ray_length;
+    out_step[1] = y * p->px[1].v * scale - deeper * p->up.y.v * ray_length;
+    out_step[2] = -deeper * p->up.z.v * ray_length;
+}
+
+static seen_side side_seen(const point *p)
+{
+    const double normal[3] = {p->normal.x.v, p->normal.y.v, p->normal.z.v}, up[3] = {p->up.x.v, p->up.y.v, p->up.z.v};
+    const double gain[2] = {p->px[0].v * p->in->full_width, p->px[1].v * p->in->full_height};
+    return seen_side_of(normal, up, gain, step_to, p);
+}
+
+static void estimate(const point *p, double *out_low, double *out_high)
+{
+    const horizon_input *in = p->in;
+    double noise[2];
+    tile_noise(in, p->x, p->y, noise);
+    interval occlusion = {0.0, 0.0};
+    for (int i = 0; i < in->slices; ++i) {
+        const interval one = slice_occlusion(p, (noise[0] + i) / in->slices, noise[1]);
+        occlusion.low += one.low / in->slices;
+        occlusion.high += one.high / in->slices;
+    }
+    const double exponent = in->constants.calibration * in->power;
+    *out_low = fmin(pow(fmax(1.0 - occlusion.high, 1e-6), exponent), 1.0);
+    *out_high = fmin(pow(fmax(1.0 - occlusion.low, 1e-6), exponent), 1.0);
 }
 
 void horizon_model(const horizon_input *in, int x, int y, double *out_low, double *out_high)
@@ -204,15 +252,14 @@ void horizon_model(const horizon_input *in, int x, int y, double *out_low, doubl
     point p;
     if (!make_point(in, x, y, &p))
         return;
-    double noise[2];
-    tile_noise(in, x, y, noise);
-    interval occlusion = {0.0, 0.0};
-    for (int i = 0; i < in->slices; ++i) {
-        const interval one = slice_occlusion(&p, (noise[0] + i) / in->slices, noise[1]);
-        occlusion.low += one.low / in->slices;
-        occlusion.high += one.high / in->slices;
-    }
-    const double exponent = in->constants.calibration * in->power;
-    *out_low = fmin(pow(fmax(1.0 - occlusion.high, 1e-6), exponent), 1.0);
-    *out_high = fmin(pow(fmax(1.0 - occlusion.low, 1e-6), exponent), 1.0);
+    const seen_side seen = side_seen(&p);
+    if (seen != OTHER_SIDE)
+        estimate(&p, out_low, out_high);
+    if (seen == OWN_SIDE)
+        return;
+    p.normal = scaled(exactly(-1.0), p.normal);
+    double low, high;
+    estimate(&p, &low, &high);
+    *out_low = seen == OTHER_SIDE ? low : fmin(low, *out_low);
+    *out_high = seen == OTHER_SIDE ? high : fmax(high, *out_high);
 }

@@ -24,6 +24,7 @@ typedef struct point {
     int x, y; /* of the estimate */
     bool orthographic;
     double distance;
+    rounded radius; /* scene units */
     rounded y_step; /* of the depth format, in radii */
     vector up, normal;
     rounded px[2]; /* change of view xy per pixel; in perspective per unit of distance */

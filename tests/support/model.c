@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "model.h"
 
+#include "seen_normal.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -153,6 +155,43 @@ static double radius_fade(const model_input *in, double t)
     return fmin((double)in->settings->radius / fmin(across, up), 1.0);
 }
 
+typedef struct beside {
+    const model_input *in;
+    int x, y;
+    vec3 p;
+} beside;
+
+static void step_to(const void *user, int x, int y, double out_step[3])
+{
+    const beside *b = user;
+    const int tx = b->x + x, ty = b->y + y;
+    const bool inside = tx >= 0 && ty >= 0 && tx < b->in->width && ty < b->in->height;
+    const double distance = inside ? distance_from_depth(b->in, depth_texel(b->in, tx, ty, 0.0)) : 1e15;
+    const vec3 q = position_view(b->in, (tx + 0.5) / b->in->width, (ty + 0.5) / b->in->height, distance);
+    const vec3 step = add_scaled(q, -1.0, b->p);
+    out_step[0] = step.x;
+    out_step[1] = step.y;
+    out_step[2] = step.z;
+}
+
+/* Turns the normal to the side that is seen; false where rounding decides which. */
+static bool turn_to_seen(const model_input *in, int fx, int fy, vec3 p, vec3 *n)
+{
+    const beside b = {in, fx, fy, p};
+    /* w = P15 - P11 t at view distance t: constant in an orthographic projection. */
+    const bool orthographic = !(entry(in, 11) < 0.0);
+    const double normal[3] = {n->x, n->y, n->z};
+    vec3 up = {-p.x, -p.y, -p.z};
+    if (orthographic)
+        up = (vec3){-entry(in, 8) / entry(in, 0), -entry(in, 9) / entry(in, 5), 1.0};
+    const double length = sqrt(dot(up, up)), up_unit[3] = {up.x / length, up.y / length, up.z / length};
+    const double gain[2] = {1.0 / entry(in, 0), 1.0 / entry(in, 5)};
+    const seen_side side = seen_side_of(normal, up_unit, gain, step_to, &b);
+    if (side == OTHER_SIDE)
+        *n = (vec3){-n->x, -n->y, -n->z};
+    return side != EITHER_SIDE;
+}
+
 static double distance_weight(const glssao_settings *s, double least, double nearer)
 {
     if (nearer <= least)
@@ -173,6 +212,10 @@ void model_classic(const model_input *in, int x, int y, double *out_low, double 
     if (is_sky(in, depth) || dot(n, n) == 0.0)
         return;
     vec3 p = position_view(in, (fx + 0.5) / in->width, (fy + 0.5) / in->height, distance_from_depth(in, depth));
+    if (!turn_to_seen(in, fx, fy, p, &n)) {
+        *out_low = 0.0;
+        return;
+    }
     const float *random = in->random_vectors + 3 * ((size_t)y * (size_t)in->ambient_width + (size_t)x);
     vec3 v = {2.0 * (double)random[0] - 1.0, 2.0 * (double)random[1] - 1.0, 2.0 * (double)random[2] - 1.0};
 
@@ -237,6 +280,10 @@ void model_hemisphere(const model_input *in, int x, int y, double *out_low, doub
         return;
     double center = distance_from_depth(in, depth), radius = (double)s->radius;
     vec3 p = position_view(in, (fx + 0.5) / in->width, (fy + 0.5) / in->height, center);
+    if (!turn_to_seen(in, fx, fy, p, &n)) {
+        *out_low = 0.0;
+        return;
+    }
     const float *rotation = in->rotations[(y % 4) * 4 + x % 4];
     vec3 turned = {(double)rotation[0], (double)rotation[1], 0.0};
     vec3 tangent = add_scaled(turned, -dot(turned, n), n);

@@ -35,14 +35,15 @@ static void visit_inputs(visitor *v, glssao__request *q, glssao_frame *frame)
 {
     for (int depth = 0; depth <= GLSSAO_DEPTH_LOGARITHMIC; ++depth)
         for (int normal = -1; normal <= GLSSAO_NORMAL_OCTAHEDRAL; ++normal)
-            for (int variant = 0; variant < 8; ++variant) { /* layers, orthographic, multisample */
+            for (int variant = 0; variant < 16; ++variant) { /* layers, orthographic, multisample, turned and oblique */
                 frame->depth_kind = (glssao_depth)depth;
                 frame->normal_texture = normal >= 0 || depth == GLSSAO_DEPTH_NORMAL_ALPHA ? NORMAL_NAME : 0;
                 frame->normal_kind = (glssao_normal)(normal > 0 ? normal : 0);
                 frame->back_texture = variant & 1 ? BACK_NAME : 0;
                 frame->second_texture = variant & 1 ? SECOND_NAME : 0;
-                frame->projection[11] = variant & 2 ? 0.0f : -1.0f;
+                q->is_orthographic = variant & 2;
                 frame->multisample = variant & 4;
+                q->is_turned = q->is_oblique = variant & 8;
                 visit(v, q);
             }
 }

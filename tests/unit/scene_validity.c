@@ -173,14 +173,3 @@ const char *scene_find_flaw(const scene *s)
             flaw = "a camera is not finite";
     return flaw;
 }
-
-uint64_t scene_count_triangles(const scene *s)
-{
-    uint64_t triangles = 0;
-    for (uint32_t m = 0; m < s->mesh_count; ++m)
-        for (uint32_t p = 0; p < s->meshes[m].primitive_count; ++p)
-            if (s->primitives[s->meshes[m].first_primitive + p].topology == SCENE_TRIANGLES)
-                triangles += (uint64_t)s->meshes[m].instance_count *
-                             (s->primitives[s->meshes[m].first_primitive + p].index_count / 3);
-    return triangles;
-}

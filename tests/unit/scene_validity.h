@@ -11,7 +11,4 @@
  * arrays, finite numbers, unit normals, instances sorted by mesh, bounds that contain everything drawn. */
 const char *scene_find_flaw(const scene *s);
 
-/* The number of triangles drawn: those of each mesh times its instances. */
-uint64_t scene_count_triangles(const scene *s);
-
 #endif

@@ -255,13 +255,18 @@ static void hosts_that_restore_state_are_asked_nothing(void **state)
     assert_int_equal(glssao_create(&config, &g.effect), GLSSAO_OK);
     GLuint depth = fixture_depth_texture(GL_DEPTH_COMPONENT24, GUEST_W, GUEST_H, NULL), texture;
     const GLuint framebuffer = bind_target(&texture);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
+    glssao_frame window = {.viewport = {0, 0, GUEST_W, GUEST_H}};
+    memcpy(window.projection, g.frame.projection, sizeof window.projection);
     for (int i = 0; i < 3; ++i) {
         queries.count = 0;
         assert_int_equal(glssao_begin_normals(g.effect, depth), GLSSAO_OK);
         assert_int_equal(glssao_end_normals(g.effect), GLSSAO_OK);
         assert_int_equal(glssao_compute(g.effect, &g.frame, &settings), GLSSAO_OK);
         assert_int_equal(glssao_apply(g.effect, framebuffer), GLSSAO_OK);
-        assert_true(i == 0 || queries.count == 0);
+        assert_int_equal(glssao_compute_framebuffer(g.effect, framebuffer, &window, &settings), GLSSAO_OK);
+        if (i > 0 && queries.count > 0)
+            fail_msg("%d queries, the first for 0x%04X", queries.count, queries.names[0]);
     }
     float *const got = guest_picture(&g, &g.frame, &settings);
     guest_same_picture(got, wanted, "a host that restores its state");

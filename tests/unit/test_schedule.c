@@ -89,7 +89,15 @@ static void inputs_are_copied_first(void **state)
     frame.multisample = false;
     frame.depth_kind = GLSSAO_DEPTH_LOGARITHMIC;
     assert_steps(&q, "input distance! horizon! planar-tile!");
+    q.is_oblique = true; /* the copies are of one pass */
+    assert_steps(&q, "input distance! horizon! planar-tile!");
     frame.depth_kind = GLSSAO_DEPTH_WINDOW;
+    assert_steps(&q, "input distance! horizon! planar-tile!");
+    frame.depth_kind = GLSSAO_DEPTH_VIEW_DISTANCE; /* is distance already */
+    assert_steps(&q, "distance! horizon! planar-tile!");
+    q.is_oblique = false;
+    frame.depth_kind = GLSSAO_DEPTH_WINDOW;
+    assert_steps(&q, "distance! horizon! planar-tile!");
     frame.viewport[2] = 64;
     frame.viewport[3] = 48;
     frame.back_texture = frame.second_texture = 9;

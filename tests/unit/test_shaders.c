@@ -38,6 +38,21 @@ static void collect(const glssao__request *request, const glssao__schedule *sche
     }
 }
 
+/* No schedule has the programs of glssao_apply. */
+static void collect_apply(void)
+{
+    for (int image = 0; image <= IMAGE_R11F_G11F_B10F; ++image)
+        for (int i = 0; i < (image ? 4 : 8) && program_count < MOST_PROGRAMS; ++i) {
+            struct program *p = &programs[program_count++];
+            *p = (struct program){.shader = SHADER_APPLY};
+            p->variant.values[MACRO_COMPUTE] = image > 0;
+            p->variant.values[MACRO_IMAGE] = (uint8_t)image;
+            p->variant.values[MACRO_STRENGTH] = i & 1;
+            p->variant.values[MACRO_ALBEDO] = i >> 1 & 1;
+            p->variant.values[MACRO_TINTED] = (uint8_t)(i >> 2);
+        }
+}
+
 /* Judges the files that were written since the last call. */
 static char command[COMMAND_SIZE];
 static int pending;
@@ -77,7 +92,7 @@ int main(int argc, char **argv)
         return 2;
     }
     const int schedules = schedules_visit(collect, NULL);
-    programs[program_count++] = (struct program){.shader = SHADER_APPLY};
+    collect_apply();
     int bad = judge(argv[1]);
     for (int i = 0; i < program_count; ++i) {
         const struct program *p = &programs[i];

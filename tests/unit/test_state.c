@@ -64,6 +64,7 @@ static const struct {
     {"blend destination alpha", GL_BLEND_DST_ALPHA},
     {"blend equation rgb", GL_BLEND_EQUATION_RGB},
     {"blend equation alpha", GL_BLEND_EQUATION_ALPHA},
+    {"blend colour", GL_BLEND_COLOR},
     {"colour mask", GL_COLOR_WRITEMASK},
     {"clear depth", GL_DEPTH_CLEAR_VALUE},
     {"clear colour", GL_COLOR_CLEAR_VALUE},
@@ -246,6 +247,7 @@ static void make_host(host *h)
     for (int i = 0; i < 3; ++i) {
         gl.BindTexture(GL_TEXTURE_2D, h->color[i]);
         gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, W, H, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+        gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* glssao_apply may dispatch over it */
     }
     for (int i = 0; i < 2; ++i) {
         gl.BindFramebuffer(GL_FRAMEBUFFER, h->framebuffers[i]);
@@ -405,6 +407,12 @@ static void check_refusals(glssao_effect *effect, const host *h, const inputs *i
     scramble(h);
     take(&before);
     assert_int_equal(glssao_compute(effect, &no_depth, &settings), GLSSAO_INVALID_ARGUMENT);
+    const glssao_apply_options too_much = {.framebuffer = h->framebuffers[0], .intensity = 2.0f};
+    const glssao_apply_options no_texture = {.framebuffer = h->framebuffers[0], .strength_texture = 987654};
+    assert_int_equal(glssao_apply_with(effect, &too_much), GLSSAO_INVALID_ARGUMENT);
+    assert_int_equal(glssao_apply_with(effect, &no_texture), GLSSAO_INVALID_ARGUMENT);
+    assert_int_equal(glssao_compute_framebuffer(effect, h->framebuffers[0], &in->frame, &settings),
+                     GLSSAO_INVALID_ARGUMENT);
     assert_int_equal(glssao_resize(effect, 0, H), GLSSAO_INVALID_ARGUMENT);
     assert_int_equal(glssao_begin_normals(effect, 0), GLSSAO_INVALID_ARGUMENT);
     assert_int_equal(glssao_end_normals(effect), GLSSAO_INVALID_ARGUMENT);
@@ -470,6 +478,26 @@ static float *walk(fixture *f, const inputs *in, const host *h, glssao_path path
     if (h) {
         scramble(h);
         CALL(glssao_apply(effect, h->framebuffers[1]));
+        CALL(glssao_apply(effect, h->framebuffers[0])); /* a texture, which may be dispatched over */
+        CALL(glssao_apply(effect, h->framebuffers[2])); /* multisampled */
+        glssao_frame window = {.viewport = {0, 0, W, H}};
+        memcpy(window.projection, in->frame.projection, sizeof window.projection);
+        CALL(glssao_compute_framebuffer(effect, h->framebuffers[1], &window, &classic));
+        window.viewport[2] = W / 2; /* a copy of another size */
+        CALL(glssao_compute_framebuffer(effect, h->framebuffers[2], &window, &classic));
+        CALL(glssao_resize(effect, W, H));
+        CALL(glssao_compute(effect, &in->frame, &classic));
+        const glssao_apply_options all = {.framebuffer = h->framebuffers[0],
+                                          .rectangle = {1, 2, 30, 20},
+                                          .intensity = 0.5f,
+                                          .color = {0.25f, 0.5f, 1.0f},
+                                          .strength_texture = in->frame.depth_texture,
+                                          .albedo_texture = in->frame.normal_texture};
+        glssao_apply_options kept = all;
+        kept.keep_scissor = kept.keep_stencil = true;
+        kept.framebuffer = h->framebuffers[1];
+        CALL(glssao_apply_with(effect, &all));
+        CALL(glssao_apply_with(effect, &kept));
         scramble(h);
         take(&before);
         (void)glssao_get_stats(effect);
@@ -478,6 +506,7 @@ static float *walk(fixture *f, const inputs *in, const host *h, glssao_path path
         glssao_restart_accumulation(effect);
         (void)glssao_map(effect, GLSSAO_MAP_NORMAL, NULL, NULL);
         (void)glssao_version();
+        (void)glssao_default_apply_options();
         (void)glssao_result_string(GLSSAO_OK);
         glssao_log_to_stderr(GLSSAO_LOG_INFO, "the host's state is compared after this line too", NULL);
         take(&after);

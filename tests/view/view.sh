@@ -205,6 +205,26 @@ save
 [[ $command = *" --view 60,40 --ortho"* ]] || fail "left out: $command"
 stop
 
+# Several samples a pixel and a background, with and without occlusion; maps belong to the pixels' centres.
+start -s 640x400 --samples-per-pixel 3 --background '#204060' --scene steps -o saved.png
+save
+[[ $command = *" --background '#204060'"*" --samples-per-pixel 3"* ]] || fail "left out: $command"
+draw -s 640x400 --background '#204060' --scene steps -o one-sample.png
+press g
+save
+different "several samples" 500 saved.png one-sample.png
+save 2
+[[ $command = *" --no-ao"* ]] || fail "not off: $command"
+press 1 n
+shot sampled-normals
+draw -s 640x400 --scene steps --normals render-normals.png
+same "normals under several samples" sampled-normals.png render-normals.png
+stop
+start -s 640x400 --background none --scene cornell -o saved.png
+save
+[ "$(od -An -tu1 -j25 -N1 saved.png)" -eq 6 ] || fail "a picture without background has no alpha"
+stop
+
 # Options that it has not are refused, as its help says.
 "$view" --help >help
 for option in --ao --normals --depth --frames --stats --plan --bench --context --margin --batch; do

@@ -64,7 +64,8 @@ def _map(values: ArrayLike, name: str, channels: int = 1) -> Floats:
 
 def occlusion(depth: ArrayLike, projection: ArrayLike, radius: float, normals: ArrayLike | None = None,
               quality: str = "high", *, technique: str = "horizon", window_depth: bool = False,
-              clip_zero_to_one: bool = False, solid: bool = False, estimates: int = 0, **settings: Any) -> Floats:
+              clip_zero_to_one: bool = False, solid: bool = False, estimates: int = 0, error: float = 0.0,
+              **settings: Any) -> Floats:
     """Accessibility of a depth map.
 
     depth             (height, width): view distance in scene units. No surface: 0, infinity, NaN or masked.
@@ -77,6 +78,7 @@ def occlusion(depth: ArrayLike, projection: ArrayLike, radius: float, normals: A
     clip_zero_to_one  window depth was drawn under glClipControl(..., GL_ZERO_TO_ONE)
     solid             with view distance: occluders reach down without end, as terrain does
     estimates         horizon: the mean of so many full-size estimates, for less noise; 0: one frame
+    error             with estimates: enough of them once their sampling error is at most this; 0: all of them
     settings          any other field of glssao_settings: power=2, blur="none"
 
     Returns (height, width) float32: 1 is open, 0 fully occluded, 1 where there is no surface.
@@ -86,7 +88,7 @@ def occlusion(depth: ArrayLike, projection: ArrayLike, radius: float, normals: A
     height, width = depth.shape
     given = _layout.occlude_input(
         width=width, height=height, depth=_pointer(depth), projection=(ctypes.c_float * 16)(*column_major(projection)),
-        clip_zero_to_one=clip_zero_to_one, window_depth=window_depth, solid=solid, estimates=estimates)
+        clip_zero_to_one=clip_zero_to_one, window_depth=window_depth, solid=solid, estimates=estimates, error=error)
     if normals is not None:
         normals = _map(normals, "normals", 3)
         if normals.shape[:2] != depth.shape:
@@ -104,7 +106,7 @@ def heightmap(heights: ArrayLike, spacing: float, radius: float, quality: str = 
 
     heights   (rows, columns): height in scene units; NaN, infinite or masked: a hole
     spacing   scene units between neighbouring heights
-    radius    scene units. A quarter of the map's size is the most that makes sense: the map's edge occludes nothing
+    radius    scene units. Beyond the map's edge there is nothing that occludes
     options   as in occlusion
 
     Returns (rows, columns) float32, as occlusion does.

@@ -27,20 +27,21 @@ uniform float u_alpha_cutoff;
 #if LIT
 const float pi = 3.14159265;
 #if ENVIRONMENT
-uniform vec3 u_irradiance[9]; // irradiance / pi times: 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2 of the normal in the world
-uniform mat3 u_world_from_view;
+uniform vec3 u_irradiance[9]; // irradiance / pi times: 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2 of the normal in the sky's axes
+uniform mat3 u_sky_from_view;
 #if REFLECTIVE
 uniform sampler2D u_environment_map; // reflections; level i is for roughness i / 5
 #endif
 #else
 uniform vec3 u_ambient;      // radiance from the side; irradiance / pi on a surface that faces sideways
 uniform vec3 u_ambient_tilt; // how much more comes from straight above, and less from straight below
-uniform vec3 u_up_view;      // the world's up, unit
+uniform vec3 u_up_view;      // the sky's up, unit
 #endif
 uniform vec3 u_directional;  // irradiance / pi
 uniform vec3 u_to_light_view;
 #if !BLENDED
 uniform sampler2D u_ambient_map; // accessibility in red
+uniform float u_intensity;       // of occlusion, 0 none to 1 full
 uniform vec2 u_pixel_uv;         // size of a pixel in the ambient map's uv
 uniform vec2 u_origin;           // its lower left corner, in pixels
 #endif
@@ -155,7 +156,7 @@ vec3 lit_by_lights(surface s)
 #if ENVIRONMENT
 vec3 matte_light(vec3 normal_view)
 {
-    vec3 n = u_world_from_view * normal_view;
+    vec3 n = u_sky_from_view * normal_view;
     vec3 flat_part = u_irradiance[0] + u_irradiance[1] * n.y + u_irradiance[2] * n.z + u_irradiance[3] * n.x;
     return max(flat_part + u_irradiance[4] * (n.x * n.y) + u_irradiance[5] * (n.y * n.z) +
                    u_irradiance[6] * (3.0 * n.z * n.z - 1.0) + u_irradiance[7] * (n.x * n.z) +
@@ -164,7 +165,7 @@ vec3 matte_light(vec3 normal_view)
 #if REFLECTIVE
 vec3 glossy_light(vec3 mirror_view, float roughness)
 {
-    return textureLod(u_environment_map, environment_uv(normalize(u_world_from_view * mirror_view)), roughness * 5.0).rgb;
+    return textureLod(u_environment_map, environment_uv(normalize(u_sky_from_view * mirror_view)), roughness * 5.0).rgb;
 }
 #endif
 #else
@@ -249,7 +250,7 @@ void main()
 
     float accessibility = 1.0;
 #if !BLENDED
-    accessibility = texture(u_ambient_map, (gl_FragCoord.xy - u_origin) * u_pixel_uv).r;
+    accessibility = mix(1.0, texture(u_ambient_map, (gl_FragCoord.xy - u_origin) * u_pixel_uv).r, u_intensity);
 #endif
 #if BAKED
     accessibility *= 1.0 + u_occlusion_strength * (texture(u_occlusion_map, map_uv(u_occlusion_uv)).r - 1.0);

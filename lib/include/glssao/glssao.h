@@ -18,7 +18,8 @@
  *   Errors     A call that fails changes nothing, says why in one line of the log, and leaves the effect usable. A NULL
  *              effect gives GLSSAO_INVALID_ARGUMENT, 0 or NULL, as the type allows. No call leaves a GL error behind,
  *              and release builds take none of yours: glGetError is called only after a GL call that is known to have
- *              failed (no memory, or a texture of another target in a context older than 4.5).
+ *              failed (no memory, or a texture of another target in a context older than 4.5), and about the first copy of
+ *              a depth buffer.
  *   Ownership  Structs handed in are copied. The effect deletes only what it created.
  *   Growth     Later versions add fields at the end of a struct, whose zero keeps today's meaning. Zero a struct, or use its
  *              default function, before you fill it.
@@ -103,7 +104,7 @@ typedef struct glssao_config { /* zero means default */
     bool host_restores_state; /* true: calls neither ask for GL state nor restore it, which spares a threaded driver every
                             wait. They change: program, vertex array, draw and read framebuffer, viewport, active texture
                             unit, 2D textures and samplers of units 0 to 7, uniform buffers 0 to 2, image unit 0, pixel
-                            store, pack and unpack buffers, blend functions. They leave off: blending, scissor, depth and
+                            store, pack and unpack buffers, blend functions and colour. They leave off: blending, scissor, depth and
                             stencil test, culling and all that could drop a fragment. They leave on: colour mask 0, depth
                             mask, filled polygons. A framebuffer for glssao_apply is not checked; a texture only the first
                             time, until glssao_resize, and its swizzle and base level must be the default */
@@ -181,10 +182,12 @@ typedef enum glssao_normal { /* how a texel stores a normal */
 typedef struct glssao_frame { /* zero a field that you don't use */
     uint32_t depth_texture;    /* GL_TEXTURE_2D of the effect's full size, level 0; may stay attached to a framebuffer */
     glssao_depth depth_kind;   /* of depth_texture */
-    uint32_t normal_texture;   /* GL_TEXTURE_2D of the full size, view space; 0: rebuilt from depth (one more pass) */
+    uint32_t normal_texture;   /* GL_TEXTURE_2D of the full size, view space unless world_normals; 0: rebuilt from depth
+                                  (one more pass) */
     glssao_normal normal_kind; /* of normal_texture */
-    float projection[16];      /* column-major clip_from_view, finite and invertible: perspective (off-centre,
-                                  infinite, reversed: all fine) or orthographic */
+    float projection[16];      /* column-major clip_from_view, finite and invertible: perspective (off-centre, infinite,
+                                  reversed: all fine) or orthographic (the eye may lie inside the depth range), mirrored or
+                                  turned about the view axis too. Window depth under an oblique near plane is copied first */
     bool clip_zero_to_one;     /* true where the host called glClipControl(..., GL_ZERO_TO_ONE) */
     int margin;                /* pixels on each side, even: they hold occluders beyond the picture's edge and are not part
                                   of the result, which is that much smaller. projection is that of the whole */
@@ -202,12 +205,28 @@ typedef struct glssao_frame { /* zero a field that you don't use */
                                   back, second) or 16 (normals) of memory */
     int viewport[4];           /* x, y, width, height, pixels: where the picture lies in larger textures; width and height
                                   are the effect's full size. Each texture is copied, as above. All 0: the whole texture */
-    float view[16];            /* column-major view_from_world, finite and invertible. Needed where settings.history > 0 */
-    uint32_t motion_texture;   /* settings.history > 0: for things that move by themselves, or 0. Float format, full size, red
+    float view[16];            /* view_from_world, column-major; for world_normals, and where settings.history > 0 */
+    uint32_t motion_texture;   /* settings.history > 0, or 0: for things that move by themselves. Float format, full size, red
                                   and green: uv of the point now minus its uv in the last frame, the camera's motion
-                                  included. A value outside -2..2 leaves the pixel to `view` */
+                                  included. A value outside -2..2 leaves the pixel to view */
     bool cut;                  /* settings.history > 0: nothing of the earlier frames holds */
+    bool world_normals;        /* true: normal_texture is in world space. view turns each normal as it is read */
 } glssao_frame;
+
+/* ---- apply: how the result gets into a picture ---------------------------------------------------------- */
+
+typedef struct glssao_apply_options { /* fill with glssao_default_apply_options() first */
+    uint32_t framebuffer;      /* 0: the default one. Draw buffer 0 is multiplied */
+    int rectangle[4];          /* x, y, width, height in pixels of the framebuffer, which the result is stretched over. All 0:
+                                  where frame.viewport has the picture, else the lower left corner */
+    float intensity;           /* 0 none to 1 full (default) */
+    float color[3];            /* 0 to 65504: what full occlusion turns the picture into. Black by default */
+    uint32_t strength_texture; /* optional, lies as frame.depth_texture, red: 0 keeps a pixel free of occlusion, 1: full */
+    bool keep_scissor, keep_stencil; /* the host's tests stay on, with all that belongs to them */
+    uint32_t albedo_texture;   /* optional, lies as frame.depth_texture, rgb, linear: the surface's diffuse colour. Adds light
+                                  that bounced off neighbours of the same colour (Jimenez et al. 2016, section 5) */
+    bool show;                 /* true: accessibility replaces the picture. For a first look */
+} glssao_apply_options;
 
 /* ---- what the effect tells ------------------------------------------------------------------------------ */
 
@@ -313,6 +332,13 @@ GLSSAO_API glssao_result glssao_end_normals(glssao_effect *effect);
 GLSSAO_API glssao_result glssao_compute(glssao_effect *effect, const glssao_frame *frame,
                                         const glssao_settings *settings);
 
+/* For hosts without a depth texture: copies the depth of `framebuffer` (0: the default one), of any depth format and any number
+ * of samples, follows its size by glssao_resize, and runs glssao_compute. frame.viewport is the part to copy; all 0: that of
+ * glViewport. frame.depth_texture is 0, the other textures have that part's size. glssao_apply covers the same part. May fail as
+ * these do, with INVALID_ARGUMENT where there is no depth buffer, and with FRAMEBUFFER_ERROR. */
+GLSSAO_API glssao_result glssao_compute_framebuffer(glssao_effect *effect, uint32_t framebuffer, const glssao_frame *frame,
+                                                    const glssao_settings *settings);
+
 /* Compiles the shaders and allocates the textures that glssao_compute will need for these arguments, for instance while a
  * level loads. Draws nothing. May fail as glssao_compute. */
 GLSSAO_API glssao_result glssao_prepare(glssao_effect *effect, const glssao_frame *frame,
@@ -330,11 +356,18 @@ GLSSAO_API glssao_result glssao_accumulate(glssao_effect *effect, const glssao_f
 /* Makes the next glssao_accumulate start anew. Call it when the contents of the textures changed. */
 GLSSAO_API void glssao_restart_accumulation(glssao_effect *effect);
 
-/* Multiplies accessibility into the colour (alpha stays) of draw buffer 0 of `framebuffer` (0: the default one), over the full
- * size without the margin, from its lower left corner. This darkens direct light too: to be exact, sample the map in your own
- * shader and scale ambient light alone. Needs a glssao_compute before. Fails with INVALID_ARGUMENT where `framebuffer` does not
- * exist or has the map itself attached, and with FRAMEBUFFER_ERROR where it is not complete. */
+/* Multiplies accessibility into the colour (alpha stays) of draw buffer 0 of `framebuffer` (0: the default one): with the
+ * default options below. This darkens direct light too: to be exact, sample the map in your own shader and scale ambient
+ * light alone. Needs a glssao_compute before. Fails with INVALID_ARGUMENT where `framebuffer` does not exist or has a texture
+ * attached that is read, with FRAMEBUFFER_ERROR where it is not complete. Scissor, stencil and colour mask are ignored; the log
+ * says so once where they would count. Blending follows GL_FRAMEBUFFER_SRGB, as the host's own does. */
 GLSSAO_API glssao_result glssao_apply(glssao_effect *effect, uint32_t framebuffer);
+
+/* Full intensity and black, without textures, into the default framebuffer. */
+GLSSAO_API glssao_apply_options glssao_default_apply_options(void);
+
+/* As glssao_apply, with options. Some compile another program the first time, and may fail with SHADER_ERROR. */
+GLSSAO_API glssao_result glssao_apply_with(glssao_effect *effect, const glssao_apply_options *options);
 
 /* The texture's name, and its size if the pointers are not NULL. Valid until the next resize or destroy, or until a compute,
  * prepare or accumulate with another size of the estimate makes the map anew. 0, and sizes of 0, where there is no such map. */

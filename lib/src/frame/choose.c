@@ -55,7 +55,7 @@ static const char *nothing_to_occlude(const glssao_frame *frame, const glssao_se
     return NULL;
 }
 
-static bool chooses_compute(const glssao__capabilities *can, const glssao_settings *settings, const char **out_reason)
+static bool chooses_compute(const glssao__capabilities *can, glssao_tiles tiles, const char **out_reason)
 {
     if (can->path == GLSSAO_PATH_FRAGMENT)
         return *out_reason = "the config asks for fragment shaders", false;
@@ -65,11 +65,17 @@ static bool chooses_compute(const glssao__capabilities *can, const glssao_settin
         return *out_reason = "the context has no compute shaders that write images", false;
     if (can->compute_failed)
         return *out_reason = "the driver rejected a compute shader", false;
-    if (settings->tiles == GLSSAO_TILES_ON)
+    if (tiles == GLSSAO_TILES_ON)
         return *out_reason = "tiles are on, and only draws can leave them out", false;
     *out_reason = can->path == GLSSAO_PATH_COMPUTE ? "the config asks for compute shaders"
                                                    : "a GPU runs compute shaders on more of its units";
     return true;
+}
+
+bool glssao__choose_dispatches(const glssao__capabilities *can)
+{
+    const char *reason;
+    return chooses_compute(can, GLSSAO_TILES_OFF, &reason);
 }
 
 static bool can_be_dispatched(const glssao__choice *c, glssao_pass pass)
@@ -130,8 +136,9 @@ static void choose_passes(glssao__choice *c, const glssao__request *q)
     for (int i = 0; i < HOST_TEXTURES; ++i)
         any_copy = any_copy || c->copies[i];
     choose_pass(c, GLSSAO_PASS_INPUTS, any_copy,
-                any_copy ? "resolves multisampling, viewport or logarithmic depth first"
-                         : "the host's textures can be read as they are");
+                c->is_oblique ? "the near plane is oblique: turns depth into view distance first"
+                : any_copy    ? "resolves multisampling, viewport or logarithmic depth first"
+                              : "the host's textures can be read as they are");
     choose_pass(c, GLSSAO_PASS_NORMALS, !frame->normal_texture,
                 frame->normal_texture ? "the host brings normals" : "there is no normal map: rebuilt from depth");
     choose_pass(c, GLSSAO_PASS_DISTANCE, c->is_horizon, c->is_horizon ? "the estimate reads it" : "no pass reads it");
@@ -156,17 +163,19 @@ static void choose_passes(glssao__choice *c, const glssao__request *q)
         c->plan.passes[i].compute = c->plan.passes[i].run && c->compute && can_be_dispatched(c, (glssao_pass)i);
 }
 
-/* All of a multisample or larger texture is copied before the passes can read it, and what holds logarithmic depth. */
-static void choose_copies(glssao__choice *c, const glssao_frame *frame)
+/* All of a multisample or larger texture is copied before the passes can read it, and what holds logarithmic depth, or
+ * window depth under an oblique near plane. */
+static void choose_copies(glssao__choice *c, const glssao__request *q)
 {
+    const glssao_frame *frame = q->frame;
     const bool all = frame->multisample || frame->viewport[2] != 0 || frame->viewport[3] != 0;
+    c->is_oblique = q->is_oblique && frame->depth_kind == GLSSAO_DEPTH_WINDOW;
+    const bool depth = c->is_oblique || frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC;
     glssao__host_names(frame, c->host_names);
     if (!c->has_history)
         c->host_names[HOST_MOTION] = 0;
     for (int i = 0; i < HOST_TEXTURES; ++i)
-        c->copies[i] =
-            c->host_names[i] != 0 && (all || (frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC && i != HOST_NORMAL &&
-                                              i != HOST_MOTION));
+        c->copies[i] = c->host_names[i] != 0 && (all || (depth && i != HOST_NORMAL && i != HOST_MOTION));
 }
 
 /* Where depth and normals are read from, and how they are stored there. */
@@ -177,12 +186,12 @@ static void choose_inputs(glssao__choice *c, const glssao__request *q)
     c->normals = !frame->normal_texture ? MAP_NORMAL : c->copies[HOST_NORMAL] ? MAP_NORMAL_COPY : MAP_HOST_NORMAL;
     c->depth = in_alpha ? c->normals : c->copies[HOST_DEPTH] ? MAP_DEPTH_COPY : MAP_HOST_DEPTH;
     c->inputs.values[MACRO_NORMALS] = frame->normal_texture ? (uint8_t)frame->normal_kind : NORMALS_SIGNED;
-    c->inputs.values[MACRO_DEPTH] = in_alpha                                   ? DEPTH_ALPHA
-                                    : frame->depth_kind == GLSSAO_DEPTH_WINDOW ? DEPTH_WINDOW
-                                                                               : DEPTH_DISTANCE;
     c->inputs.values[MACRO_VARIES] = c->has_history || (q->settings->noise_index != 0 && q->estimates == 0);
     c->inputs.values[MACRO_DENSE] = c->is_dense;
-    c->inputs.values[MACRO_PERSPECTIVE] = frame->projection[11] != 0.0f; /* clip w depends on z */
+    const bool is_window = glssao__projection_reads_window_depth(frame, q->is_oblique);
+    c->inputs.values[MACRO_DEPTH] = in_alpha ? DEPTH_ALPHA : is_window ? DEPTH_WINDOW : DEPTH_DISTANCE;
+    c->inputs.values[MACRO_TURNED] = q->is_turned || (frame->normal_texture && frame->world_normals);
+    c->inputs.values[MACRO_PERSPECTIVE] = !q->is_orthographic;
     c->inputs.values[MACRO_BRANCHES] = !q->can.is_software; /* a software rasteriser takes both sides of a branch */
 }
 
@@ -202,7 +211,7 @@ void glssao__choose(glssao__choice *c, const glssao__request *q)
     for (int i = 0; i < 2; ++i)
         c->size[i] = q->size[i];
     c->has_history = settings->history > 0 && q->estimates == 0;
-    choose_copies(c, q->frame);
+    choose_copies(c, q);
     glssao__choose_estimate_size(settings, q->size, c->estimate);
     c->factor = settings->half_resolution ? 2 : 1;
     c->margin = q->frame->margin;
@@ -215,7 +224,7 @@ void glssao__choose(glssao__choice *c, const glssao__request *q)
     glssao__choose_nothing(&c->plan, nothing ? nothing : "");
     c->nothing = nothing != NULL;
     if (!nothing) {
-        c->compute = chooses_compute(&q->can, settings, &c->plan.path_reason);
+        c->compute = chooses_compute(&q->can, settings->tiles, &c->plan.path_reason);
         c->plan.path = c->compute ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT;
         c->upsamples = settings->half_resolution && settings->upsample && !c->has_history;
         choose_passes(c, q);

@@ -16,6 +16,7 @@ typedef struct glssao__choice {
     bool compute;     /* passes that can be dispatched are */
     bool accumulates;
     bool is_horizon, is_planar;
+    bool is_oblique; /* window depth becomes view distance in a copy */
     bool blurs, upsamples, has_tiles;
     bool has_history;  /* the result is the mean of this frame and earlier ones */
     bool paired;       /* later passes read paired values */
@@ -40,6 +41,9 @@ void glssao__choose_nothing(glssao_plan *out, const char *reason);
 
 /* The size of the maps that an estimate draws into. */
 void glssao__choose_estimate_size(const glssao_settings *settings, const int size[2], int out_size[2]);
+
+/* Whether passes that can be dispatched are, in frames without tiles. */
+bool glssao__choose_dispatches(const glssao__capabilities *can);
 
 const char *glssao__pass_name(glssao_pass pass);
 

@@ -193,19 +193,3 @@ void glssao__execute(glssao__resources *resources, const glssao__schedule *sched
     }
     wait_for(gl, schedule->last_barrier);
 }
-
-void glssao__execute_apply(glssao__resources *resources, gl_uint framebuffer, enum glssao__map map, int width,
-                           int height)
-{
-    const glssao__gl *gl = resources->gl;
-    run r = {.resources = resources};
-    glssao__timers_begin(&resources->timers, gl, GLSSAO_PASS_APPLY);
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-    gl->UseProgram(glssao__resources_program(resources, SHADER_APPLY, &(glssao__variant){{0}})->name);
-    bind(&r, UNIT_AMBIENT, GL_TEXTURE_2D, resources->targets[map].texture, SAMPLER_LINEAR_CLAMP);
-    gl->BindVertexArray(resources->vertex_array);
-    glssao__state_blend(gl, GL_ZERO, GL_SRC_COLOR);
-    set_viewport(gl, 0, 0, width, height);
-    gl->DrawArrays(GL_TRIANGLES, 0, 6);
-    glssao__timers_end(&resources->timers, gl, GLSSAO_PASS_APPLY);
-}

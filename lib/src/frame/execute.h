@@ -16,9 +16,4 @@ glssao__state_need glssao__execute_need(const glssao__resources *resources, cons
 void glssao__execute(glssao__resources *resources, const glssao__schedule *schedule, const glssao__host_inputs *host,
                      const glssao__uniforms *uniforms, float sky_depth);
 
-/* Multiplies the map into width x height pixels of a framebuffer from its lower left corner. Needs STATE_BLEND and unit
- * UNIT_AMBIENT. */
-void glssao__execute_apply(glssao__resources *resources, gl_uint framebuffer, enum glssao__map map, int width,
-                           int height);
-
 #endif

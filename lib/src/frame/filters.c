@@ -22,6 +22,7 @@ static void add_separable_blur(glssao__builder *b)
         glssao__build_finish(b, step);
         if (!bilateral) { /* it reads neither normals nor depth */
             glssao__build_set(step, MACRO_NORMALS, 0);
+            glssao__build_set(step, MACRO_TURNED, 0);
             glssao__build_set(step, MACRO_DEPTH, 0);
         }
         /* The vertical direction reads a tile farther than it draws. */
@@ -63,6 +64,7 @@ static void add_planar_dispatches(glssao__builder *b)
         glssao__build_point(step, UNIT_AMBIENT, glssao__build_turn_map(b, i - 1));
         set_tile(b, step, now, done == 0);
         glssao__build_set(step, MACRO_NORMALS, 0); /* only upsampling reads normals and depth */
+        glssao__build_set(step, MACRO_TURNED, 0);
         glssao__build_set(step, MACRO_DEPTH, 0);
         done += now;
     }

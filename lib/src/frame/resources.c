@@ -22,6 +22,7 @@ static const struct glssao__sampler_name sampler_names[] = {
     {"u_ambient_map", UNIT_AMBIENT}, {"u_distance_map", UNIT_DISTANCE}, {"u_back_map", UNIT_BACK},
     {"u_second_map", UNIT_SECOND},   {"u_input_map", UNIT_DEPTH},       {"u_tile_map", UNIT_TILES},
     {"u_raw_map", UNIT_RAW},       {"u_history_map", UNIT_HISTORY}, {"u_motion_map", UNIT_MOTION},
+    {"u_strength_map", UNIT_DEPTH},  {"u_albedo_map", UNIT_NORMAL}, /* apply.c */
 };
 
 static const glssao__program_ties ties = {
@@ -29,7 +30,7 @@ static const glssao__program_ties ties = {
     .block_count = BLOCK_COUNT,
     .samplers = sampler_names,
     .sampler_count = sizeof sampler_names / sizeof *sampler_names,
-    .uniforms = {"gHorizontalBlur", "gOrigin", "gTileRange", "gRegion"},
+    .uniforms = {"gHorizontalBlur", "gOrigin", "gTileRange", "gRegion", "gShade", "gPicture"},
 };
 
 void glssao__resources_check(const glssao__resources *r, const char *where)
@@ -82,9 +83,9 @@ const glssao__program *glssao__resources_program(const glssao__resources *r, enu
     return glssao__programs_find(&r->programs, &key);
 }
 
-glssao_result glssao__resources_prepare_apply(glssao__resources *r)
+glssao_result glssao__resources_prepare_apply(glssao__resources *r, const glssao__variant *variant)
 {
-    return prepare_program(r, SHADER_APPLY, &(glssao__variant){{0}});
+    return prepare_program(r, SHADER_APPLY, variant);
 }
 
 /* ---- maps ---- */
@@ -177,7 +178,7 @@ static glssao_result make_random_vectors(glssao__resources *r, uint32_t seed)
 glssao_result glssao__resources_init(glssao__resources *r, const int size[2], uint32_t seed, bool has_timers)
 {
     /* Compiling a program checks the driver's layout of the blocks; this one takes the least time. */
-    glssao_result result = glssao__resources_prepare_apply(r);
+    glssao_result result = glssao__resources_prepare_apply(r, &(glssao__variant){{0}});
     if (result == GLSSAO_OK)
         result = make_random_vectors(r, seed);
     if (result == GLSSAO_OK)

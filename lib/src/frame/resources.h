@@ -11,7 +11,7 @@
 #include "gpu/timers.h"
 
 /* The plain uniforms of all programs, as glssao__program.locations has them. */
-enum { UNIFORM_HORIZONTAL, UNIFORM_ORIGIN, UNIFORM_TILE_RANGE, UNIFORM_REGION };
+enum { UNIFORM_HORIZONTAL, UNIFORM_ORIGIN, UNIFORM_TILE_RANGE, UNIFORM_REGION, UNIFORM_SHADE, UNIFORM_PICTURE };
 
 typedef struct glssao__resources {
     const glssao__gl *gl;
@@ -35,8 +35,8 @@ glssao_result glssao__resources_resize(glssao__resources *r, const int size[2]);
 
 /* Compiles the programs and makes the maps of a schedule; on failure all maps are as before. */
 glssao_result glssao__resources_prepare(glssao__resources *r, const glssao__schedule *schedule);
-/* Compiles the program of glssao_apply. */
-glssao_result glssao__resources_prepare_apply(glssao__resources *r);
+/* Compiles a program of glssao_apply. */
+glssao_result glssao__resources_prepare_apply(glssao__resources *r, const glssao__variant *variant);
 
 /* A program that was prepared. */
 const glssao__program *glssao__resources_program(const glssao__resources *r, enum glssao__shader shader,

@@ -25,6 +25,7 @@ static void add_copies(glssao__builder *b)
         glssao__build_set(step, MACRO_MULTISAMPLE, b->frame->multisample);
         glssao__build_set(step, MACRO_LOGARITHMIC,
                           b->frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC && i != HOST_NORMAL && i != HOST_MOTION);
+        glssao__build_set(step, MACRO_OBLIQUE, b->c.is_oblique && i != HOST_NORMAL && i != HOST_MOTION);
         step->origin[0] = b->frame->viewport[0];
         step->origin[1] = b->frame->viewport[1];
         glssao__build_point(step, UNIT_DEPTH, (enum glssao__map)(MAP_HOST_DEPTH + i));

@@ -40,6 +40,7 @@ enum glssao__shader {
     X(COMPUTE, 1)         /* the pass is dispatched, not drawn */                                                      \
     X(NORMALS, 2)         /* how the host stores normals: signed, unsigned, octahedral */                              \
     X(DEPTH, 2)           /* how it stores depth: window depth, view distance, view distance in alpha */               \
+    X(TURNED, 1)          /* stored normals lie in another space than the passes compute in */                         \
     X(PERSPECTIVE, 1)     /* the projection is known not to be orthographic */                                         \
     X(BRANCHES, 1)        /* branches that spare a GPU work are taken */                                               \
     X(LOOPS, 1)           /* loops marked UNROLL_IF_SHORT stay loops, which keeps a GPU's program small */             \
@@ -54,11 +55,16 @@ enum glssao__shader {
     X(UPSAMPLE, 1)        /* planar tile: brings the result to full size */                                            \
     X(MULTISAMPLE, 1)     /* input: of several samples */                                                              \
     X(LOGARITHMIC, 1)     /* input: logarithmic depth */                                                               \
+    X(OBLIQUE, 1)         /* input: window depth under an oblique near plane */                                        \
     X(PLANES, 1)          /* tiles: those that lie in a plane are open too */                                          \
-    X(FROM_DEPTH, 1)      /* tiles, open: occluders are looked up in the depth map, not in the distance map */        \
+    X(FROM_DEPTH, 1)      /* tiles, open: occluders are looked up in the depth map, not in the distance map */         \
     X(VARIES, 1)          /* noise, and at half size the texels that are estimated, differ from frame to frame */      \
     X(DENSE, 1)           /* distance, horizon: the distance map has the full size, the estimate half of it */         \
-    X(MOTION, 1)          /* history: there is a motion texture */
+    X(MOTION, 1)          /* history: there is a motion texture */                                                     \
+    X(STRENGTH, 1)        /* apply: the host weights pixels */                                                         \
+    X(ALBEDO, 1)          /* apply: light that bounces between surfaces is added */                                    \
+    X(TINTED, 1)          /* apply: the blender needs the occluded part, not the open one */                           \
+    X(IMAGE, 6)           /* apply, dispatched: the format of the target, IMAGE_RGBA8 and so on */
 
 enum glssao__macro {
 #define GLSSAO__ENUMERATE(name, most) MACRO_##name,

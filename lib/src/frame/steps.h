@@ -122,9 +122,10 @@ typedef struct glssao__capabilities {
 typedef struct glssao__request {
     const glssao_frame *frame;
     const glssao_settings *settings;
-    int size[2];   /* full size of the effect, pixels */
-    int estimates; /* of glssao_accumulate, with this one; 0: glssao_compute */
-    int frames;    /* that the history has seen so far; 0: it begins */
+    int size[2];                                 /* full size of the effect, pixels */
+    int estimates;                               /* of glssao_accumulate, with this one; 0: glssao_compute */
+    bool is_orthographic, is_oblique, is_turned; /* the projection, as in glssao__projection */
+    int frames; /* that the history has seen so far; 0: it begins */
     glssao__capabilities can;
 } glssao__request;
 

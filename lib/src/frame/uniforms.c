@@ -107,10 +107,10 @@ void glssao__uniforms_init(glssao__uniforms *u, uint32_t seed)
 static void fill_ssao(glssao_constants *c, const glssao__uniforms_source *source)
 {
     const glssao_settings *settings = source->settings;
-    memcpy(c->gProj, source->frame->projection, sizeof c->gProj);
+    memcpy(c->gProj, source->projection->clip_from_view, sizeof c->gProj);
     memcpy(c->gInvProj, source->projection->view_from_clip, sizeof c->gInvProj);
     for (int col = 0; col < 4; ++col) {
-        const float *p = source->frame->projection + 4 * col;
+        const float *p = source->projection->clip_from_view + 4 * col;
         float *t = c->gProjTex + 4 * col;
         t[0] = 0.5f * p[0] + 0.5f * p[3];
         t[1] = 0.5f * p[1] + 0.5f * p[3];
@@ -146,6 +146,21 @@ static void fill_tiles(glssao__frame_block *c, const glssao_settings *s, int rin
     c->gTileRings = (float)(rings + 3);
 }
 
+/* From stored normals to the view space of the passes, which is the host's turned about the view axis. */
+static void fill_turn(glssao__frame_block *c, const glssao_frame *frame, const glssao__projection *projection)
+{
+    const double cosine = (double)projection->turn[0], sine = (double)projection->turn[1];
+    double n[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+    if (frame->world_normals && frame->normal_texture != 0)
+        (void)glssao__matrix_normals(frame->view, n); /* the check has seen that it is not singular */
+    for (int i = 0; i < 3; ++i) {
+        c->gTurn[0][i] = (float)(cosine * n[i] + sine * n[3 + i]);
+        c->gTurn[1][i] = (float)(cosine * n[3 + i] - sine * n[i]);
+        c->gTurn[2][i] = (float)n[6 + i];
+    }
+    memcpy(c->gRoll, projection->turn, sizeof c->gRoll);
+}
+
 static void fill_frame(glssao__frame_block *c, const glssao__uniforms_source *source)
 {
     const glssao_frame *frame = source->frame;
@@ -155,19 +170,20 @@ static void fill_frame(glssao__frame_block *c, const glssao__uniforms_source *so
     memcpy(c->gDistanceFromDepth, projection->distance_from_depth, sizeof c->gDistanceFromDepth);
     memcpy(c->gRayOrigin, projection->ray_origin, sizeof c->gRayOrigin);
     memcpy(c->gRayDirection, projection->ray_direction, sizeof c->gRayDirection);
-    c->gSkyDepth = frame->depth_kind == GLSSAO_DEPTH_WINDOW ? projection->sky_depth : (float)FAR_AWAY;
+    const bool is_window = glssao__projection_reads_window_depth(frame, projection->is_oblique);
+    c->gSkyDepth = is_window ? projection->sky_depth : (float)FAR_AWAY;
+    c->gWindowSky = projection->sky_depth;
+    memcpy(c->gOblique, projection->oblique, sizeof c->gOblique);
     c->gPower = settings->power;
     c->gBlurNormalThreshold = settings->blur_normal_threshold;
     c->gBlurDepthThreshold = settings->blur_depth_threshold;
     c->gSampleCount = settings->sample_count;
     c->gFactor = settings->half_resolution ? 2 : 1;
-    c->gPerRadius = 1.0f / settings->radius;
-    const bool orthographic = projection->ray_direction[0] == 0.0f;
     for (int i = 0; i < 2; ++i) {
-        const double pixel =
-            (double)source->map_factor / source->size[i] * (double)(orthographic ? c->gRayOrigin[i] : c->gRayDirection[i]);
-        c->gPixel[i] = (float)(pixel / (double)settings->radius);
-        c->gPixel[2 + i] = (float)((double)settings->radius / pixel);
+        const double pixel = (double)source->map_factor / source->size[i] *
+                             (double)(projection->is_orthographic ? c->gRayOrigin[i] : c->gRayDirection[i]);
+        c->gPixel[i] = (float)pixel;
+        c->gPixel[2 + i] = (float)(1.0 / pixel);
         c->gEstimateSize[i] = (float)source->estimate_size[i];
         c->gMapSize[i] = source->map_factor == 1 ? (float)source->size[i] : (float)source->estimate_size[i];
         c->gMapTexel[i] = 1.0f / c->gMapSize[i];
@@ -178,6 +194,7 @@ static void fill_frame(glssao__frame_block *c, const glssao__uniforms_source *so
     const double inverse = 0.7548776662466927;
     c->gNoise[0] = (float)fmod(source->noise_index * inverse, 1.0);
     c->gNoise[1] = (float)fmod(source->noise_index * (inverse * inverse), 1.0);
+    fill_turn(c, frame, projection);
     fill_tiles(c, settings, source->tile_rings);
     glssao__projection_depth_step(frame, projection, &source->precision, c->gDepthStep);
     if (frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC) {

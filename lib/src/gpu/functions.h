@@ -35,6 +35,9 @@ enum {
     GL_POINTS = 0x0000,
     GL_TRIANGLES = 0x0004,
     GL_SRC_COLOR = 0x0300,
+    GL_ONE_MINUS_SRC_COLOR = 0x0301,
+    GL_CONSTANT_COLOR = 0x8001,
+    GL_BLEND_COLOR = 0x8005,
     GL_FRONT = 0x0404,
     GL_BACK = 0x0405,
     GL_FRONT_AND_BACK = 0x0408,
@@ -110,6 +113,7 @@ enum {
     GL_TEXTURE_2D = 0x0DE1,
     GL_TEXTURE_WIDTH = 0x1000,
     GL_TEXTURE_HEIGHT = 0x1001,
+    GL_TEXTURE_INTERNAL_FORMAT = 0x1003,
     GL_TEXTURE_BORDER_COLOR = 0x1004,
     GL_UNSIGNED_BYTE = 0x1401,
     GL_FLOAT = 0x1406,
@@ -117,6 +121,11 @@ enum {
     GL_DEPTH = 0x1801,
     GL_RED = 0x1903,
     GL_RG = 0x8227,
+    GL_R11F_G11F_B10F = 0x8C3A,
+    GL_RGB10_A2 = 0x8059,
+    GL_DRAW_BUFFER0 = 0x8825,
+    GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL = 0x8CD2,
+    GL_SAMPLES = 0x80A9,
     GL_RGBA = 0x1908,
     GL_FILL = 0x1B02,
     GL_VENDOR = 0x1F00,
@@ -201,6 +210,20 @@ enum {
     GL_MAX_COLOR_ATTACHMENTS = 0x8CDF,
     GL_COLOR_ATTACHMENT0 = 0x8CE0,
     GL_DEPTH_ATTACHMENT = 0x8D00,
+    GL_STENCIL_ATTACHMENT = 0x8D20,
+    GL_STENCIL = 0x1802,
+    GL_DEPTH_STENCIL = 0x84F9,
+    GL_UNSIGNED_INT_24_8 = 0x84FA,
+    GL_FLOAT_32_UNSIGNED_INT_24_8_REV = 0x8DAD,
+    GL_DEPTH_COMPONENT16 = 0x81A5,
+    GL_DEPTH_COMPONENT24 = 0x81A6,
+    GL_DEPTH_COMPONENT32 = 0x81A7,
+    GL_DEPTH_COMPONENT32F = 0x8CAC,
+    GL_DEPTH24_STENCIL8 = 0x88F0,
+    GL_DEPTH32F_STENCIL8 = 0x8CAD,
+    GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE = 0x8211,
+    GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE = 0x8216,
+    GL_FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE = 0x8217,
     GL_MAX_CLIP_DISTANCES = 0x0D32,
     GL_TIMESTAMP = 0x8E28,
     GL_SAMPLE_MASK = 0x8E51,
@@ -209,8 +232,17 @@ enum {
     GL_PRIMITIVE_RESTART = 0x8F9D,
     GL_TEXTURE_2D_MULTISAMPLE = 0x9100,
     GL_TEXTURE_BINDING_2D_MULTISAMPLE = 0x9104,
+    GL_TEXTURE_BINDING_CUBE_MAP = 0x8514,
+    GL_TEXTURE_CUBE_MAP = 0x8513,
+    GL_TEXTURE_BINDING_2D_ARRAY = 0x8C1D,
+    GL_TEXTURE_2D_ARRAY = 0x8C1A,
+    GL_TEXTURE_BINDING_RECTANGLE = 0x84F6,
+    GL_TEXTURE_RECTANGLE = 0x84F5,
+    GL_SIGNED_NORMALIZED = 0x8F9C,
+    GL_TEXTURE_BLUE_SIZE = 0x805E,
     GL_READ_ONLY = 0x88B8,
     GL_WRITE_ONLY = 0x88B9,
+    GL_READ_WRITE = 0x88BA,
     GL_COMPUTE_SHADER = 0x91B9,
     GL_IMAGE_BINDING_NAME = 0x8F3A,
     GL_IMAGE_BINDING_LEVEL = 0x8F3B,
@@ -243,8 +275,12 @@ enum {
     X(void, BindSampler, (gl_uint unit, gl_uint sampler))                                                              \
     X(void, BindTexture, (gl_enum target, gl_uint texture))                                                            \
     X(void, BindVertexArray, (gl_uint array))                                                                          \
+    X(void, BlendColor, (gl_float r, gl_float g, gl_float b, gl_float a))                                              \
     X(void, BlendEquationSeparate, (gl_enum rgb, gl_enum alpha))                                                       \
     X(void, BlendFuncSeparate, (gl_enum src_rgb, gl_enum dst_rgb, gl_enum src_alpha, gl_enum dst_alpha))               \
+    X(void, BlitFramebuffer,                                                                                           \
+      (gl_int x0, gl_int y0, gl_int x1, gl_int y1, gl_int to_x0, gl_int to_y0, gl_int to_x1, gl_int to_y1,             \
+       gl_bitfield mask, gl_enum filter))                                                                              \
     X(void, BufferData, (gl_enum target, gl_sizeiptr size, const void *data, gl_enum usage))                           \
     X(void, BufferSubData, (gl_enum target, gl_intptr offset, gl_sizeiptr size, const void *data))                     \
     X(gl_enum, CheckFramebufferStatus, (gl_enum target))                                                               \
@@ -253,6 +289,8 @@ enum {
     X(gl_enum, ClientWaitSync, (gl_sync sync, gl_bitfield flags, uint64_t timeout_ns))                                 \
     X(void, ColorMaski, (gl_uint index, gl_boolean r, gl_boolean g, gl_boolean b, gl_boolean a))                       \
     X(void, CompileShader, (gl_uint shader))                                                                           \
+    X(void, CopyTexSubImage2D,                                                                                         \
+      (gl_enum target, gl_int level, gl_int to_x, gl_int to_y, gl_int x, gl_int y, gl_sizei width, gl_sizei height))   \
     X(gl_uint, CreateProgram, (void))                                                                                  \
     X(gl_uint, CreateShader, (gl_enum type))                                                                           \
     X(void, DeleteBuffers, (gl_sizei n, const gl_uint *buffers))                                                       \
@@ -268,6 +306,7 @@ enum {
     X(void, Disable, (gl_enum cap))                                                                                    \
     X(void, Disablei, (gl_enum cap, gl_uint index))                                                                    \
     X(void, DrawArrays, (gl_enum mode, gl_int first, gl_sizei count))                                                  \
+    X(void, DrawBuffers, (gl_sizei n, const gl_enum *buffers))                                                         \
     X(void, Enable, (gl_enum cap))                                                                                     \
     X(void, Enablei, (gl_enum cap, gl_uint index))                                                                     \
     X(gl_sync, FenceSync, (gl_enum condition, gl_bitfield flags))                                                      \
@@ -324,6 +363,7 @@ enum {
     X(void, TexParameteriv, (gl_enum target, gl_enum name, const gl_int *values))                                      \
     X(void, Uniform2f, (gl_int location, gl_float x, gl_float y))                                                      \
     X(void, Uniform3f, (gl_int location, gl_float x, gl_float y, gl_float z))                                          \
+    X(void, Uniform4f, (gl_int location, gl_float x, gl_float y, gl_float z, gl_float w))                              \
     X(void, Uniform1i, (gl_int location, gl_int value))                                                                \
     X(void, Uniform4i, (gl_int location, gl_int x, gl_int y, gl_int z, gl_int w))                                      \
     X(void, UniformBlockBinding, (gl_uint program, gl_uint block, gl_uint binding))                                    \

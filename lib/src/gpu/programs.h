@@ -8,7 +8,7 @@
 #include "gpu/functions.h"
 #include "log.h"
 
-enum { PROGRAM_UNIFORMS = 4 };
+enum { PROGRAM_UNIFORMS = 6 };
 
 /* A program's name among others; the caller says what the bytes mean. */
 typedef struct glssao__program_key {

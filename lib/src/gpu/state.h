@@ -18,22 +18,24 @@ enum {
 
 /* Parts of the state. A call names those that it changes; the others cost nothing. */
 enum {
-    STATE_DRAW = 1,         /* what every draw depends on: program, target, viewport, masks, toggles */
-    STATE_BLEND = 2,        /* blend functions and equations of draw buffer 0 */
-    STATE_ALL_MASKS = 4,    /* the colour masks of all draw buffers, for framebuffers of the host */
-    STATE_DEPTH_MASK = 8,   /* for clearing depth */
-    STATE_TRANSFER = 16,    /* how pixels are packed, unpacked and scaled on their way */
-    STATE_UNIFORMS = 32,    /* uniform buffer bindings */
-    STATE_IMAGE = 64,       /* image unit 0, which compute shaders write through */
-    STATE_READ = 128,       /* the read framebuffer */
-    STATE_MULTISAMPLE = 256 /* the multisample texture of one unit */
+    STATE_DRAW = 1,          /* what every draw depends on: program, target, viewport, masks, toggles */
+    STATE_BLEND = 2,         /* blend functions and equations of draw buffer 0 */
+    STATE_ALL_MASKS = 4,     /* the colour masks of all draw buffers, for framebuffers of the host */
+    STATE_DEPTH_MASK = 8,    /* for clearing depth */
+    STATE_TRANSFER = 16,     /* how pixels are packed, unpacked and scaled on their way */
+    STATE_UNIFORMS = 32,     /* uniform buffer bindings */
+    STATE_IMAGE = 64,        /* image unit 0, which compute shaders write through */
+    STATE_READ = 128,        /* the read framebuffer */
+    STATE_MULTISAMPLE = 256, /* the multisample texture of one unit */
+    STATE_BLEND_COLOR = 512  /* the constant that blend functions may name */
 };
 
 typedef struct glssao__state_need {
-    unsigned parts;       /* STATE_ bits */
-    unsigned units;       /* bit i: 2D texture and sampler of unit i */
-    int blocks;           /* with STATE_UNIFORMS: how many binding points, from 0 */
-    int multisample_unit; /* with STATE_MULTISAMPLE */
+    unsigned parts;                  /* STATE_ bits */
+    unsigned units;                  /* bit i: 2D texture and sampler of unit i */
+    int blocks;                      /* with STATE_UNIFORMS: how many binding points, from 0 */
+    int multisample_unit;            /* with STATE_MULTISAMPLE */
+    bool keep_scissor, keep_stencil; /* with STATE_DRAW: the host's test stays as it is */
 } glssao__state_need;
 
 typedef struct glssao__state {
@@ -56,6 +58,7 @@ typedef struct glssao__state {
     gl_boolean depth_mask;
     gl_boolean color_masks[STATE_DRAW_BUFFERS][4];
     gl_int blend_function[4], blend_equation[2];
+    gl_float blend_color[4];
     gl_boolean blend, scissor;
     gl_int scissor_box[4];
     gl_boolean toggles[STATE_TOGGLES];
@@ -69,6 +72,9 @@ glssao_result glssao__state_check(const glssao__gl *gl, const glssao__log *log, 
  * set, and glssao__state_restore does nothing. */
 void glssao__state_save(const glssao__gl *gl, const glssao__state_need *need, bool host_restores, glssao__state *out);
 void glssao__state_restore(const glssao__gl *gl, const glssao__state *state);
+
+/* Whether one of the toggles, for instance GL_STENCIL_TEST, was on when the state was saved. */
+bool glssao__state_was_on(const glssao__state *state, gl_enum toggle);
 
 /* For draws between save and restore, where the part is saved. */
 void glssao__state_blend(const glssao__gl *gl, gl_enum source, gl_enum destination); /* colour; alpha stays */

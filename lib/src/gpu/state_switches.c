@@ -35,6 +35,20 @@ static bool has_toggle(const glssao__gl *gl, int i)
            (toggles[i].where == DEPTH_BOUNDS && gl->depth_bounds_test);
 }
 
+/* Left as the host has it. */
+static bool is_kept(const glssao__state *s, int i)
+{
+    return s->need.keep_stencil && toggles[i].cap == GL_STENCIL_TEST;
+}
+
+bool glssao__state_was_on(const glssao__state *state, gl_enum toggle)
+{
+    for (int i = 0; i < TOGGLE_COUNT; ++i)
+        if (toggles[i].cap == toggle)
+            return state->toggles[i];
+    return false;
+}
+
 static void set_enabled(const glssao__gl *gl, gl_enum cap, bool on)
 {
     if (on)
@@ -52,7 +66,7 @@ static void save_toggles(const glssao__gl *gl, glssao__state *s)
 static void set_toggles(const glssao__gl *gl, const glssao__state *s)
 {
     for (int i = 0; i < TOGGLE_COUNT; ++i)
-        if (has_toggle(gl, i) && (s->toggles[i] || !s->is_saved))
+        if (has_toggle(gl, i) && !is_kept(s, i) && (s->toggles[i] || !s->is_saved))
             gl->Disable(toggles[i].cap);
 }
 
@@ -90,7 +104,7 @@ static void save_scissor(const glssao__gl *gl, glssao__state *s)
 
 static void set_scissor(const glssao__gl *gl, const glssao__state *s)
 {
-    if (s->scissor || !s->is_saved)
+    if (!s->need.keep_scissor && (s->scissor || !s->is_saved))
         put_scissor(gl, false);
 }
 
@@ -316,6 +330,16 @@ static void restore_blend(const glssao__gl *gl, const glssao__state *s)
     put_blend(gl, s->blend_function, s->blend_equation);
 }
 
+static void save_blend_color(const glssao__gl *gl, glssao__state *s)
+{
+    gl->GetFloatv(GL_BLEND_COLOR, s->blend_color);
+}
+
+static void restore_blend_color(const glssao__gl *gl, const glssao__state *s)
+{
+    gl->BlendColor(s->blend_color[0], s->blend_color[1], s->blend_color[2], s->blend_color[3]);
+}
+
 const glssao__state_piece glssao__state_switches[] = {
     {STATE_DRAW, save_polygon_mode, set_polygon_mode, restore_polygon_mode},
     {STATE_DRAW, save_clip_control, set_clip_control, restore_clip_control},
@@ -326,5 +350,6 @@ const glssao__state_piece glssao__state_switches[] = {
     {STATE_DRAW, save_toggles, set_toggles, restore_toggles},
     {STATE_DEPTH_MASK, save_depth_mask, set_depth_mask, restore_depth_mask},
     {STATE_BLEND, save_blend, NULL, restore_blend},
+    {STATE_BLEND_COLOR, save_blend_color, NULL, restore_blend_color},
     {0, NULL, NULL, NULL},
 };

@@ -4,6 +4,7 @@
  */
 #include "input/check.h"
 
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
 
@@ -111,23 +112,23 @@ static bool check_margin(const glssao_frame *frame, const int size[2], const gls
     return refuse(log, "frame.margin", margin, "want an even number that leaves at least one pixel");
 }
 
-/* The history needs to know where the camera is. */
-static bool check_view(const glssao_frame *frame, const glssao__log *log)
+/* The matrix that turns normals from world space, if any are, and by which the history finds points again. */
+static bool check_view(const glssao_frame *frame, bool has_history, const glssao__log *log)
 {
-    double view[16], inverse[16];
-    for (int i = 0; i < 16; ++i) {
-        view[i] = (double)frame->view[i];
-        if (!(fabs(view[i]) <= 1e30)) {
-            glssao__log_write(log, GLSSAO_LOG_ERROR, "frame.view[%d] = %g: not finite", i, view[i]);
+    const bool turns_normals = frame->world_normals && frame->normal_texture != 0;
+    if (!turns_normals && !has_history)
+        return true;
+    for (int i = 0; i < 16; ++i)
+        if (!(fabs((double)frame->view[i]) <= FLT_MAX)) { /* also true for nan */
+            glssao__log_write(log, GLSSAO_LOG_ERROR, "frame.view[%d] = %g: not finite", i, (double)frame->view[i]);
             return false;
         }
-    }
-    if (view[3] != 0.0 || view[7] != 0.0 || view[11] != 0.0 || view[15] != 1.0 || !glssao__invert(view, inverse)) {
-        glssao__log_write(log, GLSSAO_LOG_ERROR,
-                          "frame.view: no rotation and translation, which settings.history above 0 needs");
-        return false;
-    }
-    return true;
+    double rows[9];
+    if (glssao__matrix_normals(frame->view, rows))
+        return true;
+    glssao__log_write(log, GLSSAO_LOG_ERROR, "frame.view is singular, and %s needs it",
+                      turns_normals ? "frame.world_normals" : "settings.history");
+    return false;
 }
 
 bool glssao__check_frame(const glssao_frame *frame, const glssao_settings *settings, const int size[2],
@@ -151,8 +152,6 @@ bool glssao__check_frame(const glssao_frame *frame, const glssao_settings *setti
     if ((frame->back_texture == 0) != (frame->second_texture == 0))
         return refuse(log, frame->back_texture ? "frame.second_texture" : "frame.back_texture", 0,
                       "no texture, but the other layer has one");
-    if (settings->history > 0 && !check_view(frame, log))
-        return false;
     return check_margin(frame, size, log) && check_viewport(frame, size, log) && check_logarithm(frame, log) &&
-           glssao__projection_analyse(frame->projection, frame->clip_zero_to_one, log, out_projection);
+           check_view(frame, settings->history > 0, log) && glssao__projection_analyse(frame, log, out_projection);
 }

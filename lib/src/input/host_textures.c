@@ -65,15 +65,26 @@ static gl_int level_parameter(const glssao__gl *gl, gl_enum target, gl_enum name
     return value;
 }
 
-/* The distance between two stored values that stand for depth. */
-static glssao__precision precision_of(const glssao__gl *gl, gl_enum target, bool in_alpha)
+static glssao__format format_of(const glssao__gl *gl, gl_enum target, bool reads_alpha)
 {
-    int bits = in_alpha ? 0 : level_parameter(gl, target, GL_TEXTURE_DEPTH_SIZE);
-    gl_int type = level_parameter(gl, target, GL_TEXTURE_DEPTH_TYPE);
-    if (bits == 0) {
-        bits = level_parameter(gl, target, in_alpha ? GL_TEXTURE_ALPHA_SIZE : GL_TEXTURE_RED_SIZE);
-        type = level_parameter(gl, target, in_alpha ? GL_TEXTURE_ALPHA_TYPE : GL_TEXTURE_RED_TYPE);
+    glssao__format f = {.internal = (gl_enum)level_parameter(gl, target, GL_TEXTURE_INTERNAL_FORMAT),
+                        .red_bits = level_parameter(gl, target, GL_TEXTURE_RED_SIZE),
+                        .red_type = (gl_enum)level_parameter(gl, target, GL_TEXTURE_RED_TYPE),
+                        .blue_bits = level_parameter(gl, target, GL_TEXTURE_BLUE_SIZE),
+                        .depth_bits = level_parameter(gl, target, GL_TEXTURE_DEPTH_SIZE),
+                        .depth_type = (gl_enum)level_parameter(gl, target, GL_TEXTURE_DEPTH_TYPE)};
+    if (reads_alpha) {
+        f.alpha_bits = level_parameter(gl, target, GL_TEXTURE_ALPHA_SIZE);
+        f.alpha_type = (gl_enum)level_parameter(gl, target, GL_TEXTURE_ALPHA_TYPE);
     }
+    return f;
+}
+
+/* The distance between two stored values that stand for depth. */
+static glssao__precision precision_of(const glssao__format *f, bool reads_alpha)
+{
+    const int bits = reads_alpha ? f->alpha_bits : f->depth_bits > 0 ? f->depth_bits : f->red_bits;
+    const gl_enum type = reads_alpha ? f->alpha_type : f->depth_bits > 0 ? f->depth_type : f->red_type;
     const bool is_float = type == GL_FLOAT;
     /* Fractions of half and single precision have 10 and 23 bits; single precision is what the shaders compute in. */
     const int fraction = !is_float ? bits : bits <= 16 ? 10 : 23;
@@ -100,9 +111,51 @@ bool glssao__host_texture_bind(const glssao__gl *gl, gl_enum target, gl_uint tex
     return false;
 }
 
-static const char *kind_of(gl_enum target)
+/* The target that a texture was made for; 0 where OpenGL does not tell. Bindings stay as they are. */
+static gl_enum target_of(const glssao__gl *gl, gl_uint texture)
 {
-    return target == GL_TEXTURE_2D ? "GL_TEXTURE_2D" : "GL_TEXTURE_2D_MULTISAMPLE";
+    static const struct {
+        gl_enum target, binding;
+    } targets[] = {{GL_TEXTURE_2D, GL_TEXTURE_BINDING_2D},
+                   {GL_TEXTURE_2D_MULTISAMPLE, GL_TEXTURE_BINDING_2D_MULTISAMPLE},
+                   {GL_TEXTURE_RECTANGLE, GL_TEXTURE_BINDING_RECTANGLE},
+                   {GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BINDING_2D_ARRAY},
+                   {GL_TEXTURE_CUBE_MAP, GL_TEXTURE_BINDING_CUBE_MAP}};
+    gl_int target = 0;
+    if (gl->GetTextureParameteriv) {
+        gl->GetTextureParameteriv(texture, GL_TEXTURE_TARGET, &target);
+        if (target == 0) /* a buffer texture has no parameters */
+            (void)glssao__gl_take_error(gl, GL_INVALID_OPERATION);
+        return (gl_enum)target;
+    }
+    for (size_t i = 0; i < sizeof targets / sizeof *targets; ++i) {
+        gl_int before = 0, bound = 0;
+        gl->GetIntegerv(targets[i].binding, &before);
+        const bool was_bound = (gl_uint)before == texture;
+        gl->BindTexture(targets[i].target, texture);
+        gl->GetIntegerv(targets[i].binding, &bound);
+        if (was_bound || (gl_uint)bound == texture) {
+            gl->BindTexture(targets[i].target, (gl_uint)before);
+            return targets[i].target;
+        }
+        (void)glssao__gl_take_error(gl, GL_INVALID_OPERATION);
+    }
+    return 0;
+}
+
+/* Says what the texture is instead of what it should be, and what helps. */
+static void tell_target(const glssao__gl *gl, const glssao__log *log, const char *field, const glssao__host_texture *t)
+{
+    const gl_enum found = target_of(gl, t->name);
+    const char *cure = "copy it to one";
+    if (found == GL_TEXTURE_2D)
+        cure = "frame.multisample must be false";
+    else if (found == GL_TEXTURE_2D_MULTISAMPLE)
+        cure = t->role == ROLE_COLOR ? "resolve it" : "set frame.multisample";
+    else if (found == GL_TEXTURE_2D_ARRAY || found == GL_TEXTURE_CUBE_MAP)
+        cure = "hand over a glTextureView of one layer, or copy it";
+    glssao__log_write(log, GLSSAO_LOG_ERROR, "%s = %u: a %s, not a %s: %s", field, t->name,
+                      glssao__format_target_name(found), glssao__format_target_name(t->target), cure);
 }
 
 /* Fills what OpenGL knows of the texture; false where it is none of that kind. */
@@ -113,36 +166,52 @@ static bool look_at(const glssao__gl *gl, const glssao__log *log, const char *fi
         return false;
     }
     if (!glssao__host_texture_bind(gl, t->target, t->name)) {
-        glssao__log_write(log, GLSSAO_LOG_ERROR, "%s = %u: not a %s", field, t->name, kind_of(t->target));
+        tell_target(gl, log, field, t);
         return false;
     }
     read_parameters(gl, t);
     /* Level 0 is meant, whatever the base level is. */
     t->width = level_parameter(gl, t->target, GL_TEXTURE_WIDTH);
     t->height = level_parameter(gl, t->target, GL_TEXTURE_HEIGHT);
-    const gl_int type = level_parameter(gl, t->target, GL_TEXTURE_RED_TYPE);
-    t->is_integer = type == GL_INT || type == GL_UNSIGNED_INT;
-    t->precision = precision_of(gl, t->target, t->reads_alpha);
+    t->format = format_of(gl, t->target, t->role == ROLE_NORMAL_AND_DISTANCE);
+    t->precision = precision_of(&t->format, t->role == ROLE_NORMAL_AND_DISTANCE);
     return true;
+}
+
+static bool is_fitting(const glssao__log *log, const char *field, const glssao__host_texture *t, glssao_normal normals)
+{
+    const char *const fault = glssao__format_fault(&t->format, t->role, normals);
+    const char *const name = glssao__format_name(t->format.internal);
+    if (!fault)
+        return true;
+    if (name)
+        glssao__log_write(log, GLSSAO_LOG_ERROR, "%s = %u: %s %s", field, t->name, name, fault);
+    else
+        glssao__log_write(log, GLSSAO_LOG_ERROR, "%s = %u: format 0x%04X %s", field, t->name, t->format.internal,
+                          fault);
+    return false;
 }
 
 static bool is_large_enough(const glssao__log *log, const char *field, const glssao_frame *frame, const int size[2],
                             const glssao__host_texture *t)
 {
-    const char *const kind = kind_of(t->target);
+    const char *const kind = glssao__format_target_name(t->target);
     const int *v = frame->viewport;
     if (v[2] != 0 || v[3] != 0) {
         /* The differences can't overflow: the viewport's size is the effect's. */
         if (t->width - v[2] >= v[0] && t->height - v[3] >= v[1])
             return true;
-        glssao__log_write(log, GLSSAO_LOG_ERROR, "%s = %u: a %s of %d x %d does not hold frame.viewport", field,
-                          t->name, kind, t->width, t->height);
+        glssao__log_write(log, GLSSAO_LOG_ERROR,
+                          "%s = %u: a %s of %d x %d does not hold frame.viewport, %d x %d at %d, %d", field, t->name,
+                          kind, t->width, t->height, v[2], v[3], v[0], v[1]);
         return false;
     }
     if (t->width == size[0] && t->height == size[1])
         return true;
-    glssao__log_write(log, GLSSAO_LOG_ERROR, "%s = %u: a %s of %d x %d, not of the full size, %d x %d", field, t->name,
-                      kind, t->width, t->height, size[0], size[1]);
+    glssao__log_write(
+        log, GLSSAO_LOG_ERROR,
+        "%s = %u: a %s of %d x %d, not of the full size, %d x %d: call glssao_resize, or set frame.viewport", field,
+        t->name, kind, t->width, t->height, size[0], size[1]);
     return false;
 }
 
@@ -150,10 +219,17 @@ static const glssao__host_texture *find_seen(const glssao__host_textures *known,
 {
     for (int i = 0; known && i < HOST_SEEN; ++i) {
         const glssao__host_texture *t = &known->seen[i];
-        if (t->name == wanted->name && t->target == wanted->target && t->reads_alpha == wanted->reads_alpha)
+        if (t->name == wanted->name && t->target == wanted->target && t->role == wanted->role)
             return t;
     }
     return NULL;
+}
+
+void glssao__host_textures_forget(glssao__host_textures *known, gl_uint name)
+{
+    for (int i = 0; i < HOST_SEEN; ++i)
+        if (known->seen[i].name == name)
+            known->seen[i] = (glssao__host_texture){0};
 }
 
 /* Checks one texture; with `known`, OpenGL is asked only the first time. */
@@ -165,11 +241,8 @@ static bool check_texture(const glssao__gl *gl, const glssao__log *log, const ch
         *t = *seen;
     else if (!look_at(gl, log, field, t))
         return false;
-    if (t->is_integer) {
-        glssao__log_write(log, GLSSAO_LOG_ERROR, "%s = %u: an integer format; want depth, normalized or float", field,
-                          t->name);
+    if (!is_fitting(log, field, t, frame->normal_kind))
         return false;
-    }
     if (known && t->has_changes) {
         glssao__log_write(log, GLSSAO_LOG_ERROR,
                           "%s = %u: base level, swizzle or stencil texture mode is not the default, which "
@@ -186,6 +259,28 @@ static bool check_texture(const glssao__gl *gl, const glssao__log *log, const ch
     return true;
 }
 
+bool glssao__host_texture_check(const glssao__gl *gl, const glssao__log *log, const char *field, const int viewport[4],
+                                const int size[2], glssao__host_textures *known, glssao__host_texture *t)
+{
+    glssao_frame frame = {0};
+    memcpy(frame.viewport, viewport, sizeof frame.viewport);
+    if (!check_texture(gl, log, field, &frame, size, known, t))
+        return false;
+    if (t->has_changes) {
+        gl->BindTexture(t->target, t->name);
+        put_parameters(gl, t, false);
+    }
+    return true;
+}
+
+void glssao__host_texture_restore(const glssao__gl *gl, const glssao__host_texture *t)
+{
+    if (!t->has_changes)
+        return;
+    gl->BindTexture(t->target, t->name);
+    put_parameters(gl, t, true);
+}
+
 glssao_result glssao__host_textures_check(const glssao__gl *gl, const glssao__log *log, const glssao_frame *frame,
                                           const int size[2], int unit, const gl_uint names[HOST_TEXTURES],
                                           glssao__host_textures *known, glssao__host_inputs *out)
@@ -194,6 +289,7 @@ glssao_result glssao__host_textures_check(const glssao__gl *gl, const glssao__lo
                                                       "frame.back_texture", "frame.second_texture",
                                                       "frame.motion_texture"};
     const bool in_alpha = frame->depth_kind == GLSSAO_DEPTH_NORMAL_ALPHA;
+    const bool in_red = in_alpha || frame->depth_kind == GLSSAO_DEPTH_VIEW_DISTANCE;
     memset(out, 0, sizeof *out);
     gl->ActiveTexture(GL_TEXTURE0 + (gl_enum)unit);
     for (int i = 0; i < HOST_TEXTURES; ++i) {
@@ -202,7 +298,9 @@ glssao_result glssao__host_textures_check(const glssao__gl *gl, const glssao__lo
             continue;
         t->name = names[i];
         t->target = frame->multisample ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
-        t->reads_alpha = in_alpha;
+        t->role = i != HOST_NORMAL ? (in_red ? ROLE_DISTANCE : ROLE_WINDOW_DEPTH)
+                  : in_alpha       ? ROLE_NORMAL_AND_DISTANCE
+                                   : ROLE_NORMAL;
         if (!check_texture(gl, log, fields[i], frame, size, known, t))
             return GLSSAO_INVALID_ARGUMENT;
     }

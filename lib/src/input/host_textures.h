@@ -6,7 +6,7 @@
 #ifndef GLSSAO_INPUT_HOST_TEXTURES_H
 #define GLSSAO_INPUT_HOST_TEXTURES_H
 
-#include "gpu/functions.h"
+#include "input/formats.h"
 #include "input/projection.h"
 #include "log.h"
 
@@ -20,9 +20,9 @@ typedef struct glssao__host_texture {
     gl_uint name;
     gl_enum target;
     int width, height;
-    bool is_integer;
-    glssao__precision precision;
-    bool reads_alpha;                      /* precision is that of alpha */
+    glssao__format format;
+    enum glssao__role role;
+    glssao__precision precision;           /* of what stands for depth */
     bool has_changes;                      /* one of the parameters below was not what the passes want */
     gl_int parameters[HOST_PARAMETERS][4]; /* as the host has them */
 } glssao__host_texture;
@@ -50,6 +50,16 @@ glssao_result glssao__host_textures_check(const glssao__gl *gl, const glssao__lo
                                           glssao__host_textures *known, glssao__host_inputs *out);
 /* Gives the textures their parameters back. */
 void glssao__host_textures_restore(const glssao__gl *gl, const glssao__host_inputs *inputs, int unit);
+
+/* Checks a texture that no frame names, but which lies as the frame's do: of the full size, or larger with `viewport`.
+ * `field` names it in the log. Binds it to the active unit, and sets its parameters, which
+ * glssao__host_texture_restore gives back. */
+bool glssao__host_texture_check(const glssao__gl *gl, const glssao__log *log, const char *field, const int viewport[4],
+                                const int size[2], glssao__host_textures *known, glssao__host_texture *t);
+void glssao__host_texture_restore(const glssao__gl *gl, const glssao__host_texture *t);
+
+/* The texture is to be looked at anew. */
+void glssao__host_textures_forget(glssao__host_textures *known, gl_uint name);
 
 /* Binds a texture to the active unit's `target` if it is of that kind; leaves no GL error. */
 bool glssao__host_texture_bind(const glssao__gl *gl, gl_enum target, gl_uint texture);

@@ -5,7 +5,7 @@
 #ifndef GLSSAO_INPUT_PROJECTION_H
 #define GLSSAO_INPUT_PROJECTION_H
 
-#include "log.h"
+#include "input/matrix.h"
 
 /* The distance between two values that a depth format tells apart: `step`, or `step` times the value. */
 typedef struct glssao__precision {
@@ -14,19 +14,25 @@ typedef struct glssao__precision {
 } glssao__precision;
 
 typedef struct glssao__projection {
-    float view_from_clip[16];
+    /* Of the passes' view space: the host's, turned about the view axis where the projection turns the picture. */
+    float clip_from_view[16], view_from_clip[16];
+    float turn[2]; /* cosine and sine, as in glssao__matrix */
+    double eye;    /* how much farther view distance reaches from the host's eye, scene units */
+    bool is_turned, is_orthographic;
     float distance_from_depth[4], ray_origin[4], ray_direction[4]; /* as in cbFrame */
+    bool
+        is_oblique; /* distance_from_depth changes over the picture, so window depth is copied to view distance first */
+    float oblique[4]; /* as in cbFrame */
     float sky_depth;
-    float sky_distance; /* scene units; infinite where the far plane is */
-    double ends[4];     /* distance_from_depth, not rounded */
+    double ends[4]; /* distance_from_depth, not rounded */
+    enum glssao__doubt doubt;
 } glssao__projection;
 
-/* False where the column-major matrix is singular to working precision, or its inverse overflows a float. */
-bool glssao__invert(const double m[16], double out[16]);
+/* False, with the reason logged, where no depth map can come from the frame's projection. */
+bool glssao__projection_analyse(const glssao_frame *frame, const glssao__log *log, glssao__projection *out);
 
-/* False, with the reason logged, where no depth map can come from the matrix. */
-bool glssao__projection_analyse(const float projection[16], bool clip_zero_to_one, const glssao__log *log,
-                                glssao__projection *out);
+/* Whether the passes read window depth as the host stores it. */
+bool glssao__projection_reads_window_depth(const glssao_frame *frame, bool is_oblique);
 
 /* The constant c of logarithmic depth: the field 0 stands for 1. */
 double glssao__projection_log_constant(const glssao_frame *frame);
