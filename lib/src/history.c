@@ -24,8 +24,7 @@ int glssao__history_frames(const glssao__history *h, const glssao_frame *frame, 
                            const glssao__projection *projection)
 {
     const bool holds = settings->history > 0 && h->frames > 0 && !frame->cut && h->margin == frame->margin &&
-                       h->is_orthographic == projection->is_orthographic &&
-                       has_same_estimate(&h->settings, settings);
+                       h->is_orthographic == projection->is_orthographic && has_same_estimate(&h->settings, settings);
     return holds ? h->frames : 0;
 }
 
@@ -44,8 +43,8 @@ static void find_view(const glssao__uniforms_source *source, double out[16])
     }
 }
 
-/* The last view space from this one. In double precision: far from the origin both matrices move points by much more than the two
- * views differ. */
+/* The last view space from this one. In double precision: far from the origin both matrices move points by much more
+ * than the two views differ. */
 static void find_last_view(const double last[16], const double now[16], float out[16])
 {
     double inverse[16];
@@ -64,8 +63,8 @@ void glssao__history_fill(const glssao__history *h, const glssao__uniforms_sourc
 {
     if (source->settings->history == 0)
         return;
-    /* All four texels of a block in each four frames, in an order that differs from four to four: R2 is nearly periodic with
-     * period 4. */
+    /* All four texels of a block in each four frames, in an order that differs from four to four: R2 is nearly periodic
+     * with period 4. */
     static const float picks[4][2] = {{0, 0}, {1, 1}, {1, 0}, {0, 1}};
     const float *pick = picks[(frames + frames / 4) % 4];
     block->gHistory[0] = (float)source->settings->history;

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * glssao-motion: settings with reuse of earlier frames against single frames, on recorded motions, with ray-traced truth
- * for every fourth frame. Prints a table to standard output.
+ * glssao-motion: settings with reuse of earlier frames against single frames, on recorded motions, with ray-traced
+ * truth for every fourth frame. Prints a table to standard output.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "context.h"
 #include "effects.h"
+#include "measure.h"
 #include "paths.h"
 #include "perception.h"
-#include "measure.h"
 #include "picture.h"
 #include "scenes.h"
 #include "sequence.h"
@@ -138,7 +138,8 @@ static bool make_shot(motion *m, const bench_scene *b, scene *s, bench_path path
         return false;
     char name[128];
     snprintf(name, sizeof name, "%s-%s-%d", b->name, path_name(path), frame);
-    const bool wanted = (frame >= WARM && frame % TRUTH_EVERY == TRUTH_EVERY - 1) || (path == PATH_BOX && frame >= PATH_EVENT);
+    const bool wanted =
+        (frame >= WARM && frame % TRUTH_EVERY == TRUTH_EVERY - 1) || (path == PATH_BOX && frame >= PATH_EVENT);
     return !wanted || make_truth(m, s, k, name);
 }
 
@@ -248,7 +249,8 @@ static int find_lag(const motion *m, float *const *single, float *const *result)
             pixels += 1;
         }
         if (getenv("MOTION_LAG"))
-            fprintf(stderr, "  lag frame %d: %.0f pixels, single %.4f, this %.4f\n", i, pixels, sqrt(sums[0] / pixels), sqrt(sums[1] / pixels));
+            fprintf(stderr, "  lag frame %d: %.0f pixels, single %.4f, this %.4f\n", i, pixels, sqrt(sums[0] / pixels),
+                    sqrt(sums[1] / pixels));
         if (sqrt(sums[1] / pixels) <= sqrt(sums[0] / pixels) + 0.02)
             return i - PATH_EVENT;
     }
@@ -264,7 +266,8 @@ static int list_configs(config out[CONFIGS_MAX])
             config *c = &out[n++];
             c->settings = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)q);
             c->settings.history = h == 0 ? 0 : 16;
-            if (h == 2) c->settings.half_resolution = false;
+            if (h == 2)
+                c->settings.half_resolution = false;
             snprintf(c->name, sizeof c->name, "%s%s", names[q], h == 0 ? "" : h == 1 ? "-16" : "-full");
         }
     return n;
@@ -275,7 +278,8 @@ static bool run_motion(motion *m, const bench_scene *b, bench_path path)
     scene_view view;
     config configs[CONFIGS_MAX];
     float *results[2][FRAMES_MAX] = {{0}};
-    scene *s = bench_scene_open(b, m->options.size[0], m->options.size[1], &view, &m->radius, m->error, sizeof m->error);
+    scene *s =
+        bench_scene_open(b, m->options.size[0], m->options.size[1], &view, &m->radius, m->error, sizeof m->error);
     bool done = s != NULL;
     m->count = m->options.sequence_frames;
     for (int i = 0; done && i < m->count; i++) {
@@ -310,7 +314,8 @@ static bool run_motion(motion *m, const bench_scene *b, bench_path path)
 static bool run(motion *m, const char *paths)
 {
     bench_scene scenes[BENCH_SCENES_MAX];
-    m->context = context_create(&(context_options){.kind = (context_kind)m->options.context}, m->error, sizeof m->error);
+    m->context =
+        context_create(&(context_options){.kind = (context_kind)m->options.context}, m->error, sizeof m->error);
     if (!m->context || !gl_load(context_load, m->context, m->error, sizeof m->error) ||
         !map_reader_create(&m->reader, m->options.size[0], m->options.size[1], m->error, sizeof m->error) ||
         !make_folder(m->options.out))

@@ -91,6 +91,6 @@ bool path_is_on_box(const float world[3], int frame, float *out_moved)
 {
     const float slack = 0.01f;
     *out_moved = frame > 0 && frame < PATH_EVENT ? box_step : 0;
-    return fabsf(world[0] - box_place(frame)) < 1.5f + slack && fabsf(world[2]) < 1.5f + slack &&
-           world[1] > slack && world[1] < 1 + slack;
+    return fabsf(world[0] - box_place(frame)) < 1.5f + slack && fabsf(world[2]) < 1.5f + slack && world[1] > slack &&
+           world[1] < 1 + slack;
 }

@@ -193,7 +193,8 @@ static void rest_converges_in_every_projection(void **state)
         }
 }
 
-/* A camera that moves finds its points again: the error stays below the single frame's. Without gLastView it would not. */
+/* A camera that moves finds its points again: the error stays below the single frame's. Without gLastView it would not.
+ */
 static void motion_keeps_the_history(void **state)
 {
     fixture *f = *state;
@@ -262,7 +263,8 @@ static void first_frames_and_cuts_stand_alone(void **state)
     glssao_destroy(other);
 }
 
-/* The single frame is that of today: of a level that estimates at full size, to a step of R16 and what pairing rounds. */
+/* The single frame is that of today: of a level that estimates at full size, to a step of R16 and what pairing rounds.
+ */
 static void single_frame_is_as_good_as_without_history(void **state)
 {
     fixture *f = *state;
@@ -405,7 +407,8 @@ static void dispatches_do_as_draws(void **state)
     free(results[1]);
 }
 
-/* A box that moves across the picture keeps its history by the motion texture alone: its front is then nearer to the floor. */
+/* A box that moves across the picture keeps its history by the motion texture alone: its front is then nearer to the
+ * floor. */
 static void motion_texture_keeps_the_history_of_what_moves(void **state)
 {
     fixture *f = *state;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "schedules.h"
 
-enum { DEPTH_NAME = 1, NORMAL_NAME, BACK_NAME, SECOND_NAME };
+enum { DEPTH_NAME = 1, NORMAL_NAME, BACK_NAME, SECOND_NAME, MOTION_NAME };
 
 glssao__request schedules_request(glssao_frame *frame, glssao_settings *settings, int width, int height)
 {
@@ -78,6 +78,13 @@ int schedules_visit(void (*function)(const glssao__request *request, const glssa
                     settings.no_angle_weight = rounds == 1;
                     frame.margin = rounds == 2 ? 16 : 0;
                     visit_capabilities(&v, &q, &frame);
+                    settings.noise_index = 3;
+                    settings.history = size < 2 ? 16 : 0;
+                    frame.motion_texture = rounds == 1 ? MOTION_NAME : 0;
+                    q.frames = rounds;
+                    visit_capabilities(&v, &q, &frame);
+                    frame.motion_texture = 0;
+                    q.frames = 0;
                 }
     frame.margin = 0;
     for (int i = 0; i < 6; ++i)

@@ -23,13 +23,13 @@ typedef struct glssao__choice {
     bool result_apart; /* the result goes to a map of its own */
     int size[2], estimate[2];
     bool is_dense; /* the distance map has the full size, though the estimate has half of it */
-    int factor; /* full-size pixels to one of the estimate: 1 or 2 */
+    int factor;    /* full-size pixels to one of the estimate: 1 or 2 */
     int margin, estimate_margin;
     int inner_rounds;                /* rounds of the blur within the dispatch that upsamples */
     int reach;                       /* texels of the estimate beyond a pixel that later passes read */
     int tile_rings;                  /* the same in tiles, rounded up */
-    gl_uint host_names[HOST_MAPS];           /* as in glssao__schedule */
-    bool copies[HOST_MAPS];                  /* which of the host's textures are copied, in the order of HOST_DEPTH and so on */
+    gl_uint host_names[HOST_MAPS];   /* as in glssao__schedule */
+    bool copies[HOST_MAPS];          /* which of the host's textures are copied, in the order of HOST_DEPTH and so on */
     enum glssao__map depth, normals; /* where the passes after the copying read them */
     glssao__variant inputs;          /* how these are stored, and what all variants have in common */
 } glssao__choice;

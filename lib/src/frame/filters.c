@@ -13,7 +13,8 @@ static void add_separable_blur(glssao__builder *b)
     const int count = 2 * b->settings->blur_rounds;
     for (int i = 1; i <= count; ++i) {
         const bool is_last = i == count, bilateral = b->settings->blur == GLSSAO_BLUR_BILATERAL;
-        glssao__step *step = glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_BLUR, i, is_last && !b->c.upsamples && !b->c.has_history);
+        glssao__step *step =
+            glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_BLUR, i, is_last && !b->c.upsamples && !b->c.has_history);
         glssao__build_point(step, UNIT_AMBIENT, glssao__build_turn_map(b, i - 1));
         if (bilateral)
             glssao__build_surfaces(b, step);
@@ -35,8 +36,8 @@ static void add_planar_draws(glssao__builder *b)
 {
     const int count = b->settings->blur_rounds + 1;
     for (int i = 1; i <= count; ++i) {
-        glssao__step *step =
-            glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_PLANAR_BLUR, i, i == count && !b->c.upsamples && !b->c.has_history);
+        glssao__step *step = glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_PLANAR_BLUR, i,
+                                                i == count && !b->c.upsamples && !b->c.has_history);
         glssao__build_point(step, UNIT_AMBIENT, glssao__build_turn_map(b, i - 1));
         step->is_horizontal = i % 2 == 1;
         glssao__build_set(step, MACRO_WIDE, i > 2);
@@ -59,8 +60,8 @@ static void add_planar_dispatches(glssao__builder *b)
     const int rounds = b->settings->blur_rounds - b->c.inner_rounds;
     for (int done = 0, i = 1; done < rounds; ++i) {
         const int now = rounds - done < ROUNDS_OF_A_DISPATCH ? rounds - done : ROUNDS_OF_A_DISPATCH;
-        glssao__step *step =
-            glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_PLANAR_TILE, i, done + now == rounds && !b->c.upsamples && !b->c.has_history);
+        glssao__step *step = glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_PLANAR_TILE, i,
+                                                done + now == rounds && !b->c.upsamples && !b->c.has_history);
         glssao__build_point(step, UNIT_AMBIENT, glssao__build_turn_map(b, i - 1));
         set_tile(b, step, now, done == 0);
         glssao__build_set(step, MACRO_NORMALS, 0); /* only upsampling reads normals and depth */

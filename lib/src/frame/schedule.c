@@ -18,9 +18,11 @@ static void add_copies(glssao__builder *b)
         if (!b->c.copies[i])
             continue;
         const enum glssao__map copy = (enum glssao__map)(MAP_DEPTH_COPY + i);
-        glssao__build_map(b, copy, names[i], i == HOST_NORMAL   ? GL_RGBA32F
-                                                    : i == HOST_MOTION ? GL_RG32F
-                                                                       : GL_R32F, b->c.size);
+        glssao__build_map(b, copy, names[i],
+                          i == HOST_NORMAL   ? GL_RGBA32F
+                          : i == HOST_MOTION ? GL_RG32F
+                                             : GL_R32F,
+                          b->c.size);
         glssao__step *step = glssao__build_step(b, GLSSAO_PASS_INPUTS, SHADER_INPUT, copy);
         glssao__build_set(step, MACRO_MULTISAMPLE, b->frame->multisample);
         glssao__build_set(step, MACRO_LOGARITHMIC,
@@ -130,8 +132,8 @@ static void add_estimate(glssao__builder *b)
         set_estimate(b, step);
         return;
     }
-    glssao__step *step = glssao__build_turn(b, GLSSAO_PASS_ESTIMATE, shader, 0,
-                                            !b->c.blurs && !b->c.upsamples && !b->c.has_history);
+    glssao__step *step =
+        glssao__build_turn(b, GLSSAO_PASS_ESTIMATE, shader, 0, !b->c.blurs && !b->c.upsamples && !b->c.has_history);
     set_estimate(b, step);
     glssao__build_tiles(b, step, 1, 0, 0);
     if (!b->c.has_tiles || !b->c.paired)
@@ -260,7 +262,8 @@ void glssao__schedule_make(glssao__schedule *out, const glssao__request *q)
         [GLSSAO_PASS_BLUR] = glssao__add_blur, [GLSSAO_PASS_UPSAMPLE] = glssao__add_upsample,
         [GLSSAO_PASS_HISTORY] = add_history,
     };
-    glssao__builder b = {.s = out, .frame = q->frame, .settings = q->settings, .estimates = q->estimates, .frames = q->frames};
+    glssao__builder b = {
+        .s = out, .frame = q->frame, .settings = q->settings, .estimates = q->estimates, .frames = q->frames};
     memset(out, 0, sizeof *out);
     glssao__choose(&b.c, q);
     memcpy(out->host_names, b.c.host_names, sizeof out->host_names);

@@ -52,8 +52,8 @@ static const struct shader {
                            {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_depth_filter_glsl,
                             shader_normal_map_glsl, shader_paired_glsl, shader_hemisphere_frag}},
     [SHADER_HORIZON] = {"horizon",
-                        BIT(NORMALS) | BIT(TURNED) | BIT(STEPS) | BIT(SLICES) | BIT(OUTPUT) | BIT(LAYERS) | BIT(COMPUTE) |
-                            BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(LOOPS) | BIT(VARIES) | BIT(DENSE),
+                        BIT(NORMALS) | BIT(TURNED) | BIT(STEPS) | BIT(SLICES) | BIT(OUTPUT) | BIT(LAYERS) |
+                            BIT(COMPUTE) | BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(LOOPS) | BIT(VARIES) | BIT(DENSE),
                         {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                          shader_paired_glsl, shader_horizon_frag, shader_entry_glsl}},
     [SHADER_RESOLVE] = {"resolve",
@@ -81,8 +81,8 @@ static const struct shader {
                           shader_paired_glsl, shader_upsample_glsl, shader_upsample_frag}},
     [SHADER_SPREAD] = {"spread", 0, {shader_pixel_glsl, shader_spread_frag}},
     [SHADER_HISTORY] = {"history",
-                        BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(COMPUTE) | BIT(UPSAMPLE) |
-                            BIT(MOTION),
+                        BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(COMPUTE) |
+                            BIT(UPSAMPLE) | BIT(MOTION),
                         {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                          shader_paired_glsl, shader_upsample_glsl, shader_history_glsl, shader_history_frag,
                          shader_entry_glsl}},

@@ -51,11 +51,11 @@ enum glssao__map {
     MAP_AMBIENT_1,
     MAP_PAIRED_0, /* paired values (paired.glsl) */
     MAP_PAIRED_1,
-    MAP_BLOCKS, /* blocks of four pixels (upsample.frag) */
-    MAP_RESULT, /* the result, where it has another size than the estimate */
-    MAP_SUM,    /* sums of accumulated estimates, one channel for each of two replicates */
-    MAP_PROBE,  /* samples of their difference */
-    MAP_RAW,    /* paired values of the estimate, which the history reads besides those that the blur left */
+    MAP_BLOCKS,    /* blocks of four pixels (upsample.frag) */
+    MAP_RESULT,    /* the result, where it has another size than the estimate */
+    MAP_SUM,       /* sums of accumulated estimates, one channel for each of two replicates */
+    MAP_PROBE,     /* samples of their difference */
+    MAP_RAW,       /* paired values of the estimate, which the history reads besides those that the blur left */
     MAP_HISTORY_0, /* the history of the last frame and of this one, by turns (history.glsl) */
     MAP_HISTORY_1,
     MAP_COUNT,
@@ -125,7 +125,7 @@ typedef struct glssao__request {
     int size[2];                                 /* full size of the effect, pixels */
     int estimates;                               /* of glssao_accumulate, with this one; 0: glssao_compute */
     bool is_orthographic, is_oblique, is_turned; /* the projection, as in glssao__projection */
-    int frames; /* that the history has seen so far; 0: it begins */
+    int frames;                                  /* that the history has seen so far; 0: it begins */
     glssao__capabilities can;
 } glssao__request;
 
@@ -134,10 +134,10 @@ typedef struct glssao__schedule {
     int count;
     enum glssao__barrier last_barrier;   /* after the last step */
     glssao__target_spec maps[MAP_COUNT]; /* those that must be there; format 0: not used */
-    gl_uint
-        host_names[HOST_MAPS]; /* of the textures that the frame reads, 0 for others, in the order of HOST_DEPTH and so on */
+    gl_uint host_names[HOST_MAPS]; /* of the textures that the frame reads, 0 for others, in the order of HOST_DEPTH and
+                                      so on */
     int estimate_size[2];
-    int map_factor; /* full-size pixels to one of the distance map */
+    int map_factor;           /* full-size pixels to one of the distance map */
     enum glssao__map result;  /* holds the result afterwards */
     enum glssao__map other;   /* the other of the maps that the passes draw into by turns */
     glssao__region delivered; /* the part of the last pass's map that is the result */

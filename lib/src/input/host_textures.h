@@ -43,8 +43,8 @@ typedef struct glssao__host_inputs {
 void glssao__host_names(const glssao_frame *frame, gl_uint out_names[HOST_TEXTURES]);
 
 /* Refuses textures that are not what the frame says, and sets parameters that would change what is read. `size`: full
- * size in pixels. `unit`: a saved texture unit. `names`: of those that are read. `known`: NULL, or what to remember and to consult before OpenGL. After
- * GLSSAO_OK, glssao__host_textures_restore is due. */
+ * size in pixels. `unit`: a saved texture unit. `names`: of those that are read. `known`: NULL, or what to remember and
+ * to consult before OpenGL. After GLSSAO_OK, glssao__host_textures_restore is due. */
 glssao_result glssao__host_textures_check(const glssao__gl *gl, const glssao__log *log, const glssao_frame *frame,
                                           const int size[2], int unit, const gl_uint names[HOST_TEXTURES],
                                           glssao__host_textures *known, glssao__host_inputs *out);
