@@ -170,7 +170,7 @@ bool pipeline_create(pipeline *p, const scene *s, glssao_load_fn load, void *loa
                      pipeline_wants wants, failure *why)
 {
     *p = (pipeline){.margin = 0};
-    return stage_open(&p->own, s, NULL, why) && pipeline_prepare(p, &p->own, load, load_user, o, wants, why);
+    return stage_open(&p->own, s, why) && pipeline_prepare(p, &p->own, load, load_user, o, wants, why);
 }
 
 void pipeline_destroy(pipeline *p)

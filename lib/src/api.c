@@ -28,7 +28,7 @@ static bool check_loops(const glssao_effect *effect, const glssao__schedule *sch
     for (int map = MAP_FIRST_TARGET; map < MAP_COUNT; ++map)
         for (int i = 0; i < HOST_TEXTURES; ++i) {
             const gl_uint own = effect->resources.targets[map].texture;
-            const bool is_output = map == MAP_NORMAL ? schedule->maps[map].format != 0 : own != 0;
+            const bool is_output = map != MAP_NORMAL && own != 0; /* the host may have drawn normals into it */
             if (is_output && schedule->host_names[i] == own) {
                 glssao__log_write(log, GLSSAO_LOG_ERROR, "frame texture = %u: the effect's own map can't be its input",
                                   own);
@@ -221,8 +221,10 @@ glssao_result glssao_accumulate(glssao_effect *effect, const glssao_frame *frame
         return glssao__log_refuse(&effect->log, "settings.technique = %d: only the horizon technique accumulates",
                                   settings->technique);
     const glssao_settings estimate = glssao__schedule_accumulated(settings);
-    call c = {.function = "glssao_accumulate", .frame = frame, .settings = &estimate};
-    c.estimates = glssao__accumulate_next(&effect->accumulation, frame, &estimate);
+    glssao_frame without_rays = *frame; /* a mean needs no correction by a few of them */
+    without_rays.rays_texture = 0;
+    call c = {.function = "glssao_accumulate", .frame = &without_rays, .settings = &estimate};
+    c.estimates = glssao__accumulate_next(&effect->accumulation, &without_rays, &estimate);
     return run_call(effect, &c);
 }
 

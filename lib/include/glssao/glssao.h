@@ -115,7 +115,8 @@ typedef struct glssao_config { /* zero means default */
 typedef enum glssao_technique { /* how occlusion is estimated */
     GLSSAO_CLASSIC = 0, /* 14 offsets about the point, distance fade, bilateral blur (Luna, D3D12 book, ch. 21) */
     GLSSAO_HEMISPHERE,  /* samples in the half ball about the normal, 4x4 tile of rotations (Chapman 2013) */
-    GLSSAO_HORIZON      /* cosine-weighted visibility by slices: nearest to ray-traced truth (Jimenez 2016, Therrien 2023) */
+    GLSSAO_HORIZON,     /* cosine-weighted visibility by slices: nearest to ray-traced truth (Jimenez 2016, Therrien 2023) */
+    GLSSAO_RAYS         /* frame.rays_texture alone: a few rays that the host traced, denoised along surfaces */
 } glssao_technique;
 
 /* Default settings by cost: see docs/accuracy.md. */
@@ -143,7 +144,8 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     float surface_epsilon;         /* scene units, >= 0: an occluder counts only if it is nearer than the point (classic) or
                                       than the sample (hemisphere) by more than this */
     float power;                   /* 0 to 64: accessibility is raised to this; more is darker */
-    int sample_count;              /* classic: 1 to 14 offset vectors, the 8 cube corners first; hemisphere: 1 to 64;
+    int sample_count;              /* classic: 1 to 14 offset vectors, the 8 cube corners first; hemisphere: 1 to 64; rays: 1
+                                      to 64, how many a texel of rays_texture stands for, which only the host reads;
                                       horizon: samples of depth, 12 (one slice of 6 a side), 16 (1 x 8), 24 (1 x 12),
                                       32 (2 x 8), 48 (2 x 12) or 64 (2 x 16) */
     bool half_resolution;          /* estimate at half the size, (w + 1) / 2 by (h + 1) / 2 */
@@ -160,7 +162,7 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     uint32_t noise_index;          /* another pattern of noise for each value, for instance the number of the frame where
                                       the host averages frames itself (TAA); 0: the pattern of docs/decisions/0028 */
     int history;                   /* 0 to 63: earlier frames are reused, and at most so many count in a pixel's mean; 0:
-                                      none. The result has the full size. Needs frame.view; docs/integration.md has more */
+                                      none. The result has the full size. Needs frame.view, and no rays; docs/integration.md has more */
 } glssao_settings;
 
 /* ---- frame: what the host hands over each time ---------------------------------------------------------- */
@@ -211,6 +213,10 @@ typedef struct glssao_frame { /* zero a field that you don't use */
                                   included. A value outside -2..2 leaves the pixel to view */
     bool cut;                  /* settings.history > 0: nothing of the earlier frames holds */
     bool world_normals;        /* true: normal_texture is in world space. view turns each normal as it is read */
+    uint32_t rays_texture;     /* linear accessibility in red from a few rays a texel, unbiased (from Embree, from hardware ray
+                                  tracing): GL_TEXTURE_2D of R8, R16, R16F or R32F, full or half size, where a texel belongs
+                                  to the lower left of four pixels. Negative, NaN: no rays there. It corrects the technique's
+                                  result by the blurred difference, or is all of it (GLSSAO_RAYS); see docs/integration.md */
 } glssao_frame;
 
 /* ---- apply: how the result gets into a picture ---------------------------------------------------------- */
@@ -238,8 +244,10 @@ typedef enum glssao_map_id { /* textures to look at */
     GLSSAO_MAP_NORMAL,        /* the effect's own normal map, RGBA16F, full size */
     GLSSAO_MAP_RANDOM_VECTOR, /* RGBA8, 256 x 256 */
     GLSSAO_MAP_DEPTH,         /* the host's depth texture as last handed over; 0 before the first */
-    GLSSAO_MAP_TILES          /* R32F, one texel for each tile: its distance in tiles from the nearest one that was estimated,
+    GLSSAO_MAP_TILES,         /* R32F, one texel for each tile: its distance in tiles from the nearest one that was estimated,
                                  over 16; 0 for an estimated one. No texture where the last frame had no tiles */
+    GLSSAO_MAP_REBUILT_NORMAL /* normals that the last frame without a normal map rebuilt from depth: RG32F, octahedral, view
+                                 space, at the estimate's size. No texture before one */
 } glssao_map_id;
 
 /* The uniform block cbSsao, std140, with the D3D12 demo's members and names. Matrices are column-major. */
@@ -262,6 +270,7 @@ typedef enum glssao_pass { /* in the order of the frame */
     GLSSAO_PASS_ESTIMATE,    /* raw accessibility */
     GLSSAO_PASS_RESOLVE,     /* glssao_accumulate: the mean of the estimates and its error */
     GLSSAO_PASS_BLUR,        /* all rounds */
+    GLSSAO_PASS_RAYS,        /* corrects the estimate by the host's rays */
     GLSSAO_PASS_UPSAMPLE,    /* brings a half-size result to full size */
     GLSSAO_PASS_HISTORY,     /* the mean of this frame and earlier ones, at full size */
     GLSSAO_PASS_APPLY,       /* glssao_apply: multiplies accessibility into colour */

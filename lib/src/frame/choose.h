@@ -7,7 +7,10 @@
 
 #include "frame/steps.h"
 
-enum { ROUNDS_OF_A_DISPATCH = 2 }; /* rounds of the planar blur that one dispatch runs, at most */
+enum {
+    ROUNDS_OF_A_DISPATCH = 2, /* rounds of the planar blur that one dispatch runs, at most */
+    CORRECTION_ROUNDS = 2 /* of the blur of the difference between rays and estimate at half size; one more at full */
+};
 
 /* All that the steps follow from. */
 typedef struct glssao__choice {
@@ -16,15 +19,18 @@ typedef struct glssao__choice {
     bool compute;     /* passes that can be dispatched are */
     bool accumulates;
     bool is_horizon, is_planar;
+    bool is_rays;    /* the estimate is the host's rays */
+    bool corrects;   /* the host's rays correct another estimate */
     bool is_oblique; /* window depth becomes view distance in a copy */
     bool blurs, upsamples, has_tiles;
     bool has_history;  /* the result is the mean of this frame and earlier ones */
     bool paired;       /* later passes read paired values */
     bool result_apart; /* the result goes to a map of its own */
     int size[2], estimate[2];
-    bool is_dense; /* the distance map has the full size, though the estimate has half of it */
+    bool is_dense; /* distances and rebuilt normals have the full size, though the estimate has half of it */
     int factor;    /* full-size pixels to one of the estimate: 1 or 2 */
     int margin, estimate_margin;
+    int rays_rounds;                 /* of the blur of values from rays */
     int inner_rounds;                /* rounds of the blur within the dispatch that upsamples */
     int reach;                       /* texels of the estimate beyond a pixel that later passes read */
     int tile_rings;                  /* the same in tiles, rounded up */
@@ -35,6 +41,9 @@ typedef struct glssao__choice {
 } glssao__choice;
 
 void glssao__choose(glssao__choice *out, const glssao__request *request);
+
+/* Pixels between the neighbours that a round of the blur of values from rays reads, as a power of 2. */
+int glssao__rays_stride(int round);
 
 /* A plan in which every pass is skipped, for that reason. */
 void glssao__choose_nothing(glssao_plan *out, const char *reason);

@@ -36,8 +36,8 @@ static void add_copies(glssao__builder *b)
 
 static void add_normals(glssao__builder *b)
 {
-    glssao__build_map(b, MAP_NORMAL, "normal", GL_RGBA16F, b->c.size);
-    glssao__step *step = glssao__build_step(b, GLSSAO_PASS_NORMALS, SHADER_NORMALS, MAP_NORMAL);
+    glssao__build_map(b, MAP_REBUILT, "rebuilt normal", GL_RG32F, b->c.is_dense ? b->c.size : b->c.estimate);
+    glssao__step *step = glssao__build_step(b, GLSSAO_PASS_NORMALS, SHADER_NORMALS, MAP_REBUILT);
     step->region = glssao__region_of(&b->c, GLSSAO_PASS_NORMALS);
     glssao__build_point(step, UNIT_DEPTH, b->c.depth);
     glssao__build_finish(b, step);
@@ -121,9 +121,11 @@ static void set_estimate(const glssao__builder *b, glssao__step *step)
 
 static void add_estimate(glssao__builder *b)
 {
-    const enum glssao__shader shader = b->settings->technique == GLSSAO_CLASSIC      ? SHADER_CLASSIC
-                                       : b->settings->technique == GLSSAO_HEMISPHERE ? SHADER_HEMISPHERE
-                                                                                     : SHADER_HORIZON;
+    static const enum glssao__shader shaders[] = {[GLSSAO_CLASSIC] = SHADER_CLASSIC,
+                                                  [GLSSAO_HEMISPHERE] = SHADER_HEMISPHERE,
+                                                  [GLSSAO_HORIZON] = SHADER_HORIZON,
+                                                  [GLSSAO_RAYS] = SHADER_RAYS};
+    const enum glssao__shader shader = shaders[b->settings->technique];
     if (b->c.accumulates) {
         glssao__step *step = glssao__build_step(b, GLSSAO_PASS_ESTIMATE, shader, MAP_SUM);
         step->region = glssao__region_of(&b->c, GLSSAO_PASS_ESTIMATE);
@@ -133,7 +135,11 @@ static void add_estimate(glssao__builder *b)
         return;
     }
     glssao__step *step =
-        glssao__build_turn(b, GLSSAO_PASS_ESTIMATE, shader, 0, !b->c.blurs && !b->c.upsamples && !b->c.has_history);
+        glssao__build_turn(b, GLSSAO_PASS_ESTIMATE, shader, 0, !b->c.blurs && !glssao__build_has_more(b));
+    if (b->c.is_rays) {
+        glssao__build_rays(b, step, !b->c.blurs);
+        return;
+    }
     set_estimate(b, step);
     glssao__build_tiles(b, step, 1, 0, 0);
     if (!b->c.has_tiles || !b->c.paired)
@@ -256,10 +262,15 @@ static void add_open_result(glssao__builder *b)
 void glssao__schedule_make(glssao__schedule *out, const glssao__request *q)
 {
     static void (*const parts[GLSSAO_PASS_COUNT])(glssao__builder *) = {
-        [GLSSAO_PASS_INPUTS] = add_copies,     [GLSSAO_PASS_NORMALS] = add_normals,
-        [GLSSAO_PASS_DISTANCE] = add_distance, [GLSSAO_PASS_TILES] = add_tiles,
-        [GLSSAO_PASS_ESTIMATE] = add_estimate, [GLSSAO_PASS_RESOLVE] = add_resolve,
-        [GLSSAO_PASS_BLUR] = glssao__add_blur, [GLSSAO_PASS_UPSAMPLE] = glssao__add_upsample,
+        [GLSSAO_PASS_INPUTS] = add_copies,
+        [GLSSAO_PASS_NORMALS] = add_normals,
+        [GLSSAO_PASS_DISTANCE] = add_distance,
+        [GLSSAO_PASS_TILES] = add_tiles,
+        [GLSSAO_PASS_ESTIMATE] = add_estimate,
+        [GLSSAO_PASS_RESOLVE] = add_resolve,
+        [GLSSAO_PASS_BLUR] = glssao__add_blur,
+        [GLSSAO_PASS_RAYS] = glssao__add_correction,
+        [GLSSAO_PASS_UPSAMPLE] = glssao__add_upsample,
         [GLSSAO_PASS_HISTORY] = add_history,
     };
     glssao__builder b = {

@@ -28,6 +28,8 @@ enum glssao__shader {
     SHADER_HISTORY,
     SHADER_STEADY,
     SHADER_APPLY,
+    SHADER_RAYS,
+    SHADER_CORRECT,
     SHADER_TILE_ROWS,
     SHADER_TILE_BOUNDS,
     SHADER_TILE_CLASS,
@@ -38,7 +40,7 @@ enum glssao__shader {
 /* X(macro, its largest value). Every macro is defined in every shader, as 0 where the shader does not test it. */
 #define GLSSAO__MACROS(X)                                                                                              \
     X(COMPUTE, 1)         /* the pass is dispatched, not drawn */                                                      \
-    X(NORMALS, 2)         /* how the host stores normals: signed, unsigned, octahedral */                              \
+    X(NORMALS, 3)         /* how normals are stored: signed, unsigned, octahedral, rebuilt */                          \
     X(DEPTH, 2)           /* how it stores depth: window depth, view distance, view distance in alpha */               \
     X(TURNED, 1)          /* stored normals lie in another space than the passes compute in */                         \
     X(PERSPECTIVE, 1)     /* the projection is known not to be orthographic */                                         \
@@ -51,6 +53,9 @@ enum glssao__shader {
     X(NO_ANGLE_WEIGHT, 1) /* classic */                                                                                \
     X(FILTER, 2)          /* blur: Gaussian, bilateral, box */                                                         \
     X(WIDE, 1)            /* planar blur: the first round is not the blur's first */                                   \
+    X(STRIDE, 3)          /* planar blur: the neighbours are 2 to that power of pixels apart */                        \
+    X(RAYS, 2)            /* values come from the host's rays: they may be missing; the same, but not in the output */ \
+    X(CORRECTS, 1)        /* rays: the difference to another technique's estimate is wanted */                         \
     X(ROUNDS, 2)          /* planar blur: rounds of one dispatch */                                                    \
     X(UPSAMPLE, 1)        /* planar tile: brings the result to full size */                                            \
     X(MULTISAMPLE, 1)     /* input: of several samples */                                                              \
@@ -59,9 +64,9 @@ enum glssao__shader {
     X(PLANES, 1)          /* tiles: those that lie in a plane are open too */                                          \
     X(FROM_DEPTH, 1)      /* tiles, open: occluders are looked up in the depth map, not in the distance map */         \
     X(VARIES, 1)          /* noise, and at half size the texels that are estimated, differ from frame to frame */      \
-    X(DENSE, 1)           /* distance, horizon: the distance map has the full size, the estimate half of it */         \
+    X(DENSE, 1)           /* distances and rebuilt normals have the full size, the estimate half of it */              \
     X(MOTION, 1)          /* history: there is a motion texture */                                                     \
-    X(STRENGTH, 1)        /* apply: the host weights pixels */                                                         \
+    X(STRENGTH, 2)        /* apply: what weights occlusion: nothing, a uniform, a texture too */                       \
     X(ALBEDO, 1)          /* apply: light that bounces between surfaces is added */                                    \
     X(TINTED, 1)          /* apply: the blender needs the occluded part, not the open one */                           \
     X(IMAGE, 6)           /* apply, dispatched: the format of the target, IMAGE_RGBA8 and so on */

@@ -22,6 +22,7 @@ enum glssao__unit {
     UNIT_SECOND,
     UNIT_TILES,
     UNIT_COUNT,
+    UNIT_RAYS = UNIT_RANDOM_VECTOR,   /* no pass reads both */
     UNIT_MOTION = UNIT_RANDOM_VECTOR, /* the history reads none of the maps that these hold otherwise */
     UNIT_RAW = UNIT_DISTANCE,
     UNIT_HISTORY = UNIT_BACK
@@ -35,6 +36,7 @@ enum glssao__map {
     MAP_HOST_BACK,
     MAP_HOST_SECOND,
     MAP_HOST_MOTION,
+    MAP_HOST_RAYS,
     MAP_RANDOM_VECTOR,
     MAP_DEPTH_COPY, /* the effect's targets from here on */
     MAP_NORMAL_COPY,
@@ -42,6 +44,7 @@ enum glssao__map {
     MAP_SECOND_COPY,
     MAP_MOTION_COPY,
     MAP_NORMAL,
+    MAP_REBUILT,   /* normals from depth, at the estimate's size (normals.frag) */
     MAP_DISTANCE,  /* view distance; with layers also thickness and second layer (distance.frag) */
     MAP_TILE_ROWS, /* bounds, as tile_rows.frag writes them */
     MAP_TILE_BOUNDS,
@@ -51,6 +54,8 @@ enum glssao__map {
     MAP_AMBIENT_1,
     MAP_PAIRED_0, /* paired values (paired.glsl) */
     MAP_PAIRED_1,
+    MAP_RAYS_0, /* differences between rays and estimate (rays.frag) */
+    MAP_RAYS_1,
     MAP_BLOCKS,    /* blocks of four pixels (upsample.frag) */
     MAP_RESULT,    /* the result, where it has another size than the estimate */
     MAP_SUM,       /* sums of accumulated estimates, one channel for each of two replicates */
@@ -63,7 +68,7 @@ enum glssao__map {
 };
 
 enum {
-    HOST_MAPS = 5, /* MAP_HOST_DEPTH and so on */
+    HOST_MAPS = 6, /* MAP_HOST_DEPTH and so on */
     PROBE_SIZE = 128,
     TILE_SIDE = 16, /* pixels of the estimate: a software rasteriser draws smaller tiles at a loss */
     SCHEDULE_STEPS = 64,
