@@ -36,8 +36,9 @@ static int strip_row(const rays *r, int strip)
     return (int)((long long)r->height * strip / RAYS_STRIPS);
 }
 
-static bool open_size(rays *r, int width, int height, failure *why)
+bool rays_open(rays *r, int full_width, int full_height, int step, failure *why)
 {
+    const int width = (full_width + step - 1) / step, height = (full_height + step - 1) / step;
     if (r->texture && r->width == width && r->height == height)
         return true;
     const trace_stats stats = r->stats;
@@ -105,7 +106,7 @@ static void release_strips(rays *r)
 bool rays_trace(rays *r, const trace_scene *s, const rays_job *job, failure *why)
 {
     const int step = job->step;
-    if (!open_size(r, (job->view->width + step - 1) / step, (job->view->height + step - 1) / step, why))
+    if (!rays_open(r, job->view->width, job->view->height, step, why))
         return false;
     GLsync fences[RAYS_STRIPS];
     request_strips(r, job, fences);

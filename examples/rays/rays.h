@@ -32,6 +32,9 @@ typedef struct rays_job {
     trace_options options;
 } rays_job;
 
+/* Makes the textures for a view of that size, unless they are there. `r` is zero, or has traced other frames. */
+bool rays_open(rays *r, int width, int height, int step, failure *why);
+
 /* Fills r->texture. `r` is zero, or has traced other frames. False, with one line in `why`, on failure. */
 bool rays_trace(rays *r, const trace_scene *s, const rays_job *job, failure *why);
 void rays_close(rays *r);

@@ -48,6 +48,8 @@ const setting setting_table[] = {
      AT(history), 0, 63, false, NULL, ALL},
     {"noise-index", "", "another pattern of noise for each number", SETTING_WHOLE, AT(noise_index), 0, 1e6f, false,
      NULL, ALL},
+    {"bent-normals", "", "also make the directions in which surfaces are open", SETTING_SWITCH, AT(bent_normals), 0, 1,
+     false, NULL, HORIZON},
 };
 #undef AT
 const int setting_count = sizeof setting_table / sizeof setting_table[0];

@@ -34,8 +34,7 @@ vec2 estimate_at(ivec2 pixel, vec2 uv, float depth)
     // The bits of the normal in a raw value add too little to matter.
     vec4 raw = vec4(texelFetch(u_raw_map, a, 0).r, texelFetch(u_raw_map, ivec2(d.x, a.y), 0).r,
                     texelFetch(u_raw_map, ivec2(a.x, d.y), 0).r, texelFetch(u_raw_map, d, 0).r);
-    vec4 smoothed = accessibility_of(at_a, at_b, at_c, at_d);
-    return vec2(dot(weights, raw), dot(weights, smoothed)) / dot(weights, vec4(1.0));
+    return vec2(dot(weights, raw), weighted(weights, at_a, at_b, at_c, at_d)) / dot(weights, vec4(1.0));
 #else
     return vec2(texelFetch(u_raw_map, pixel, 0).r, accessibility_of(texelFetch(u_ambient_map, pixel, 0).rg));
 #endif

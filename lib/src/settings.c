@@ -32,16 +32,16 @@ static glssao_settings horizon_settings(glssao_settings s, glssao_quality qualit
     return s;
 }
 
-/* As many rays as the host may trace for a result that is better than that of horizon's level, docs/decisions/0140. */
+/* As many rays as the host may trace for a result that is better than that of horizon's level, docs/decisions/0142. */
 static glssao_settings rays_settings(glssao_settings s, glssao_quality quality)
 {
     s.technique = GLSSAO_RAYS;
     s.power = 1.0f;
-    s.sample_count = quality == GLSSAO_LOW ? 2 : quality == GLSSAO_ULTRA ? 16 : 4;
+    s.sample_count = quality == GLSSAO_LOW ? 2 : quality == GLSSAO_ULTRA ? 8 : 4;
     s.half_resolution = quality <= GLSSAO_MEDIUM;
-    s.upsample = true;
+    s.upsample = quality != GLSSAO_LOW;
     s.blur = GLSSAO_BLUR_PLANAR;
-    s.blur_rounds = 1;
+    s.blur_rounds = 2;
     return s;
 }
 

@@ -498,6 +498,12 @@ static void bad_views_are_refused_by_name(void **state)
     assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_INVALID_ARGUMENT);
     assert_non_null(strstr(f->log, "frame.motion_texture"));
     fixture_clear_log(f);
+    frame.motion_texture = 0;
+    glssao_settings bent = settings;
+    bent.bent_normals = true;
+    assert_int_equal(glssao_compute(effect, &frame, &bent), GLSSAO_INVALID_ARGUMENT);
+    assert_non_null(strstr(f->log, "bent normals are not reused over time"));
+    fixture_clear_log(f);
     plain.history = 64;
     assert_int_equal(glssao_compute(effect, &frame, &plain), GLSSAO_INVALID_ARGUMENT);
     assert_non_null(strstr(f->log, "settings.history = 64"));

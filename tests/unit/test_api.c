@@ -247,6 +247,7 @@ static void compute_refuses_bad_settings(void **state)
     REFUSED(blur_depth_threshold, -1.0f);
     REFUSED(technique, (glssao_technique)7);
     REFUSED(blur, (glssao_blur)9);
+    REFUSED(bent_normals, true); /* the technique is not horizon */
 #undef REFUSED
     s = in.settings;
     s.technique = GLSSAO_HORIZON;

@@ -162,7 +162,10 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     uint32_t noise_index;          /* another pattern of noise for each value, for instance the number of the frame where
                                       the host averages frames itself (TAA); 0: the pattern of docs/decisions/0028 */
     int history;                   /* 0 to 63: earlier frames are reused, and at most so many count in a pixel's mean; 0:
-                                      none. The result has the full size. Needs frame.view, and no rays; docs/integration.md has more */
+                                      none. The result has the full size. Needs frame.view; not with rays or bent normals.
+                                      docs/integration.md has more */
+    bool bent_normals;             /* horizon: also write GLSSAO_MAP_BENT_NORMAL. Not with frame.rays_texture, whose rays tell
+                                      no directions */
 } glssao_settings;
 
 /* ---- frame: what the host hands over each time ---------------------------------------------------------- */
@@ -227,10 +230,11 @@ typedef struct glssao_apply_options { /* fill with glssao_default_apply_options(
                                   where frame.viewport has the picture, else the lower left corner */
     float intensity;           /* 0 none to 1 full (default) */
     float color[3];            /* 0 to 65504: what full occlusion turns the picture into. Black by default */
-    uint32_t strength_texture; /* optional, lies as frame.depth_texture, red: 0 keeps a pixel free of occlusion, 1: full */
+    uint32_t strength_texture; /* optional, lies as frame.depth_texture, or as the framebuffer of glssao_compute_framebuffer.
+                                  Red: 0 keeps a pixel free of occlusion, 1 is full strength */
     bool keep_scissor, keep_stencil; /* the host's tests stay on, with all that belongs to them */
-    uint32_t albedo_texture;   /* optional, lies as frame.depth_texture, rgb, linear: the surface's diffuse colour. Adds light
-                                  that bounced off neighbours of the same colour (Jimenez et al. 2016, section 5) */
+    uint32_t albedo_texture;   /* optional, lies as that. Rgb, linear: the surface's diffuse colour. Adds light that bounced off
+                                  neighbours of the same colour (Jimenez et al. 2016, section 5) */
     bool show;                 /* true: accessibility replaces the picture. For a first look */
 } glssao_apply_options;
 
@@ -240,14 +244,19 @@ typedef enum glssao_map_id { /* textures to look at */
     GLSSAO_MAP_AMBIENT = 0,   /* the result: accessibility in red, R16; half size where it was estimated so and not upsampled */
     GLSSAO_MAP_AMBIENT_OTHER, /* the second of the two ping-pong maps, with what the blur last drew into it: accessibility in
                                  red, R16. After upsampling or the planar blur RG32F: green is the linear quantity of
-                                 distance (glsl/shared/inverse_depth.glsl), and red's ten lowest bits hold the normal */
+                                 distance (glsl/shared/inverse_depth.glsl), and red's ten lowest bits hold the normal. With bent
+                                 normals RGBA32F: their hidden vectors (glsl/shared/bent.glsl) in blue and alpha */
     GLSSAO_MAP_NORMAL,        /* the effect's own normal map, RGBA16F, full size */
     GLSSAO_MAP_RANDOM_VECTOR, /* RGBA8, 256 x 256 */
     GLSSAO_MAP_DEPTH,         /* the host's depth texture as last handed over; 0 before the first */
     GLSSAO_MAP_TILES,         /* R32F, one texel for each tile: its distance in tiles from the nearest one that was estimated,
                                  over 16; 0 for an estimated one. No texture where the last frame had no tiles */
-    GLSSAO_MAP_REBUILT_NORMAL /* normals that the last frame without a normal map rebuilt from depth: RG32F, octahedral, view
+    GLSSAO_MAP_REBUILT_NORMAL, /* normals that the last frame without a normal map rebuilt from depth: RG32F, octahedral, view
                                  space, at the estimate's size. No texture before one */
+    GLSSAO_MAP_BENT_NORMAL    /* with settings.bent_normals, else none: RGBA16F, of the result's size. rgb: view-space mean of
+                                 the directions that no occluder within the radius blocks, each weighted by its cosine
+                                 with the normal, unit length; nearly closed: towards the normal; sky: (0, 0, 1). Alpha:
+                                 the result. How to light with it: docs/integration.md */
 } glssao_map_id;
 
 /* The uniform block cbSsao, std140, with the D3D12 demo's members and names. Matrices are column-major. */

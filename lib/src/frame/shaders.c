@@ -20,14 +20,14 @@ static const struct macro {
 #undef ROW
 };
 
-#define BIT(macro) (1u << MACRO_##macro)
+#define BIT(macro) (UINT64_C(1) << MACRO_##macro)
 
 enum { FILES = 10 };
 
 /* What each shader is assembled from, in order, and which macros it tests. */
 static const struct shader {
     const char *name;
-    unsigned tests;
+    uint64_t tests;
     const char *files[FILES];
 } shaders[SHADER_COUNT] = {
     [SHADER_INPUT] = {"input",
@@ -41,7 +41,7 @@ static const struct shader {
                          BIT(DEPTH) | BIT(LAYERS) | BIT(COMPUTE) | BIT(VARIES) | BIT(DENSE),
                          {shader_pixel_glsl, shader_depth_glsl, shader_distance_frag, shader_entry_glsl}},
     [SHADER_OPEN] = {"open",
-                     BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(FROM_DEPTH) | BIT(VARIES) | BIT(DENSE),
+                     BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(FROM_DEPTH) | BIT(BENT) | BIT(VARIES) | BIT(DENSE),
                      {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                       shader_paired_glsl, shader_open_frag}},
     [SHADER_CLASSIC] = {"classic",
@@ -55,35 +55,38 @@ static const struct shader {
                             shader_normal_map_glsl, shader_paired_glsl, shader_hemisphere_frag}},
     [SHADER_HORIZON] = {"horizon",
                         BIT(NORMALS) | BIT(TURNED) | BIT(STEPS) | BIT(SLICES) | BIT(OUTPUT) | BIT(LAYERS) |
-                            BIT(COMPUTE) | BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(LOOPS) | BIT(VARIES) | BIT(DENSE),
+                            BIT(COMPUTE) | BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(LOOPS) | BIT(BENT) | BIT(VARIES) |
+                            BIT(DENSE),
                         {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
-                         shader_paired_glsl, shader_horizon_frag, shader_entry_glsl}},
+                         shader_bent_glsl, shader_paired_glsl, shader_horizon_frag, shader_entry_glsl}},
     [SHADER_RESOLVE] = {"resolve",
-                        BIT(NORMALS) | BIT(TURNED) | BIT(OUTPUT),
+                        BIT(NORMALS) | BIT(TURNED) | BIT(OUTPUT) | BIT(BENT),
                         {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
-                         shader_paired_glsl, shader_resolve_frag}},
-    [SHADER_PROBE] = {"probe", 0, {shader_pixel_glsl, shader_depth_glsl, shader_probe_frag}},
+                         shader_bent_glsl, shader_paired_glsl, shader_resolve_frag, shader_entry_glsl}},
+    [SHADER_PROBE] = {"probe", BIT(BENT), {shader_pixel_glsl, shader_depth_glsl, shader_probe_frag}},
     [SHADER_BLUR] = {"blur",
-                     BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(FILTER) | BIT(OUTPUT) | BIT(COMPUTE) | BIT(VARIES) |
-                         BIT(DENSE),
-                     {shader_pixel_glsl, shader_depth_glsl, shader_normal_map_glsl, shader_paired_glsl,
-                      shader_blur_frag, shader_entry_glsl}},
+                     BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(FILTER) | BIT(OUTPUT) | BIT(COMPUTE) | BIT(BENT) |
+                         BIT(VARIES) | BIT(DENSE),
+                     {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
+                      shader_bent_glsl, shader_paired_glsl, shader_blur_frag, shader_entry_glsl}},
     [SHADER_PLANAR_BLUR] = {"planar-blur",
-                            BIT(OUTPUT) | BIT(WIDE) | BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(COMPUTE) | BIT(STRIDE) |
-                                BIT(RAYS) | BIT(CORRECTS),
-                            {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_paired_glsl,
-                             shader_planar_blur_glsl, shader_planar_blur_frag, shader_entry_glsl}},
+                            BIT(NORMALS) | BIT(TURNED) | BIT(OUTPUT) | BIT(WIDE) | BIT(PERSPECTIVE) | BIT(BRANCHES) |
+                                BIT(COMPUTE) | BIT(STRIDE) | BIT(RAYS) | BIT(CORRECTS) | BIT(BENT),
+                            {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
+                             shader_bent_glsl, shader_paired_glsl, shader_planar_blur_glsl, shader_planar_blur_frag,
+                             shader_entry_glsl}},
     [SHADER_PLANAR_TILE] = {"planar-tile",
                             BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(OUTPUT) | BIT(COMPUTE) | BIT(UPSAMPLE) |
-                                BIT(ROUNDS) | BIT(WIDE) | BIT(PERSPECTIVE) | BIT(BRANCHES),
+                                BIT(ROUNDS) | BIT(WIDE) | BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(BENT),
                             {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
-                             shader_paired_glsl, shader_planar_blur_glsl, shader_upsample_glsl,
+                             shader_bent_glsl, shader_paired_glsl, shader_planar_blur_glsl, shader_upsample_glsl,
                              shader_planar_tile_comp}},
     [SHADER_UPSAMPLE] = {"upsample",
-                         BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PERSPECTIVE) | BIT(BRANCHES),
+                         BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(BENT),
                          {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
-                          shader_paired_glsl, shader_upsample_glsl, shader_upsample_frag}},
-    [SHADER_SPREAD] = {"spread", 0, {shader_pixel_glsl, shader_spread_frag}},
+                          shader_bent_glsl, shader_paired_glsl, shader_upsample_glsl, shader_packed_direction_glsl,
+                          shader_upsample_frag}},
+    [SHADER_SPREAD] = {"spread", BIT(BENT), {shader_pixel_glsl, shader_packed_direction_glsl, shader_spread_frag}},
     [SHADER_RAYS] = {"rays",
                      BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(OUTPUT) | BIT(COMPUTE) | BIT(PERSPECTIVE) |
                          BIT(RAYS) | BIT(CORRECTS),
@@ -157,7 +160,7 @@ const char *glssao__shader_name(enum glssao__shader shader)
 
 bool glssao__shader_tests(enum glssao__shader shader, enum glssao__macro macro)
 {
-    return shaders[shader].tests & 1u << macro;
+    return shaders[shader].tests & UINT64_C(1) << macro;
 }
 
 glssao__variant glssao__shader_variant(enum glssao__shader shader, glssao__variant wanted)

@@ -104,6 +104,9 @@ void glssao__uniforms_init(glssao__uniforms *u, uint32_t seed)
     fill_rotations(&u->hemisphere, seed, 0.0f);
 }
 
+/* Bent normals are made at radius 0 too (scene units): samples then reach no other pixel. */
+static const float LEAST_RADIUS = 1e-12f;
+
 static void fill_ssao(glssao_constants *c, const glssao__uniforms_source *source)
 {
     const glssao_settings *settings = source->settings;
@@ -120,7 +123,7 @@ static void fill_ssao(glssao_constants *c, const glssao__uniforms_source *source
     glssao__uniforms_gauss_weights(settings->blur_sigma, c->gBlurWeights);
     c->gInvRenderTargetSize[0] = 1.0f / (float)source->estimate_size[0];
     c->gInvRenderTargetSize[1] = 1.0f / (float)source->estimate_size[1];
-    c->gOcclusionRadius = settings->radius;
+    c->gOcclusionRadius = settings->bent_normals && settings->radius <= 0.0f ? LEAST_RADIUS : settings->radius;
     c->gOcclusionFadeStart = settings->fade_start;
     c->gOcclusionFadeEnd = settings->fade_end;
     c->gSurfaceEpsilon = settings->surface_epsilon;
