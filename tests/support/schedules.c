@@ -87,7 +87,7 @@ int schedules_visit(void (*function)(const glssao__request *request, const glssa
                     if (technique != GLSSAO_RAYS || blur == GLSSAO_BLUR_NONE || blur == GLSSAO_BLUR_PLANAR)
                         visit_capabilities(&v, &q, &frame, &settings);
                     frame.rays_texture = 0;
-                    if (technique == GLSSAO_RAYS) /* has no history */
+                    if (technique == GLSSAO_RAYS || rounds < 1 || rounds > 2) /* rays have no history */
                         continue;
                     settings.noise_index = 3;
                     settings.history = size < 2 ? 16 : 0;
