@@ -252,7 +252,7 @@ static void history_takes_the_place_of_upsampling(void **state)
     assert_int_equal(second.steps[3].target, MAP_HISTORY_1);
     assert_int_equal(first.result, MAP_RESULT);
     q.can.path = GLSSAO_PATH_FRAGMENT;
-    assert_steps(&q, "distance horizon planar-blur planar-blur history steady");
+    assert_steps(&q, "distance horizon planar-blur planar-blur planar-blur history steady");
     s = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_LOW);
     s.history = 4;
     assert_steps(&q, "classic blur blur history steady");
