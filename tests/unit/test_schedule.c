@@ -50,11 +50,11 @@ static void levels_have_their_steps(void **state)
     s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_ULTRA);
     assert_steps(&q, "distance! horizon! planar-tile!");
     q.can.path = GLSSAO_PATH_FRAGMENT;
-    assert_steps(&q, "distance horizon planar-blur planar-blur");
+    assert_steps(&q, "distance horizon planar-blur planar-blur planar-blur");
     s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
-    assert_steps(&q, "distance horizon planar-blur planar-blur upsample spread");
+    assert_steps(&q, "distance horizon planar-blur planar-blur planar-blur upsample spread");
     frame.normal_texture = 0;
-    assert_steps(&q, "normals distance horizon planar-blur planar-blur upsample spread");
+    assert_steps(&q, "normals distance horizon planar-blur planar-blur planar-blur upsample spread");
     s = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_MEDIUM);
     assert_steps(&q, "normals classic blur blur blur blur");
     s = glssao_default_settings(GLSSAO_HEMISPHERE, GLSSAO_HIGH);
@@ -69,7 +69,7 @@ static void tiles_add_their_steps(void **state)
     glssao__request q = schedules_request(&frame, &s, 1280, 720);
     q.can.is_software = true;
     assert_steps(&q,
-                 "distance tile-rows tile-bounds tile-class tile-rings =1 =1 =1 horizon open planar-blur planar-blur "
+                 "distance tile-rows tile-bounds tile-class tile-rings =1 =1 =1 horizon open planar-blur planar-blur planar-blur "
                  "upsample spread");
     s = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_LOW);
     assert_steps(&q, "tile-rows tile-bounds tile-class tile-rings =1 =1 classic blur blur");
@@ -208,7 +208,7 @@ static void rays_correct_an_estimate(void **state)
                  "planar-tile!");
     q.can.path = GLSSAO_PATH_FRAGMENT;
     q.can.is_software = true;
-    assert_steps(&q, "distance horizon planar-blur planar-blur rays planar-blur planar-blur planar-blur planar-blur "
+    assert_steps(&q, "distance horizon planar-blur planar-blur planar-blur rays planar-blur planar-blur planar-blur planar-blur "
                      "correct upsample spread");
     s = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_LOW);
     s.half_resolution = false; /* one round more */
