@@ -235,6 +235,36 @@ static void no_rays_cost_nothing(void **state)
                     schedule.steps[i].variant.values[MACRO_STRIDE] == 0);
 }
 
+static void history_takes_the_place_of_upsampling(void **state)
+{
+    (void)state;
+    glssao_frame frame;
+    glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
+    glssao__request q = schedules_request(&frame, &s, 64, 48);
+    s.history = 16;
+    assert_steps(&q, "distance! horizon! planar-tile! history! steady!");
+    glssao__schedule first, second;
+    glssao__schedule_make(&first, &q);
+    q.frames = 1;
+    glssao__schedule_make(&second, &q);
+    assert_int_equal(first.maps[MAP_DISTANCE].width, 64); /* though the estimate has half the size */
+    assert_int_equal(first.steps[1].region.width, 32);
+    assert_int_equal(first.steps[3].target, MAP_HISTORY_0);
+    assert_int_equal(second.steps[3].target, MAP_HISTORY_1);
+    assert_int_equal(first.result, MAP_RESULT);
+    q.can.path = GLSSAO_PATH_FRAGMENT;
+    assert_steps(&q, "distance horizon planar-blur planar-blur planar-blur history steady");
+    s = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_LOW);
+    s.history = 4;
+    assert_steps(&q, "classic blur blur history steady");
+    q.can.is_software = true; /* tiles that get no estimate are open in both maps that the history reads */
+    q.size[0] = 1280;
+    q.size[1] = 720;
+    assert_steps(&q, "tile-rows tile-bounds tile-class tile-rings =1 =1 =1 classic open blur blur history steady");
+    s.history = 0;
+    assert_steps(&q, "tile-rows tile-bounds tile-class tile-rings =1 =1 classic blur blur");
+}
+
 static void nothing_is_only_cleared(void **state)
 {
     (void)state;
@@ -278,7 +308,8 @@ static void check_rules(const glssao__request *q, const glssao__schedule *s, voi
             const enum glssao__map map = step->reads[k].map;
             assert_true(map != MAP_NONE && map != step->target && map != step->second); /* no feedback loop */
             assert_true(map < MAP_FIRST_TARGET || s->maps[map].format);                 /* it exists */
-            assert_true(map < MAP_FIRST_TARGET || is_written[map]);                     /* by this frame */
+            assert_true(map < MAP_FIRST_TARGET || is_written[map] ||
+                        step->reads[k].unit == UNIT_HISTORY); /* by this frame; the history by the last one */
             for (int j = 0; j < k; ++j)
                 assert_true(step->reads[j].unit != step->reads[k].unit || step->reads[j].map == map);
         }
@@ -385,6 +416,7 @@ int main(void)
         cmocka_unit_test(rounds_of_rays_widen),
         cmocka_unit_test(rays_correct_an_estimate),
         cmocka_unit_test(no_rays_cost_nothing),
+        cmocka_unit_test(history_takes_the_place_of_upsampling),
         cmocka_unit_test(nothing_is_only_cleared),
         cmocka_unit_test(all_schedules_keep_the_rules),
         cmocka_unit_test(default_frames_have_at_most_twenty_steps),
