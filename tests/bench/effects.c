@@ -40,7 +40,7 @@ void map_reader_destroy(map_reader *m)
 
 void effects_destroy(effects *e)
 {
-    for (int t = 0; t < BENCH_TECHNIQUES; t++) {
+    for (int t = 0; t <= GLSSAO_RAYS; t++) {
         for (int i = 0; i < 4; i++) {
             glssao_destroy(e->of[t][i / 2][i % 2]);
             e->of[t][i / 2][i % 2] = NULL;
@@ -68,7 +68,7 @@ glssao_effect *effects_get(effects *e, const gbuffer *g, const glssao_settings *
     return *slot;
 }
 
-static void read_map(const glssao_effect *effect, const map_reader *m, float *out)
+void map_reader_read(const map_reader *m, const glssao_effect *effect, float *out)
 {
     gl.BindFramebuffer(GL_FRAMEBUFFER, m->framebuffer);
     gl.Viewport(0, 0, m->width, m->height);
@@ -83,12 +83,13 @@ bool effects_run(effects *e, map_reader *m, const effect_job *job, float *out, c
     if (!effect)
         return false;
     const glssao_settings scaled = bench_scale_settings(job->settings, job->radius);
-    const glssao_frame frame = gbuffer_frame(job->gbuffer, job->depth_alone);
+    glssao_frame frame = gbuffer_frame(job->gbuffer, job->depth_alone);
+    frame.rays_texture = job->rays_texture;
     glssao_restart_accumulation(effect);
     const glssao_result result =
         job->accumulates ? glssao_accumulate(effect, &frame, &scaled) : glssao_compute(effect, &frame, &scaled);
     if (result == GLSSAO_OK)
-        read_map(effect, m, out);
+        map_reader_read(m, effect, out);
     else
         snprintf(error, error_size, "%s: %s", job->accumulates ? "glssao_accumulate" : "glssao_compute",
                  glssao_result_string(result));
