@@ -130,7 +130,7 @@ static void no_surface_blocks_its_own_rays(void **state)
         small_scene_add_instance(s, NULL);
         const camera c = {
             .eye = {3, height, distance}, .up = {0, 1, 0}, .fov_y_rad = 0.8f, .near_plane = 0.1f, .far_plane = 1000};
-        setup t = {NULL};
+        setup t = {.traced = NULL};
         set_up_scene(&t, &s->scene, &c, 2);
         const float *got = trace(&t, 4, 1, 0, 0);
         int seen = 0, blocked = 0;
@@ -164,7 +164,7 @@ static void alpha_tests_let_rays_through(void **state)
         small_scene_add_instance(s, NULL);
         const camera c = {
             .eye = {0, 0.6f, 5}, .up = {0, 1, 0}, .fov_y_rad = 0.8f, .near_plane = 0.1f, .far_plane = 100};
-        setup t = {NULL};
+        setup t = {.traced = NULL};
         set_up_scene(&t, &s->scene, &c, 3);
         const float *got = trace(&t, 16, 1, 0, 0);
         float least = 1;
