@@ -32,7 +32,8 @@ RESULT result()
 #if LAYERS
     float back = distance_at(u_back_map, uv);
     float second = distance_at(u_second_map, uv);
-    bool known = back < FAR_AWAY && second - back >= GAP * gOcclusionRadius && back - distance >= THIN * gOcclusionRadius;
+    float radius = wanted_radius(distance);
+    bool known = back < FAR_AWAY && second - back >= GAP * radius && back - distance >= THIN * radius;
     float behind = second < FAR_AWAY ? max(second - distance, 0.0) : FAR_AWAY;
     return vec4(distance, known ? back - distance : -1.0, behind, 0.0);
 #else

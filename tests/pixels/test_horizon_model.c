@@ -110,6 +110,9 @@ static double check(setup *s, const float *depth, const vagueness *most, const c
         .normals = normals,
         .radius = (double)s->settings.radius,
         .power = (double)s->settings.power,
+        .radius_in_pixels = s->settings.radius_in_pixels,
+        .thickness = (double)s->settings.thickness,
+        .fade_far = {(double)s->settings.fade_far_start, (double)s->settings.fade_far_end},
     };
     memcpy(s->input.projection, s->frame.projection, sizeof s->input.projection);
     assert_true(horizon_variant(s->effect, &s->input));

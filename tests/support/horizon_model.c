@@ -174,7 +174,14 @@ static rounded radius_at(const horizon_input *in, bool orthographic, double dist
     for (int axis = 0; axis < 2; ++axis)
         longer = fmax(longer, fabs(2.0 * (orthographic ? (double)m[15] : -(double)m[11]) / (double)m[5 * axis]));
     longer *= orthographic ? 1.0 : distance;
-    return in->radius < longer ? once_rounded(in->radius) : (rounded){longer, 4.0 * ROUNDING * longer};
+    rounded radius = once_rounded(in->radius);
+    if (in->radius_in_pixels) {
+        const double w = orthographic ? (double)m[15] : -(double)m[11] * distance;
+        const double sides[2] = {2.0 * w / ((double)m[0] * in->full_width), 2.0 * w / ((double)m[5] * in->full_height)};
+        radius.v = in->radius * sqrt(fabs(sides[0] * sides[1]));
+        radius.e = 4.0 * ROUNDING * radius.v;
+    }
+    return radius.v < longer ? radius : (rounded){longer, 4.0 * ROUNDING * longer};
 }
 
 static bool make_point(const horizon_input *in, int x, int y, point *out)

@@ -107,6 +107,7 @@ static void add_sample(const point *p, const slice *s, const side *d, const cand
     here.chord = (interval){sqrt(fmax(1.0 - here.outward.high * here.outward.high - square_error, 0.0)),
                             sqrt(fmax(1.0 - here.outward.low * here.outward.low + square_error, 0.0))};
     rounded thickness = multiply(multiply(once_rounded(c->width), width), at->step);
+    thickness = multiply(thickness, once_rounded(p->in->thickness));
     if (p->in->layers) {
         interval second = bounds(subtract(at->y, at->behind));
         second = (interval){fmin(second.low, here.chord.low), fmin(second.high, here.chord.high)};
@@ -149,7 +150,7 @@ static void add_runs(const point *p, const slice *s, const side *d, const candid
             --first;
         while (next < steps && !(jumps >> next & 1u))
             ++next;
-        const double start = first >= 0 ? first : -100.0;
+        const double start = first >= 0 ? first : -100.0 / fmin(p->in->thickness, 1.0);
         const rounded end = next < steps ? exactly(next)
                                          : add(subtract(once_rounded(p->in->constants.open_end * steps), exactly(0.5)),
                                                exactly(s->jitter));

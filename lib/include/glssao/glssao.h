@@ -156,6 +156,12 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     glssao_tiles tiles;            /* the picture is the same with and without, within a step of R16 */
     /* For teaching: */
     bool no_angle_weight;          /* classic: occluders count at any angle, so flat surfaces darken */
+    /* Appended later: */
+    float thickness;               /* horizon: multiplies the thickness that is estimated for occluders, 0.001 to 1000; 0: 1.
+                                      What a second layer tells stays */
+    float fade_far_start, fade_far_end; /* scene units of view distance, 0 <= start <= end: occlusion is full up to start and
+                                      fades to nothing at end. 0, 0: never */
+    bool radius_in_pixels;         /* radius counts pixels of the full size, as wide as they are where the point lies */
 } glssao_settings;
 
 /* ---- frame: what the host hands over each time ---------------------------------------------------------- */

@@ -23,17 +23,18 @@ static double distance_at(double numerator, double denominator, bool perspective
 
 /* Moves the eye of an orthographic projection along the view axis, which changes no picture, to the near end of the
  * depth range. Without it, points behind the eye would have view distances below 0, and far from the eye floats would
- * not tell neighbours apart. A range that begins near the eye stays as it is. */
-static void move_eye(double p[16], double ndc_at_0)
+ * not tell neighbours apart. A range that begins near the eye stays as it is. Returns how far the eye moved. */
+static double move_eye(double p[16], double ndc_at_0)
 {
     if (p[10] == 0.0)
-        return;
+        return 0.0;
     const double ends[2] = {(p[14] - ndc_at_0 * p[15]) / p[10], (p[14] - p[15]) / p[10]};
     const double least = fmin(ends[0], ends[1]);
     if (least >= 0.0 && least <= fabs(ends[0] - ends[1]))
-        return;
+        return 0.0;
     for (int row = 0; row < 3; ++row)
         p[12 + row] -= least * p[8 + row];
+    return least;
 }
 
 /* The ray through a uv. ndc x = (p[0] x - p[8] t + p[12]) / (p[15] - p[11] t), solved for x, with ndc x = 2 u - 1; y
@@ -97,10 +98,11 @@ bool glssao__projection_analyse(const glssao_frame *frame, const glssao__log *lo
     out->is_orthographic = m.is_orthographic;
     out->is_oblique = m.is_oblique;
     out->doubt = m.doubt;
+    out->eye = 0.0;
     out->turn[0] = (float)m.cosine;
     out->turn[1] = (float)m.sine;
     if (m.is_orthographic && !m.is_oblique && frame->depth_kind == GLSSAO_DEPTH_WINDOW)
-        move_eye(m.clip_from_view, ndc_at_0);
+        out->eye = move_eye(m.clip_from_view, ndc_at_0);
     if (!glssao__matrix_invert(m.clip_from_view, inverse)) {
         glssao__log_write(log, GLSSAO_LOG_ERROR, "frame.projection is singular%s", glssao__matrix_hint(m.doubt));
         return false;

@@ -24,6 +24,7 @@ typedef struct glssao__projection {
     float oblique[4]; /* as in cbFrame */
     float sky_depth;
     double ends[4]; /* distance_from_depth, not rounded */
+    double eye;     /* the view distance from which the passes count theirs; not 0 where the eye was moved */
     enum glssao__doubt doubt;
 } glssao__projection;
 
