@@ -248,6 +248,11 @@ static void estimate(const point *p, double *out_low, double *out_high)
         occlusion.low += one.low / in->slices;
         occlusion.high += one.high / in->slices;
     }
+    double share = 1.0;
+    if (in->fade_far[1] > 0.0 && p->distance > in->fade_far[0])
+        share = fmax((in->fade_far[1] - p->distance) / (in->fade_far[1] - in->fade_far[0]), 0.0);
+    occlusion.low *= share;
+    occlusion.high *= share;
     const double exponent = in->constants.calibration * in->power;
     *out_low = fmin(pow(fmax(1.0 - occlusion.high, 1e-6), exponent), 1.0);
     *out_high = fmin(pow(fmax(1.0 - occlusion.low, 1e-6), exponent), 1.0);
