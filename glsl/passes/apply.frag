@@ -3,7 +3,7 @@
 // stores the picture's texels.
 // in  v_uv            0..1 across the destination
 // in  u_ambient_map   accessibility, linearly sampled
-// in  u_strength_map  STRENGTH 1: how much of the occlusion counts, in red; fetched
+// in  u_strength_map  STRENGTH 2: how much of the occlusion counts, in red; fetched. STRENGTH 1: gShade.a alone does
 // in  u_albedo_map    ALBEDO 1: the surface's diffuse colour; fetched
 // out o_color         rgb: the part of the picture that stays, TINTED 1: the part that goes; alpha stays
 
@@ -32,18 +32,22 @@ float unit(float value)
 vec3 stays(vec2 uv)
 {
     vec3 open = textureLod(u_ambient_map, uv, 0.0).rrr;
-    float strength = gShade.a;
-#if ALBEDO || STRENGTH
+#if ALBEDO || STRENGTH == STRENGTH_TEXTURE
     ivec2 texel = ivec2(gPicture.xy + floor(uv * gPicture.zw));
 #endif
 #if ALBEDO
     vec3 albedo = texelFetch(u_albedo_map, texel, 0).rgb;
     open = with_bounces(open.r, vec3(unit(albedo.r), unit(albedo.g), unit(albedo.b)));
 #endif
-#if STRENGTH
+#if STRENGTH == STRENGTH_FULL
+    return open;
+#else
+    float strength = gShade.a;
+#if STRENGTH == STRENGTH_TEXTURE
     strength *= unit(texelFetch(u_strength_map, texel, 0).r);
 #endif
     return open * strength + (1.0 - strength);
+#endif
 }
 
 #if COMPUTE

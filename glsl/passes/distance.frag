@@ -33,9 +33,10 @@ RESULT result()
     float back = distance_at(u_back_map, uv);
     float second = distance_at(u_second_map, uv);
     float radius = wanted_radius(distance);
-    bool known = back < FAR_AWAY && second - back >= GAP * radius && back - distance >= THIN * radius;
+    bool solid = back < FAR_AWAY && back - distance >= THIN * radius;
+    bool known = solid && second - back >= GAP * radius;
     float behind = second < FAR_AWAY ? max(second - distance, 0.0) : FAR_AWAY;
-    return vec4(distance, known ? back - distance : -1.0, behind, 0.0);
+    return vec4(distance, known ? back - distance : solid ? distance - back : 0.0, behind, 0.0);
 #else
     return distance;
 #endif

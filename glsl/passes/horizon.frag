@@ -103,12 +103,14 @@ struct slice_side {
     float least_x;             // samples nearer than this lie on the point
     float tangent;             // height of the tangent plane per x
     float lowest;              // cosine of the angle at which the hemisphere ends
+    float run_width;           // thickness of a run, in units of its width
     polynomial sectors;        // number of the sector, plus a half, from the far end of the minus side
 };
 
 // x, y and the width of a step (radii) at a sample. The sample is snapped to the centre of a texel, beyond the border to that
 // of the border. Its height is corrected for its distance from the slice as if the surface there were parallel to the point's
-// own. `layers`: thickness of the surface there, negative where unknown, and how far behind it the second layer lies (radii).
+// own. `layers`: thickness of the surface there, and how far behind it the second layer lies (radii); a thickness that is
+// not known is minus the least that it can be.
 vec3 sample_at(point p, slice_side side, float number, out vec2 layers)
 {
     // The point is a texel's centre itself, so whole pixels lead to other centres.
@@ -152,21 +154,23 @@ uint hidden_between(slice_side side, float x2, float chord, float top, float bot
 }
 
 // The sectors that one sample hides, whose run is `width` steps wide. Raises `highest` to the sample's top where the sample
-// is thick enough to veil what is behind it.
+// is thick enough to veil what is behind it, and part of the way where it neither is
+// near the point nor reaches down to it.
 uint hidden_by(slice_side side, vec3 at, vec2 layers, float width, inout float highest)
 {
     float x2 = at.x * at.x + 1e-12;
     float chord = sqrt(1.0 - x2); // x is below 1
-    float thickness = RUN_WIDTH * width * at.z * gThickness.x;
+    float thickness = side.run_width * width * at.z;
     float cos_top;
     uint mask = 0u;
 #if LAYERS
     float second = min(at.y - layers.y, chord); // its thickness counts from where it is within the sphere
     mask = hidden_between(side, x2, chord, second, second - SECOND_WIDTH * thickness, cos_top);
-    thickness = layers.x >= 0.0 ? layers.x : thickness;
+    thickness = layers.x > 0.0 ? layers.x : max(thickness, -layers.x);
 #endif
     mask |= hidden_between(side, x2, chord, at.y, at.y - thickness, cos_top);
-    highest = thickness > VEIL_WIDTH ? max(highest, cos_top) : highest;
+    float veil_top = at.y < max(VEIL_REACH, thickness) ? cos_top : mix(side.lowest, cos_top, VEIL_FAR);
+    highest = thickness > VEIL_WIDTH ? max(highest, veil_top) : highest;
     return mask;
 }
 
@@ -270,6 +274,14 @@ float slice_occlusion(point p, float angle)
     // A fifth of a pixel.
     vec2 pixel_x = p.scale * side.x_per_px;
     side.least_x = 0.2 * sqrt(dot(pixel_x, pixel_x));
+
+    side.run_width = RUN_WIDTH;
+#if !PERSPECTIVE
+    // Straight down on a surface, as on a plan, nothing but a top is seen of what stands on it.
+    if (orthographic())
+        side.run_width = mix(RUN_WIDTH, PLAN_WIDTH, clamp((normal_up - PLAN_FROM) / (PLAN_TO - PLAN_FROM), 0.0, 1.0));
+#endif
+    side.run_width *= gThickness.x;
 
     uint mask = 0u;
     float veiled = total;

@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: MIT
-// View-space normals rebuilt from depth, for hosts that have none. Along each axis the pass takes the side whose two
-// nearest depths predict the pixel's own best. Window depth is linear across a plane, as is 1 / distance in perspective, so
-// a plane predicts exactly, and the other side of a silhouette does not.
-// in  u_depth_map  stored depth, full size, fetched
-// out o_normal     view space, unit length, RGBA16F; (0, 0, 1) on sky
+// View-space normals rebuilt from depth, at the estimate's size, for hosts that have none. Along each axis the pass takes the
+// side whose two nearest depths predict the pixel's own best: the linear quantity of distance predicts a plane exactly, and the
+// other side of a silhouette does not.
+// in  u_depth_map  stored depth, full size; point sampled, clamped
+// out result       octahedral (shared/normal_map.glsl); that of (0, 0, 1) on sky
 
-out vec4 o_normal;
+#define RESULT vec2
 
-float depth_at(ivec2 pixel, ivec2 size)
+// What the prediction from a side counts as being off by: where a depth is missing, and where the side itself is.
+const float UNPREDICTED = 1e30;
+const float UNSEEN = 2e30;
+
+float stored_at(vec2 uv)
 {
-    return depth_component(texelFetch(u_depth_map, clamp(pixel, ivec2(0), size - 1), 0));
+    return depth_component(textureLod(u_depth_map, uv, 0.0));
 }
 
-// A function of depth that is linear across the picture of a plane.
-float linear_depth_at(ivec2 pixel, ivec2 size)
+// Stored depth where it is linear across the picture of a plane, else the linear quantity of distance.
+float flat_depth(float depth)
 {
-    float depth = depth_at(pixel, size);
 #if DEPTH == DEPTH_WINDOW
     return depth;
 #else
@@ -23,77 +26,70 @@ float linear_depth_at(ivec2 pixel, ivec2 size)
 #endif
 }
 
-vec3 position_view_at(ivec2 pixel, ivec2 size)
+// The linear quantity of distance that a unit of flat_depth() is.
+float linear_per_flat_depth()
 {
-    pixel = clamp(pixel, ivec2(0), size - 1);
-    return position_view_from_uv((vec2(pixel) + 0.5) / vec2(size), distance_from_depth(depth_at(pixel, size)));
+#if DEPTH == DEPTH_WINDOW
+    vec4 k = gDistanceFromDepth;
+    return orthographic() ? (k.y - k.x) / k.z : (k.w - k.z) / k.x;
+#else
+    return 1.0;
+#endif
 }
 
-bool is_seen(ivec2 pixel, ivec2 size)
+// How far off the prediction of `own` is from the nearest depth on a side and the one beyond. Sky has no surface, and
+// what lies outside the map was clamped.
+float error_of(float own, float near, float beyond, vec2 near_uv, vec2 beyond_uv)
 {
-    return pixel == clamp(pixel, ivec2(0), size - 1) && !is_sky(depth_at(pixel, size));
+    float error = abs(2.0 * flat_depth(near) - flat_depth(beyond) - own);
+    // A comparison with a depth that is no number is false.
+    error = error < UNPREDICTED && beyond_uv == clamp(beyond_uv, 0.0, 1.0) ? error : UNPREDICTED;
+    return is_sky(near) || near_uv != clamp(near_uv, 0.0, 1.0) ? UNSEEN : error;
 }
 
-// Change of position from the pixel to its neighbour along `axis`, from the better side.
-vec3 step_view(ivec2 pixel, ivec2 axis, ivec2 size, vec3 position_view)
+// The change of flat_depth() over `by`, from the better side. 0 where neither is seen.
+float change_over(vec2 by, vec2 uv, float own)
 {
-    float depth = linear_depth_at(pixel, size);
-    float before = abs(2.0 * linear_depth_at(pixel - axis, size) - linear_depth_at(pixel - 2 * axis, size) - depth);
-    float after = abs(2.0 * linear_depth_at(pixel + axis, size) - linear_depth_at(pixel + 2 * axis, size) - depth);
-    ivec2 low = pixel - 2 * axis;
-    ivec2 high = pixel + 2 * axis;
-    // A side that lies outside the map was clamped and predicts by chance; one that begins with sky has no surface.
-    bool before_seen = is_seen(pixel - axis, size);
-    bool after_seen = is_seen(pixel + axis, size);
-    if (!before_seen && !after_seen) // the slope is unknown: straight across
-        return vec3(vec2(axis) * (gRayOrigin.xy + gRayDirection.xy), 0.0);
-    bool has_before = before_seen && low.x >= 0 && low.y >= 0;
-    bool has_after = after_seen && high.x < size.x && high.y < size.y;
-    bool use_before = has_before && (!has_after || before < after);
-    // Beside a hole at the border, and in maps of few pixels, neither side has two depths: take one that exists.
-    if (!has_before && !has_after)
-        use_before = before_seen;
-    return use_before ? position_view - position_view_at(pixel - axis, size)
-                      : position_view_at(pixel + axis, size) - position_view;
+    float before = stored_at(uv - by);
+    float after = stored_at(uv + by);
+    float error_before = error_of(own, before, stored_at(uv - 2.0 * by), uv - by, uv - 2.0 * by);
+    float error_after = error_of(own, after, stored_at(uv + 2.0 * by), uv + by, uv + 2.0 * by);
+    // A coarse depth format often leaves both sides equally far off, where rounding must not decide.
+    float change = error_before < error_after - 1e-6 * abs(own) ? own - flat_depth(before) : flat_depth(after) - own;
+    return min(error_before, error_after) < UNSEEN ? change : 0.0;
 }
 
 // How many pixels to step. Where the depth format is coarser than a pixel is wide, neighbours form terraces; over this many
 // pixels the slope is right to a quarter.
-ivec2 stride(float distance, ivec2 size)
+vec2 stride(float linear)
 {
-    vec2 width = abs(gRayOrigin.xy + distance * gRayDirection.xy) / vec2(size);
-    vec2 most = clamp(vec2(size) / 4.0, 1.0, 32.0);
-    // At the eye a pixel has no width.
-    return ivec2(clamp(ceil(4.0 * depth_step(distance) / max(width, vec2(1e-30))), vec2(1.0), most));
+    vec2 width = gFullTexel * (orthographic() ? abs(gRayOrigin.xy) : linear * abs(gRayDirection.xy));
+    vec2 most = clamp(0.25 / gFullTexel, 1.0, 32.0);
+    return clamp(ceil(4.0 * linear_step(linear) / max(width, 1e-30)), vec2(1.0), floor(most));
 }
 
-// Only the direction matters: at length 1 or so the cross product neither overflows nor underflows at any scene scale.
-vec3 scaled_to_one(vec3 v)
+vec2 octahedral(vec3 normal)
 {
-    float largest = max(max(abs(v.x), abs(v.y)), abs(v.z));
-    return largest > 0.0 ? v / largest : v;
+    normal /= abs(normal.x) + abs(normal.y) + abs(normal.z);
+    vec2 side = vec2(normal.x >= 0.0 ? 1.0 : -1.0, normal.y >= 0.0 ? 1.0 : -1.0);
+    return normal.z >= 0.0 ? normal.xy : (1.0 - abs(normal.yx)) * side;
 }
 
-void main()
+RESULT result()
 {
-    ivec2 size = textureSize(u_depth_map, 0);
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float depth = depth_at(pixel, size);
-    vec3 position_view = position_view_at(pixel, size);
-    ivec2 by = stride(-position_view.z, size);
-    vec3 across = step_view(pixel, ivec2(by.x, 0), size, position_view);
-    vec3 up = step_view(pixel, ivec2(0, by.y), size, position_view);
-    vec3 normal = cross(scaled_to_one(across), scaled_to_one(up));
-    float length_squared = dot(normal, normal);
-    // A map that is one pixel wide has no second direction: the view axis is the neutral answer.
-    bool known = !is_sky(depth) && length_squared > 0.0;
-    // A projection that mirrors the picture reverses the order of the steps.
-    vec4 gain = orthographic() ? gRayOrigin : gRayDirection;
-    normal = gain.x * gain.y < 0.0 ? -normal : normal;
-    normal = known ? normal * inversesqrt(length_squared) : vec3(0.0, 0.0, 1.0);
+    vec2 uv = (floor(target_center()) * float(gFactor) + 0.5) * gFullTexel;
+    float stored = stored_at(uv);
+    float own = flat_depth(stored);
+    float linear = linear_from_depth(stored);
+    vec2 by = stride(linear);
+    vec2 change = vec2(change_over(vec2(by.x * gFullTexel.x, 0.0), uv, own), change_over(vec2(0.0, by.y * gFullTexel.y), uv, own));
+    vec2 slope = change * linear_per_flat_depth() / (by * gFullTexel); // of the linear quantity, per uv
+    // The plane n . p = 1 has the linear quantity n . ray in perspective. Its normal faces away from the eye.
+    vec2 lean = orthographic() ? slope / gRayOrigin.xy : -slope / (linear * gRayDirection.xy);
+    vec3 normal = vec3(lean, orthographic() ? 1.0 : 1.0 + dot(lean, uv * gRayDirection.xy + gRayDirection.zw));
 #if TURNED
-    // Back to the host's view space, in which the map is stored.
+    // Back to the host's view space, in which normals are stored.
     normal.xy = vec2(gRoll.x * normal.x - gRoll.y * normal.y, gRoll.y * normal.x + gRoll.x * normal.y);
 #endif
-    o_normal = vec4(normal, 0.0);
+    return octahedral(is_sky(stored) || !(dot(normal, normal) < 1e30) ? vec3(0.0, 0.0, 1.0) : normal);
 }

@@ -2,7 +2,8 @@
 // The planar blur. Its first round is a separable box over one period of a 4x4 tile, 1/2 1 1 1 1/2, along surfaces. A tap
 // counts where it lies on a line with two neighbours in the same direction, or with the two about the pixel, and where the
 // surface does not turn away from the eye in between. A silhouette breaks both lines; a plane seen at any angle breaks
-// neither. A pixel left without a tap takes neighbours that are merely near.
+// neither. A pixel left without a tap takes neighbours that are merely near. One without those is brightened where it is
+// much darker than its neighbours.
 //
 // After the first round the only noise left is that of twice the tile's period. Later rounds remove it in one pass each: a
 // quarter of the pixel and 3/16 of each of the four at three pixels from it, where they lie on a line or in a hollow. In a
@@ -44,8 +45,10 @@ float blurred(vec2 before_2, vec2 before, vec2 center, vec2 after, vec2 after_2,
     }
     vec4 taps = vec4(accessibility_of(before_2), accessibility_of(before), accessibility_of(after),
                      accessibility_of(after_2));
-    float sum = accessibility_of(center) + dot(weights, taps);
-    return sum / (1.0 + dot(weights, vec4(1.0)));
+    float own = accessibility_of(center);
+    // What is left without any tap keeps its noise, which shows where it is dark among bright neighbours.
+    float least = weights.y + weights.z == 0.0 ? min(taps.y, taps.z) - BLUR_ALONE : 0.0;
+    return max((own + dot(weights, taps)) / (1.0 + dot(weights, vec4(1.0))), least);
 }
 
 // The same for a later round, from itself and the four at three pixels from it.

@@ -7,9 +7,14 @@
 #define ALIKE 0.4             // ... unless the step before or after it differs by less than this: a steep surface
 #define OPEN_END 1.25         // where a run ends that is not seen to end
 #define RUN_WIDTH 1.0         // thickness of a run that a jump separates from the point, in units of its width
-#define VEIL_ONE_LAYER 0.15   // share of what lies hidden behind occluders that counts as occluded, however deep
+#define PLAN_WIDTH 4.0        // the same in a parallel projection, about points that face the eye ...
+#define PLAN_FROM 0.75        // ... from this cosine on in part ...
+#define PLAN_TO 0.9           // ... and from this one on in full
+#define VEIL_ONE_LAYER 0.18   // share of what lies hidden behind occluders that counts as occluded, however deep
 #define VEIL_TWO_LAYERS 0.03  // the same where a second layer is known
 #define VEIL_WIDTH 0.2        // occluders thinner than this hide nothing behind them
+#define VEIL_REACH 2.0        // those that are higher above the point than this, and than they are thick, veil less ...
+#define VEIL_FAR 0.45         // ... their cosine counts this far from the rim of the hemisphere
 #define SECOND_WIDTH 0.3      // thickness of the second layer's surfaces, in units of what is guessed for the first's
 #define CALIBRATION_6 1.1     // exponent that makes up for what 6 samples a side miss
 #define CALIBRATION_8 1.05    // the same for 8 samples
@@ -18,11 +23,13 @@
 // The planar blur (shared/planar_blur.glsl).
 #define BLUR_TOLERANCE 0.02   // how far off a line may be
 #define BLUR_NEAR 0.1         // how far off a neighbour may be of a pixel that has no other
+#define BLUR_ALONE 0.5         // how much darker than its neighbours a pixel may be that can't be smoothed
 #define BLUR_HOLLOW 0.1       // how far a later round's line may bend towards the eye at its ends
 
 // Upsampling (shared/upsample.glsl).
 #define UPSAMPLE_TOLERANCE 0.02 // how far off the plane of its neighbours a pixel may be
 #define UPSAMPLE_NEAR 0.1       // how far off a neighbour on the same surface may be
+#define UPSAMPLE_FALL 8.0       // a neighbour's line may pass so much farther above the pixel than the best neighbour's
 
 // Creases (shared/paired.glsl).
 #define NORMAL_STEP 0.1       // step of the two coordinates of a stored normal, which reach from -1.5 to 1.6

@@ -8,6 +8,7 @@
 #define NORMALS_SIGNED 0
 #define NORMALS_UNSIGNED 1
 #define NORMALS_OCTAHEDRAL 2
+#define NORMALS_REBUILT 3 // octahedral, at the estimate's size: passes/normals.frag
 
 // How the host stores depth.
 #define DEPTH_WINDOW 0
@@ -23,6 +24,11 @@
 #define FILTER_GAUSSIAN 0
 #define FILTER_BILATERAL 1
 #define FILTER_BOX 2
+
+// What decides how much occlusion counts.
+#define STRENGTH_FULL 0
+#define STRENGTH_UNIFORM 1
+#define STRENGTH_TEXTURE 2 // and the uniform
 
 // Formats of a picture that apply.frag can load and store.
 #define IMAGE_RGBA8 1

@@ -28,7 +28,7 @@ static bool check_loops(const glssao_effect *effect, const glssao__schedule *sch
     for (int map = MAP_FIRST_TARGET; map < MAP_COUNT; ++map)
         for (int i = 0; i < HOST_TEXTURES; ++i) {
             const gl_uint own = effect->resources.targets[map].texture;
-            const bool is_output = map == MAP_NORMAL ? schedule->maps[map].format != 0 : own != 0;
+            const bool is_output = map != MAP_NORMAL && own != 0; /* the host may have drawn normals into it */
             if (is_output && schedule->host_names[i] == own) {
                 glssao__log_write(log, GLSSAO_LOG_ERROR, "frame texture = %u: the effect's own map can't be its input",
                                   own);

@@ -180,6 +180,9 @@ uint32_t glssao_map(const glssao_effect *effect, glssao_map_id id, int *out_widt
         case GLSSAO_MAP_NORMAL:
             map = MAP_NORMAL;
             break;
+        case GLSSAO_MAP_REBUILT_NORMAL:
+            map = MAP_REBUILT;
+            break;
         case GLSSAO_MAP_TILES:
             map = effect->last.has_tiles ? MAP_TILE_RINGS : MAP_NONE;
             break;

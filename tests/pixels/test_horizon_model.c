@@ -89,7 +89,7 @@ static float *read_layers(uint32_t map, int width, int height)
 /* `depth`: full size, as its texture holds it. Returns the share of pixels that are occluded. */
 static double check(setup *s, const float *depth, const vagueness *most, const char *what)
 {
-    int width, height, map_width, map_height, normal_width, normal_height;
+    int width, height, map_width, map_height;
     float *got = fixture_compute(s->effect, &s->frame, &s->settings, &width, &height);
     const uint32_t map = horizon_distance_map(s->effect, &map_width, &map_height);
     assert_true(map_width == width && map_height == height);
@@ -97,8 +97,7 @@ static double check(setup *s, const float *depth, const vagueness *most, const c
     float *layers = s->frame.back_texture ? read_layers(map, width, height) : NULL;
     float *normals = s->normals;
     if (!normals)
-        normals = fixture_read_texture(glssao_map(s->effect, GLSSAO_MAP_NORMAL, &normal_width, &normal_height),
-                                       s->width, s->height, 3);
+        normals = fixture_read_rebuilt(s->effect, s->width, s->height, s->settings.half_resolution ? 2 : 1);
     s->input = (horizon_input){
         .full_width = s->width,
         .full_height = s->height,
@@ -152,7 +151,8 @@ static double check(setup *s, const float *depth, const vagueness *most, const c
 
 enum { SCENE_SHAPES = 8 };
 
-/* A row of thin posts on a floor, a slope that leans away, and a large sphere partly off the screen. */
+/* A row of thin posts on a floor, a slope that leans away with a ball half in it, and a large sphere partly off the
+ * screen. */
 static int make_posts(analytic_shape shapes[SCENE_SHAPES])
 {
     const double lean = 70.0 * PI / 180.0;
@@ -163,6 +163,7 @@ static int make_posts(analytic_shape shapes[SCENE_SHAPES])
         shapes[n++] = (analytic_shape){
             ANALYTIC_BOX, {-1.6 + 0.8 * i, 0.0, -4.0 - 0.7 * i}, {0.04 + 0.02 * i, 1.0, 0.04 + 0.02 * i}};
     shapes[n++] = (analytic_shape){ANALYTIC_SPHERE, {-2.2, 0.2, -4.5}, {1.0, 0.0, 0.0}};
+    shapes[n++] = (analytic_shape){ANALYTIC_SPHERE, {1.6, 0.2, -7.1}, {0.6, 0.0, 0.0}};
     return n;
 }
 
@@ -194,7 +195,7 @@ static void check_scene(fixture *f, const scene_options *o, const glssao_setting
     if (!o->rebuilt)
         s.frame.normal_texture = fixture_normal_texture(o->width, o->height, normals);
     const double occluded = check(&s, depth, o->vague ? &VAGUE : &ORDINARY, what);
-    assert_true(occluded > 0.01);
+    assert_true(occluded > 0.001); /* where a wall is seen edge-on, little is */
     gl.DeleteTextures(1, &s.frame.depth_texture);
     gl.DeleteTextures(1, &s.frame.normal_texture);
     glssao_destroy(s.effect);

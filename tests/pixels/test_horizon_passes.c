@@ -141,11 +141,20 @@ static void check_blur(const setup *s, const paired_map *from, blur_pass pass, c
     finish(&t);
 }
 
+/* Beyond the picture its edge repeats. */
 static double view_distance(const setup *s, int x, int y)
 {
+    x = x < 0 ? 0 : x < s->width ? x : s->width - 1;
+    y = y < 0 ? 0 : y < s->height ? y : s->height - 1;
     const float *p = s->frame.projection;
     const double d = (double)s->depth[y * s->width + x], ndc = s->frame.clip_zero_to_one ? d : 2.0 * d - 1.0;
     return ((double)p[14] - ndc * (double)p[15]) / ((double)p[10] - ndc * (double)p[11]);
+}
+
+static double linear_at(const setup *s, int x, int y)
+{
+    const double distance = view_distance(s, x, y);
+    return s->orthographic ? distance : 1.0 / distance;
 }
 
 static void check_upsampling(const setup *s, const paired_map *half, const float *got)
@@ -156,10 +165,11 @@ static void check_upsampling(const setup *s, const paired_map *half, const float
         for (int x = 0; x < s->width; ++x) {
             const size_t at = (size_t)y * (size_t)s->width + (size_t)x;
             const size_t half_at = (size_t)(y / 2) * (size_t)half->width + (size_t)(x / 2);
-            const double distance = view_distance(s, x, y);
             const float *n = s->normals + 3 * at;
-            const full_pixel own = {s->orthographic ? distance : 1.0 / distance,
-                                    {(double)n[0], (double)n[1], (double)n[2]}};
+            const double normal[3] = {(double)n[0], (double)n[1], (double)n[2]};
+            full_pixel own = {.linear = linear_at(s, x, y), .normal = s->frame.normal_texture ? normal : NULL};
+            for (int i = 0; i < 4; ++i)
+                own.beyond[i] = linear_at(s, x + 2 * (i % 2 ? 1 : -1) * (x % 2), y + 2 * (i / 2 ? 1 : -1) * (y % 2));
             double low = 1.0, high = 1.0;
             if (s->depth[at] != sky)
                 upsample_model(half, s->orthographic, &s->upsample, &own, x, y, &low, &high);
@@ -187,10 +197,13 @@ static void check_linear(const setup *s, const paired_map *map)
 }
 
 /* The estimate upsampled alone, then after one round of blur, then after two. */
-static void check_half_size(fixture *f, analytic_projection projection, int bits, int width, int height)
+static void check_half_size(fixture *f, analytic_projection projection, int bits, bool has_normals, int width,
+                            int height)
 {
     setup s;
     set_up(&s, f, projection, bits, width, height);
+    const uint32_t normals = s.frame.normal_texture;
+    s.frame.normal_texture = has_normals ? normals : 0;
     int w, h;
     s.settings.blur = GLSSAO_BLUR_NONE;
     float *result = fixture_compute(s.effect, &s.frame, &s.settings, &w, &h);
@@ -216,6 +229,7 @@ static void check_half_size(fixture *f, analytic_projection projection, int bits
     free_paired(&horizontal);
     free_paired(&vertical);
     free_paired(&later);
+    s.frame.normal_texture = normals;
     tear_down(&s);
 }
 
@@ -240,10 +254,12 @@ static void check_full_size(fixture *f, analytic_projection projection, int widt
 
 static void passes_agree_at_half_size(void **state)
 {
-    check_half_size(*state, PERSPECTIVE, 32, 160, 120);
-    check_half_size(*state, PERSPECTIVE_REVERSED_ZERO_TO_ONE, 32, 161, 121);
-    check_half_size(*state, ORTHOGRAPHIC, 32, 121, 160);
-    check_half_size(*state, PERSPECTIVE, 16, 160, 120);
+    for (int normals = 0; normals < 2; ++normals) {
+        check_half_size(*state, PERSPECTIVE, 32, normals, 160, 120);
+        check_half_size(*state, PERSPECTIVE_REVERSED_ZERO_TO_ONE, 32, normals, 161, 121);
+        check_half_size(*state, ORTHOGRAPHIC, 32, normals, 121, 160);
+        check_half_size(*state, PERSPECTIVE, 16, normals, 160, 120);
+    }
 }
 
 static void passes_agree_at_full_size(void **state)

@@ -245,9 +245,10 @@ static void rebuilt_normals_are_right_up_to_silhouettes(void **state)
                               .clip_zero_to_one = view.clip_zero_to_one};
         memcpy(frame.projection, view.projection, sizeof frame.projection);
         glssao_settings settings = settings_at_scale(1.0f);
+        settings.half_resolution = false;
         int w, h;
         free(fixture_compute(effect, &frame, &settings, &w, &h));
-        float *rebuilt = fixture_read_texture(glssao_map(effect, GLSSAO_MAP_NORMAL, &w, &h), W, H, 3);
+        float *rebuilt = fixture_read_rebuilt(effect, W, H, 1);
         int off = 0;
         for (int i = 0; i < W * H; ++i) {
             float cosine = 0.0f;
@@ -262,6 +263,38 @@ static void rebuilt_normals_are_right_up_to_silhouettes(void **state)
         free(depth);
         free(normals);
         gl.DeleteTextures(1, &frame.depth_texture);
+    }
+}
+
+/* On one plane there is nothing to choose, so only the rounding of depth is left, at both sizes of the estimate. */
+static void rebuilt_normals_of_a_plane_are_exact(void **state)
+{
+    fixture *f = *state;
+    enum { W = 61, H = 41 };
+    const analytic_shape plane = {ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.36, 0.48, 0.8}};
+    for (int i = 0; i < 2 * PROJECTION_COUNT; ++i) {
+        const analytic_view view = analytic_make_view((analytic_projection)(i / 2), 1.5, 0.5, 40.0, 1.0);
+        glssao_effect *effect = fixture_shared_effect(f, W, H);
+        glssao_frame frame = fixture_frame(&view, &plane, 1, W, H);
+        float *depth = fixture_read_depth(frame.depth_texture, W, H);
+        gl.DeleteTextures(1, &frame.normal_texture);
+        frame.normal_texture = 0;
+        glssao_settings settings = settings_at_scale(1.0f);
+        settings.half_resolution = i % 2;
+        int w, h, seen = 0;
+        free(fixture_compute(effect, &frame, &settings, &w, &h));
+        float *rebuilt = fixture_read_rebuilt(effect, W, H, 1 + i % 2);
+        for (int k = 0; k < W * H; ++k) {
+            if (depth[k] == view.sky_depth || k / W % 2 == 1 || k % W % 2 == 1)
+                continue;
+            ++seen;
+            for (int axis = 0; axis < 3; ++axis)
+                assert_float_equal(rebuilt[3 * k + axis], plane.size[axis], 1e-3);
+        }
+        assert_true(8 * seen > W * H);
+        free(rebuilt);
+        free(depth);
+        fixture_delete_frame(&frame);
     }
 }
 
@@ -428,6 +461,7 @@ int main(void)
         GL_TEST(resizes_through_odd_sizes_down_to_one_pixel),
         GL_TEST(rebuilt_normals_shade_like_brought_ones),
         GL_TEST(rebuilt_normals_are_right_up_to_silhouettes),
+        GL_TEST(rebuilt_normals_of_a_plane_are_exact),
         GL_TEST(bad_normals_stay_harmless),
         GL_TEST(apply_multiplies_colour_and_leaves_alpha),
         GL_TEST(plan_says_what_stats_prove),

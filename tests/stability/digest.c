@@ -111,7 +111,7 @@ static void print_digest(const char *name, int path, const glssao_frame *frame, 
            path ? "compute" : "fragment", glssao_result_string(result),
            (unsigned long long)hash_map(effect, GLSSAO_MAP_AMBIENT, 1),
            (unsigned long long)(path ? 0 : hash_map(effect, GLSSAO_MAP_AMBIENT_OTHER, 3)),
-           (unsigned long long)hash_map(effect, GLSSAO_MAP_NORMAL, 4),
+           (unsigned long long)hash_map(effect, GLSSAO_MAP_REBUILT_NORMAL, 3),
            (unsigned long long)hash_map(effect, GLSSAO_MAP_TILES, 1), (unsigned long long)hash_plan(&plan),
            (unsigned long long)hash_counts(effect), (unsigned long long)error, (unsigned long long)hash_reasons(&plan));
     if (result != GLSSAO_OK)

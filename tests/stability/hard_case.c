@@ -42,11 +42,11 @@ static subject picture_of(const hard_case *c, double distance)
     return subject_of(&view, seen_as[c->shape].shapes, seen_as[c->shape].count, width, height);
 }
 
-/* The map of rebuilt normals; it has the full size. */
 static void check_rebuilt_normals(fixture *f, const hard_case *c, const subject *s)
 {
     int width, height;
-    const uint32_t map = glssao_map(fixture_shared_effect(f, s->width, s->height), GLSSAO_MAP_NORMAL, &width, &height);
+    const uint32_t map =
+        glssao_map(fixture_shared_effect(f, s->width, s->height), GLSSAO_MAP_REBUILT_NORMAL, &width, &height);
     float *normals = fixture_read_texture(map, width, height, 3);
     for (int i = 0; i < 3 * width * height; ++i)
         if (!(fabsf(normals[i]) <= 1.001f)) /* also true for NaN */

@@ -382,9 +382,11 @@ static void a_map_that_a_pass_draws_into_is_refused(void **state)
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     glssao_effect *effect = fixture_shared_effect(f, W, H);
     int w, h;
-    bad.depth_texture = glssao_map(effect, GLSSAO_MAP_NORMAL, &w, &h); /* where normals would be rebuilt */
-    assert_refused(f, &bad, "the effect's own map");
     assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_OK);
+    bad.normal_texture = glssao_map(effect, GLSSAO_MAP_REBUILT_NORMAL, &w, &h);
+    bad.normal_kind = GLSSAO_NORMAL_OCTAHEDRAL;
+    assert_refused(f, &bad, "the effect's own map");
+    bad = frame;
     bad.depth_texture = glssao_map(effect, GLSSAO_MAP_AMBIENT, &w, &h);
     assert_refused(f, &bad, "the effect's own map");
 

@@ -3,6 +3,7 @@
 
 #include "functions_of_3_3.h" /* generated from GL/glcorearb.h */
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -161,6 +162,30 @@ static float *read_texture(GLuint texture, int width, int height, GLenum format,
 float *fixture_read_texture(GLuint texture, int width, int height, int channels)
 {
     return read_texture(texture, width, height, channels == 1 ? GL_RED : channels == 3 ? GL_RGB : GL_RGBA, channels);
+}
+
+float *fixture_read_rebuilt(const glssao_effect *effect, int width, int height, int factor)
+{
+    int map_width, map_height;
+    const uint32_t map = glssao_map(effect, GLSSAO_MAP_REBUILT_NORMAL, &map_width, &map_height);
+    assert_int_equal(map_width, (width + factor - 1) / factor);
+    assert_int_equal(map_height, (height + factor - 1) / factor);
+    float *stored = fixture_read_texture(map, map_width, map_height, 3);
+    float *normals = malloc((size_t)(3 * width * height) * sizeof *normals);
+    assert_non_null(normals);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const float *s = stored + 3 * ((y / factor) * map_width + x / factor);
+            float *n = normals + 3 * (y * width + x);
+            n[2] = 1.0f - fabsf(s[0]) - fabsf(s[1]);
+            for (int axis = 0; axis < 2; ++axis) /* the lower half is folded over */
+                n[axis] = n[2] >= 0.0f ? s[axis] : copysignf(1.0f - fabsf(s[1 - axis]), s[axis]);
+            const float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+            for (int axis = 0; axis < 3; ++axis)
+                n[axis] /= length;
+        }
+    free(stored);
+    return normals;
 }
 
 float *fixture_read_depth(GLuint texture, int width, int height)

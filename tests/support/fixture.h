@@ -51,6 +51,9 @@ GLuint fixture_depth_texture(GLenum internal_format, int width, int height, cons
 GLuint fixture_normal_texture(int width, int height, const float *normals);
 /* `channels` floats a texel: 1 red, 3 rgb, 4 rgba. The caller frees. */
 float *fixture_read_texture(GLuint texture, int width, int height, int channels);
+/* The normals that the effect rebuilt from depth in its last frame, xyz for each full-size pixel; those of the
+ * estimate's pixels, `factor` apart, repeat. The caller frees. */
+float *fixture_read_rebuilt(const glssao_effect *effect, int width, int height, int factor);
 float *fixture_read_depth(GLuint texture, int width, int height);
 
 /* A frame that shows the shapes: 32-bit depth, and normals. fixture_delete_frame deletes its textures. */

@@ -31,10 +31,14 @@ void horizon_read_pass_constants(pass_constants *out_blur, pass_constants *out_u
     *out_blur = (pass_constants){.tolerance = BLUR_TOLERANCE,
                                  .near = BLUR_NEAR,
                                  .hollow = BLUR_HOLLOW,
+                                 .alone = BLUR_ALONE,
                                  .chord = CHORD,
                                  .normal_step = NORMAL_STEP};
-    *out_upsample = (pass_constants){
-        .tolerance = UPSAMPLE_TOLERANCE, .near = UPSAMPLE_NEAR, .chord = CHORD, .normal_step = NORMAL_STEP};
+    *out_upsample = (pass_constants){.tolerance = UPSAMPLE_TOLERANCE,
+                                     .near = UPSAMPLE_NEAR,
+                                     .chord = CHORD,
+                                     .normal_step = NORMAL_STEP,
+                                     .fall = UPSAMPLE_FALL};
 }
 
 void horizon_depth_step(const glssao_effect *effect, double out_step[3])
@@ -63,6 +67,11 @@ bool horizon_variant(const glssao_effect *effect, horizon_input *out)
         .width = RUN_WIDTH,
         .veil = variant.values[MACRO_LAYERS] ? VEIL_TWO_LAYERS : VEIL_ONE_LAYER,
         .veil_width = VEIL_WIDTH,
+        .veil_reach = VEIL_REACH,
+        .veil_far = VEIL_FAR,
+        .plan_width = PLAN_WIDTH,
+        .plan_from = PLAN_FROM,
+        .plan_to = PLAN_TO,
         .second = SECOND_WIDTH,
         .calibration = out->steps >= 12  ? CALIBRATION_12
                        : out->steps == 8 ? CALIBRATION_8

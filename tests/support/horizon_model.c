@@ -104,6 +104,15 @@ static slice make_slice(const point *p, double angle, double jitter)
         square_root(at_least(add(multiply(normal_along, normal_along), multiply(normal_up, normal_up)), 1e-12));
     s.cos_g = divide(normal_up, s.projected);
     s.sin_g = divide(normal_along, s.projected);
+    const horizon_constants *c = &p->in->constants;
+    s.run_width = once_rounded(c->width);
+    if (p->orthographic) {
+        const rounded part = divide(subtract(normal_up, once_rounded(c->plan_from)),
+                                    subtract(once_rounded(c->plan_to), once_rounded(c->plan_from)));
+        const rounded more = subtract(once_rounded(c->plan_width), once_rounded(c->width));
+        s.run_width = add(s.run_width, multiply(clamp_to(part, 0.0, 1.0), more));
+    }
+    s.run_width = multiply(s.run_width, once_rounded(p->in->thickness));
     const interval to = bounds(s.sin_g);
     s.total_minus = middle(horizon_slice_measure(&s, -1.0, to));
     s.total = add(s.total_minus, middle(horizon_slice_measure(&s, 1.0, (interval){-to.high, -to.low})));

@@ -14,16 +14,17 @@
 #include <stdbool.h>
 
 typedef struct horizon_constants {
-    double jump, alike, open_end, width, veil, veil_width, calibration;
-    double second; /* used with a second layer only */
+    double jump, alike, open_end, width, veil, veil_width, veil_reach, veil_far, calibration;
+    double plan_width, plan_from, plan_to; /* of runs, in orthographic projections about points that face the eye */
+    double second;                         /* used with a second layer only */
 } horizon_constants;
 
 typedef struct horizon_input {
     int full_width, full_height, factor; /* factor: full-size texels per texel of the estimate */
     int width, height;                   /* of the estimate */
     const float *distance;               /* view distance at the estimate's size; 1e15 on sky */
-    const float *layers; /* two floats per pixel: thickness (negative: unknown), and the distance to the next front face
-                            behind; NULL: none known */
+    const float *layers;  /* two floats per pixel: thickness (not above 0: minus the least that it is), and the distance
+                             to the next front face  behind; NULL: none known */
     const float *normals; /* xyz a pixel, view space, full size */
     float projection[16];
     double radius, power;

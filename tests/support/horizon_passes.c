@@ -122,9 +122,16 @@ enum {
     TESTS
 };
 
+/* Five taps in a row, and how much darker than its neighbours the middle one may be if nothing joins it. */
+typedef struct row {
+    texel taps[5];
+    double alone;
+} row;
+
 static double blurred(const truth *t, const void *user)
 {
-    const texel *taps = user;
+    const row *r = user;
+    const texel *taps = r->taps;
     double weights[5] = {0.0, 0.0, 1.0, 0.0, 0.0};
     weights[0] = t[LINE_BEFORE] && t[JOINS_BEFORE_2] ? 0.5 : 0.0; /* half of it lies outside the tile */
     weights[1] = t[JOINS_BEFORE] && (t[LINE_BEFORE] || t[LINE]) ? 1.0 : 0.0;
@@ -139,13 +146,15 @@ static double blurred(const truth *t, const void *user)
         sum += weights[i] * taps[i].value;
         total += weights[i];
     }
-    return sum / total;
+    const bool is_alone = weights[1] + weights[3] == 0.0;
+    return is_alone ? fmax(sum / total, fmin(taps[1].value, taps[3].value) - r->alone) : sum / total;
 }
 
 void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic, const pass_constants *constants,
                        int x, int y, double *out_low, double *out_high)
 {
-    texel taps[5];
+    row r = {.alone = constants->alone};
+    texel *taps = r.taps;
     for (int i = 0; i < 5; ++i)
         taps[i] = texel_at(map, horizontal ? x + i - 2 : x, horizontal ? y : y + i - 2);
     const double tolerance = fmax(in_linear(constants->tolerance, taps[2].linear, orthographic),
@@ -164,7 +173,7 @@ void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic
     tests[NEAR_AFTER] = is_near(taps[3].linear, taps[2].linear, near);
     *out_low = HUGE_VAL;
     *out_high = -HUGE_VAL;
-    each_outcome(tests, TESTS, blurred, taps, out_low, out_high);
+    each_outcome(tests, TESTS, blurred, &r, out_low, out_high);
 }
 
 enum { ON_ROW, ON_COLUMN, JOINS_AROUND, WIDE_TESTS = JOINS_AROUND + 4 };
@@ -243,6 +252,22 @@ static double upsampled(const truth *t, const void *user)
     return count > 0.0 ? sum / count : any_joins ? nearest(t, f) : all;
 }
 
+/* Which of the four texels count as not turned away, by the lines through them. */
+static void joins_by_lines(const four *f, bool orthographic, const pass_constants *constants, const full_pixel *own,
+                           double tolerance, truth out[4])
+{
+    double fall[4], error[4], least = HUGE_VAL, least_error = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        const double off = 2.0 * f->at[i].linear - own->beyond[i] - own->linear;
+        fall[i] = orthographic ? -off : off;
+        error[i] = 0x1p-22 * (2.0 * fabs(f->at[i].linear) + fabs(own->beyond[i]) + fabs(own->linear));
+        least = fmin(least, fabs(off));
+        least_error = fmax(least_error, error[i]);
+    }
+    for (int i = 0; i < 4; ++i)
+        out[i] = is_below(fall[i], error[i] + constants->fall * least_error, constants->fall * least + tolerance);
+}
+
 void upsample_model(const paired_map *half, bool orthographic, const pass_constants *constants, const full_pixel *own,
                     int x, int y, double *out_low, double *out_high)
 {
@@ -250,15 +275,21 @@ void upsample_model(const paired_map *half, bool orthographic, const pass_consta
     four f = {.error = 8.0 * 0x1p-24 * fabs(own->linear)};
     truth tests[UPSAMPLE_TESTS];
     double mean = 0.0, normal[2];
-    project(own->normal, constants->normal_step, normal);
+    const double tolerance = fmax(in_linear(constants->tolerance, own->linear, orthographic),
+                                  step_in_linear(0.5, own->linear, orthographic, constants));
+    if (own->normal)
+        project(own->normal, constants->normal_step, normal);
     for (int i = 0; i < 4; ++i) {
         const int way_x = (i % 2 ? 1 : -1) * (x % 2), way_y = (i / 2 ? 1 : -1) * (y % 2);
         f.at[i] = texel_at(half, x / 2 + (i % 2) * (x % 2), y / 2 + (i / 2) * (y % 2));
         f.apart[i] = fabs(f.at[i].linear - own->linear);
-        tests[JOINS_0 + i] = way_x || way_y ? joins(normal, f.at[i].normal, way_x, way_y, 1e-2, constants) : YES;
+        if (own->normal)
+            tests[JOINS_0 + i] = way_x || way_y ? joins(normal, f.at[i].normal, way_x, way_y, 1e-2, constants) : YES;
         tests[NEAR_0 + i] = is_below(f.apart[i], f.error, in_linear(constants->near, own->linear, orthographic));
         mean += 0.25 * (f.at[i].linear - own->linear);
     }
+    if (!own->normal)
+        joins_by_lines(&f, orthographic, constants, own, tolerance, tests + JOINS_0);
     /* If all four face one way, the pixel is taken to face the same way. */
     const int *first = f.at[0].normal;
     bool all_alike = true;
@@ -266,9 +297,7 @@ void upsample_model(const paired_map *half, bool orthographic, const pass_consta
         all_alike = all_alike && f.at[i].normal[0] == first[0] && f.at[i].normal[1] == first[1];
     for (int i = 0; all_alike && i < 4; ++i)
         tests[JOINS_0 + i] = YES;
-    tests[ON_PLANE] = is_below(fabs(mean), f.error + 4.0 * 0x1p-24 * fabs(mean),
-                               fmax(in_linear(constants->tolerance, own->linear, orthographic),
-                                    step_in_linear(0.5, own->linear, orthographic, constants)));
+    tests[ON_PLANE] = is_below(fabs(mean), f.error + 4.0 * 0x1p-24 * fabs(mean), tolerance);
     *out_low = HUGE_VAL;
     *out_high = -HUGE_VAL;
     for (int i = 0; i < 2; ++i) {

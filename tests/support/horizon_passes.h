@@ -17,8 +17,10 @@ typedef struct paired_map {
 
 typedef struct pass_constants {
     double tolerance, near, hollow; /* scene units; used by the last of the later blur rounds only */
+    double alone;                   /* accessibility that a pixel without taps may be darker by than its neighbours */
     double chord;                   /* between two unit normals on different sides of a crease */
     double normal_step;
+    double fall;          /* upsampling without normals: see upsample_model */
     double depth_step[3]; /* step of the depth format at view distance t: coefficients of 1, t and t^2 */
 } pass_constants;
 
@@ -28,9 +30,14 @@ void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic
 void wide_blur_model(const paired_map *map, bool orthographic, const pass_constants *constants, int x, int y,
                      double *out_low, double *out_high);
 
-/* Linear quantity and unit normal of the full-size pixel. */
+/* A full-size pixel: its linear quantity; with a normal map its unit normal; without, the linear quantity beyond each
+ * of the four half-size texels about it, seen from the pixel, as far again. Without normals a texel does not count
+ * where the line through it and what lies beyond passes above the pixel by more than `tolerance` and `fall` times the
+ * best texel's. */
 typedef struct full_pixel {
-    double linear, normal[3];
+    double linear;
+    const double *normal; /* NULL: no normal map */
+    double beyond[4];
 } full_pixel;
 
 void upsample_model(const paired_map *half, bool orthographic, const pass_constants *constants, const full_pixel *own,

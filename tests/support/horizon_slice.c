@@ -106,8 +106,7 @@ static void add_sample(const point *p, const slice *s, const side *d, const cand
                   .maybe_outside = beyond.low <= 0.0 || above.low <= 0.0 || x.high >= 1.0 - 4.0 * ROUNDING};
     here.chord = (interval){sqrt(fmax(1.0 - here.outward.high * here.outward.high - square_error, 0.0)),
                             sqrt(fmax(1.0 - here.outward.low * here.outward.low + square_error, 0.0))};
-    rounded thickness = multiply(multiply(once_rounded(c->width), width), at->step);
-    thickness = multiply(thickness, once_rounded(p->in->thickness));
+    rounded thickness = multiply(multiply(s->run_width, width), at->step);
     if (p->in->layers) {
         interval second = bounds(subtract(at->y, at->behind));
         second = (interval){fmin(second.low, here.chord.low), fmin(second.high, here.chord.high)};
@@ -115,13 +114,19 @@ static void add_sample(const point *p, const slice *s, const side *d, const cand
         const double error = 4.0 * ROUNDING * fmax(fabs(second.low), fabs(second.high));
         (void)hide_between(s, d, &here, second,
                            (interval){second.low - deep.high - error, second.high - deep.low + error}, h);
-        thickness = at->thickness.v >= 0.0 ? at->thickness : thickness;
+        const rounded known_part = {-at->thickness.v, at->thickness.e};
+        thickness = at->thickness.v > 0.0 ? at->thickness : thickness.v > known_part.v ? thickness : known_part;
     }
     const interval t = hide_between(s, d, &here, y, bounds(subtract(at->y, thickness)), h);
+    const interval lowest = bounds(d->lowest);
+    const interval far = {lowest.low + c->veil_far * (t.low - lowest.low) - 4.0 * ROUNDING,
+                          lowest.high + c->veil_far * (t.high - lowest.high) + 4.0 * ROUNDING};
     if (thickness.v + thickness.e > c->veil_width)
-        h->highest.high = fmax(h->highest.high, t.high);
+        h->highest.high =
+            fmax(h->highest.high, y.low < fmax(c->veil_reach, thickness.v + thickness.e) ? t.high : far.high);
     if (thickness.v - thickness.e > c->veil_width && !here.maybe_outside)
-        h->highest.low = fmax(h->highest.low, t.low);
+        h->highest.low =
+            fmax(h->highest.low, y.high < fmax(c->veil_reach, thickness.v - thickness.e) ? t.low : far.low);
 }
 
 /* Both outcomes of each undecided test. */

@@ -35,6 +35,7 @@ typedef struct slice {
     rounded step_px[2]; /* the radius along the slice, in pixels */
     rounded x_per_px[2], y_per_px[2];
     rounded cos_g, sin_g, projected;
+    rounded run_width;          /* thickness of a run, in units of its width */
     rounded total, total_minus; /* measure of the whole slice, and of its minus side */
     double jitter;
 } slice;
@@ -43,7 +44,7 @@ typedef struct slice {
  * a step there. */
 typedef struct candidate {
     rounded x, y, step;
-    rounded thickness, behind; /* of the layers, if any; thickness is negative if unknown */
+    rounded thickness, behind; /* of the layers, if any; thickness not above 0: minus the least that it is */
     bool sky;
 } candidate;
 

@@ -42,14 +42,14 @@ static void collect(const glssao__request *request, const glssao__schedule *sche
 static void collect_apply(void)
 {
     for (int image = 0; image <= IMAGE_R11F_G11F_B10F; ++image)
-        for (int i = 0; i < (image ? 4 : 8) && program_count < MOST_PROGRAMS; ++i) {
+        for (int i = 0; i < (image ? 6 : 12) && program_count < MOST_PROGRAMS; ++i) {
             struct program *p = &programs[program_count++];
             *p = (struct program){.shader = SHADER_APPLY};
             p->variant.values[MACRO_COMPUTE] = image > 0;
             p->variant.values[MACRO_IMAGE] = (uint8_t)image;
-            p->variant.values[MACRO_STRENGTH] = i & 1;
-            p->variant.values[MACRO_ALBEDO] = i >> 1 & 1;
-            p->variant.values[MACRO_TINTED] = (uint8_t)(i >> 2);
+            p->variant.values[MACRO_STRENGTH] = (uint8_t)(i % 3);
+            p->variant.values[MACRO_ALBEDO] = (uint8_t)(i / 3 % 2);
+            p->variant.values[MACRO_TINTED] = (uint8_t)(i / 6);
         }
 }
 

@@ -235,8 +235,10 @@ typedef enum glssao_map_id { /* textures to look at */
     GLSSAO_MAP_NORMAL,        /* the effect's own normal map, RGBA16F, full size */
     GLSSAO_MAP_RANDOM_VECTOR, /* RGBA8, 256 x 256 */
     GLSSAO_MAP_DEPTH,         /* the host's depth texture as last handed over; 0 before the first */
-    GLSSAO_MAP_TILES          /* R32F, one texel for each tile: its distance in tiles from the nearest one that was estimated,
+    GLSSAO_MAP_TILES,         /* R32F, one texel for each tile: its distance in tiles from the nearest one that was estimated,
                                  over 16; 0 for an estimated one. No texture where the last frame had no tiles */
+    GLSSAO_MAP_REBUILT_NORMAL /* normals that the last frame without a normal map rebuilt from depth: RG32F, octahedral, view
+                                 space, at the estimate's size. No texture before one */
 } glssao_map_id;
 
 /* The uniform block cbSsao, std140, with the D3D12 demo's members and names. Matrices are column-major. */

@@ -19,7 +19,9 @@ glssao__variant glssao__apply_variant(const glssao__apply_job *job)
     glssao__variant variant = {{0}};
     variant.values[MACRO_COMPUTE] = job->image.texture != 0;
     variant.values[MACRO_IMAGE] = (uint8_t)(job->image.texture ? job->image.kind : 0);
-    variant.values[MACRO_STRENGTH] = job->strength_texture != 0;
+    variant.values[MACRO_STRENGTH] = job->strength_texture    ? STRENGTH_TEXTURE
+                                     : job->intensity != 1.0f ? STRENGTH_UNIFORM
+                                                              : STRENGTH_FULL;
     variant.values[MACRO_ALBEDO] = job->albedo_texture != 0;
     variant.values[MACRO_TINTED] = !job->image.texture && !job->show && !is_black(job->color);
     return variant;

@@ -31,8 +31,6 @@ glssao__region glssao__region_of(const glssao__choice *c, glssao_pass pass)
     switch (pass) {
     case GLSSAO_PASS_INPUTS:
         return whole(c->size);
-    case GLSSAO_PASS_NORMALS:
-        return grown(glssao__region_inner(c->size, c->margin), c->factor * c->reach, c->size);
     case GLSSAO_PASS_DISTANCE: /* occluders are looked for in the margin too */
     case GLSSAO_PASS_TILES:
         return whole(c->estimate);

@@ -79,7 +79,8 @@ bool glssao__choose_dispatches(const glssao__capabilities *can)
 
 static bool can_be_dispatched(const glssao__choice *c, glssao_pass pass)
 {
-    return pass == GLSSAO_PASS_DISTANCE || pass == GLSSAO_PASS_BLUR || pass == GLSSAO_PASS_UPSAMPLE ||
+    return pass == GLSSAO_PASS_NORMALS || pass == GLSSAO_PASS_DISTANCE || pass == GLSSAO_PASS_BLUR ||
+           pass == GLSSAO_PASS_UPSAMPLE ||
            (pass == GLSSAO_PASS_ESTIMATE && c->is_horizon && !c->accumulates); /* a sum is added to by blending */
 }
 
@@ -172,9 +173,9 @@ static void choose_inputs(glssao__choice *c, const glssao__request *q)
 {
     const glssao_frame *frame = q->frame;
     const bool in_alpha = frame->depth_kind == GLSSAO_DEPTH_NORMAL_ALPHA;
-    c->normals = !frame->normal_texture ? MAP_NORMAL : c->copies[HOST_NORMAL] ? MAP_NORMAL_COPY : MAP_HOST_NORMAL;
+    c->normals = !frame->normal_texture ? MAP_REBUILT : c->copies[HOST_NORMAL] ? MAP_NORMAL_COPY : MAP_HOST_NORMAL;
     c->depth = in_alpha ? c->normals : c->copies[HOST_DEPTH] ? MAP_DEPTH_COPY : MAP_HOST_DEPTH;
-    c->inputs.values[MACRO_NORMALS] = frame->normal_texture ? (uint8_t)frame->normal_kind : NORMALS_SIGNED;
+    c->inputs.values[MACRO_NORMALS] = frame->normal_texture ? (uint8_t)frame->normal_kind : NORMALS_REBUILT;
     const bool is_window = glssao__projection_reads_window_depth(frame, q->is_oblique);
     c->inputs.values[MACRO_DEPTH] = in_alpha ? DEPTH_ALPHA : is_window ? DEPTH_WINDOW : DEPTH_DISTANCE;
     c->inputs.values[MACRO_TURNED] = q->is_turned || (frame->normal_texture && frame->world_normals);

@@ -97,7 +97,8 @@ void glssao__add_upsample(glssao__builder *b)
         glssao__build_map(b, MAP_BLOCKS, "block", GL_RGBA16, b->c.estimate);
     glssao__step *step = glssao__build_step(b, GLSSAO_PASS_UPSAMPLE, compute ? SHADER_PLANAR_TILE : SHADER_UPSAMPLE,
                                             compute ? MAP_RESULT : MAP_BLOCKS);
-    glssao__build_point(step, UNIT_NORMAL, b->c.normals);
+    if (b->c.normals != MAP_REBUILT) /* these have the estimate's size */
+        glssao__build_point(step, UNIT_NORMAL, b->c.normals);
     glssao__build_point(step, UNIT_DEPTH, b->c.depth);
     glssao__build_point(step, UNIT_AMBIENT, from);
     glssao__build_set(step, MACRO_UPSAMPLE, 1);

@@ -31,8 +31,8 @@ static void add_copies(glssao__builder *b)
 
 static void add_normals(glssao__builder *b)
 {
-    glssao__build_map(b, MAP_NORMAL, "normal", GL_RGBA16F, b->c.size);
-    glssao__step *step = glssao__build_step(b, GLSSAO_PASS_NORMALS, SHADER_NORMALS, MAP_NORMAL);
+    glssao__build_map(b, MAP_REBUILT, "rebuilt normal", GL_RG32F, b->c.estimate);
+    glssao__step *step = glssao__build_step(b, GLSSAO_PASS_NORMALS, SHADER_NORMALS, MAP_REBUILT);
     step->region = glssao__region_of(&b->c, GLSSAO_PASS_NORMALS);
     glssao__build_point(step, UNIT_DEPTH, b->c.depth);
     glssao__build_finish(b, step);

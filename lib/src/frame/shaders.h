@@ -36,7 +36,7 @@ enum glssao__shader {
 /* X(macro, its largest value). Every macro is defined in every shader, as 0 where the shader does not test it. */
 #define GLSSAO__MACROS(X)                                                                                              \
     X(COMPUTE, 1)         /* the pass is dispatched, not drawn */                                                      \
-    X(NORMALS, 2)         /* how the host stores normals: signed, unsigned, octahedral */                              \
+    X(NORMALS, 3)         /* how normals are stored: signed, unsigned, octahedral, rebuilt */                          \
     X(DEPTH, 2)           /* how it stores depth: window depth, view distance, view distance in alpha */               \
     X(TURNED, 1)          /* stored normals lie in another space than the passes compute in */                         \
     X(RADIUS_GROWS, 1)    /* the radius grows with view distance: it counts pixels, in perspective */                  \
@@ -57,7 +57,7 @@ enum glssao__shader {
     X(OBLIQUE, 1)         /* input: window depth under an oblique near plane */                                        \
     X(PLANES, 1)          /* tiles: those that lie in a plane are open too */                                          \
     X(FROM_DEPTH, 1)      /* tiles, open: occluders are looked up in the depth map, not in the distance map */         \
-    X(STRENGTH, 1)        /* apply: the host weights pixels */                                                         \
+    X(STRENGTH, 2)        /* apply: what weights occlusion: nothing, a uniform, a texture too */                       \
     X(ALBEDO, 1)          /* apply: light that bounces between surfaces is added */                                    \
     X(TINTED, 1)          /* apply: the blender needs the occluded part, not the open one */                           \
     X(IMAGE, 6)           /* apply, dispatched: the format of the target, IMAGE_RGBA8 and so on */

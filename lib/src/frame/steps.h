@@ -37,6 +37,7 @@ enum glssao__map {
     MAP_BACK_COPY,
     MAP_SECOND_COPY,
     MAP_NORMAL,
+    MAP_REBUILT,   /* normals from depth, at the estimate's size (normals.frag) */
     MAP_DISTANCE,  /* view distance; with layers also thickness and second layer (distance.frag) */
     MAP_TILE_ROWS, /* bounds, as tile_rows.frag writes them */
     MAP_TILE_BOUNDS,
