@@ -65,6 +65,7 @@ static void assert_same(fixture *f, const glssao_frame *plain, const glssao_fram
         if (!effect)
             continue;
         configuration c = configuration_of(numbers[i / PATHS]);
+        c.settings = settings_scaled(&c.settings, 2.0);                    /* more occlusion */
         c.settings.tiles = i % PATHS ? GLSSAO_TILES_OFF : GLSSAO_TILES_ON; /* the bounds of tiles read distances too */
         picture a = shade(f, effect, plain, &c.settings), b = shade(f, effect, other, &c.settings);
         assert_true(a.width == b.width && a.height == b.height && picture_mean(&a) < 0.999);
@@ -290,6 +291,7 @@ static void far_fades_follow_the_hosts_eye(void **state)
         subject s = room(ORTHOGRAPHIC);
         glssao_frame frame = subject_frame(&s, DEPTH_32F, NORMAL_32F);
         glssao_settings settings = glssao_default_settings(i % 2 ? GLSSAO_HORIZON : GLSSAO_HEMISPHERE, GLSSAO_HIGH);
+        settings.radius = 2.0f;
         picture without = shade(*state, effects[0], &frame, &settings);
         settings.fade_far_start = 5.0f;
         settings.fade_far_end = 9.0f;
