@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # make-load-times.sh GLSSAO_RENDER WORK_FOLDER: times glssao-render and F3D on files of 10 million triangles, with and without
-# normals, side by side, and writes docs/data/load-times.tsv. Needs f3d, xvfb, python3 and GNU time. Seconds are the least of
-# three runs. F3D loads alone with --no-render; glssao-render tells its loading time in --stats.
+# normals, and of two 8192 x 8192 textures, as PNG and as JPEG, side by side, and writes docs/data/load-times.tsv. Needs f3d, xvfb,
+# python3, ImageMagick and GNU time. Seconds are the least of three runs. F3D loads alone with --no-render.
 set -euo pipefail
 render=$(realpath "$1") work=$2
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -47,6 +47,44 @@ with open(sys.argv[2], 'wb') as file:
 PYTHON
 done
 
+# Two quads, each with a texture of its own.
+for kind in png jpg; do
+    [ -f textures-$kind.glb ] || python3 - $kind textures-$kind.glb <<'PYTHON'
+import array, json, struct, subprocess, sys, zlib
+kind, n = sys.argv[1], 8192
+chunk = lambda name, data: struct.pack('>I', len(data)) + name + data + struct.pack('>I', zlib.crc32(name + data))
+def picture(turn):
+    wave = bytes((x * 7 + turn * 50 + (x >> 4) * 31) & 255 for x in range(3 * n))
+    pack, rows = zlib.compressobj(1), b''
+    for y in range(n):
+        rows += pack.compress(b'\0' + wave[3 * (y // 3 % n):] + wave[:3 * (y // 3 % n)])
+    png = b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', struct.pack('>IIBBBBB', n, n, 8, 2, 0, 0, 0))
+    png += chunk(b'IDAT', rows + pack.flush()) + chunk(b'IEND', b'')
+    return png if kind == 'png' else subprocess.run(['convert', 'png:-', '-quality', '90', 'jpg:-'], input=png, check=True,
+                                                    capture_output=True).stdout
+parts = [array.array('f', (-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0)).tobytes(),
+         array.array('f', (0, 1, 1, 1, 1, 0, 0, 0)).tobytes(), array.array('I', (0, 1, 2, 0, 2, 3)).tobytes(), picture(0), picture(1)]
+views, data = [], b''
+for part in parts:
+    views.append({'buffer': 0, 'byteOffset': len(data), 'byteLength': len(part)})
+    data += part + b'\0' * (-len(part) % 4)
+accessors = [{'bufferView': 0, 'componentType': 5126, 'type': 'VEC3', 'count': 4, 'min': [-1, -1, 0], 'max': [1, 1, 0]},
+             {'bufferView': 1, 'componentType': 5126, 'type': 'VEC2', 'count': 4},
+             {'bufferView': 2, 'componentType': 5125, 'type': 'SCALAR', 'count': 6}]
+quads = [{'primitives': [{'attributes': {'POSITION': 0, 'TEXCOORD_0': 1}, 'indices': 2, 'material': i}]} for i in (0, 1)]
+text = json.dumps({'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': [0, 1]}], 'meshes': quads,
+                   'nodes': [{'mesh': i, 'translation': [2.1 * i, 0, 0]} for i in (0, 1)],
+                   'materials': [{'pbrMetallicRoughness': {'baseColorTexture': {'index': i}}} for i in (0, 1)],
+                   'textures': [{'source': i} for i in (0, 1)], 'accessors': accessors, 'bufferViews': views,
+                   'images': [{'bufferView': 3 + i, 'mimeType': 'image/png' if kind == 'png' else 'image/jpeg'} for i in (0, 1)],
+                   'buffers': [{'byteLength': len(data)}]}).encode()
+text += b' ' * (-len(text) % 4)
+with open(sys.argv[2], 'wb') as file:
+    file.write(b'glTF' + struct.pack('<II', 2, 28 + len(text) + len(data)) + struct.pack('<I', len(text)) + b'JSON' + text +
+               struct.pack('<I', len(data)) + b'BIN\0' + data)
+PYTHON
+done
+
 # Least seconds, processor seconds and largest MiB of three runs of a command.
 measure() {
     for _ in 1 2 3; do
@@ -59,13 +97,14 @@ measure() {
 {
     printf '# docs/make-load-times.sh build/examples/render/glssao-render /tmp/load-times\n'
     printf 'file\tprogram\tseconds\tprocessor_seconds\tmib\n'
-    for normals in 1 0; do
-        file=grid-$normals.glb
+    for file in grid-1.glb grid-0.glb textures-png.glb textures-jpg.glb; do
         printf '%s\tf3d --no-render\t%s\n' $file "$(measure f3d --no-render $file)"
         printf '%s\tf3d\t%s\n' $file "$(measure xvfb-run -a f3d $file --output=f3d.png --resolution=640,360)"
+        printf '%s\tf3d --ssao\t%s\n' $file "$(measure xvfb-run -a f3d --ssao $file --output=f3d.png --resolution=640,360)"
         printf '%s\tglssao-render --no-ao --no-shadows\t%s\n' $file \
             "$(measure "$render" -s 640x360 --no-ao --no-shadows -o a.png --stats stats.json $file)"
         printf '%s\tglssao-render, loading\t%s\t\t\n' $file "$(awk -F'[:,]' '/"load"/ { for (i = 1; i < NF; i++) if ($i ~ /"load"/) printf "%.2f", $(i + 1) / 1000 }' stats.json)"
+        printf '%s\tglssao-render --no-shadows\t%s\n' $file "$(measure "$render" -s 640x360 --no-shadows -o a.png $file)"
         printf '%s\tglssao-render\t%s\n' $file "$(measure "$render" -s 640x360 -o a.png $file)"
     done
 } >"$table.part"

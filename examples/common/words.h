@@ -7,8 +7,10 @@
 
 #include <stddef.h>
 
-/* In the order of glssao_technique, glssao_quality, glssao_blur, glssao_tiles and glssao_path. */
+/* In the order of glssao_technique (those of screen space, and with rays), glssao_quality, glssao_blur, glssao_tiles
+ * and glssao_path. */
 #define TECHNIQUE_WORDS "classic|hemisphere|horizon"
+#define ALL_TECHNIQUE_WORDS TECHNIQUE_WORDS "|rays"
 #define QUALITY_WORDS "low|medium|high|ultra"
 #define BLUR_WORDS "none|gaussian|bilateral|box|planar"
 #define TILES_WORDS "auto|off|on"

@@ -30,6 +30,7 @@ typedef struct options {
     option_pair fade_far;
     option_vector eye, target, up, sky_up;
     int sample_count;  /* 0: the default of the quality */
+    int rays;          /* a traced pixel; 0: the default of the quality with -t rays, none with another technique */
     int blur_rounds;   /* -1: the default of the quality */
     int margin;        /* pixels on each side */
     int layers;        /* 1 or 2; 0: not given */
@@ -62,7 +63,7 @@ typedef enum options_depth { OPTIONS_DEPTH_DISTANCE, OPTIONS_DEPTH_WINDOW, OPTIO
 typedef enum options_program { OPTIONS_RENDER, OPTIONS_JOB, OPTIONS_VIEWER } options_program;
 
 /* A value of options.technique after those of glssao_technique. */
-enum { OPTIONS_RAYTRACE = GLSSAO_HORIZON + 1 };
+enum { OPTIONS_RAYTRACE = GLSSAO_RAYS + 1 };
 
 #define OPTIONS_MAP_WORDS "none|ao|normals|depth|random|shadow|tiles"
 /* Values of options.debug_map. The shadow map exists only if the scene has one. */

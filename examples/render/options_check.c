@@ -117,6 +117,16 @@ static bool check_together(const options *o, bool is_viewer, failure *why)
     float angles[2];
     if (traced && !GLSSAO_HAS_EMBREE)
         return fault_set(why, "--technique raytrace: this glssao-render was built without Embree");
+    if ((o->rays || o->technique == GLSSAO_RAYS) && !GLSSAO_HAS_EMBREE)
+        return fault_set(why, "--%s: this glssao-render was built without Embree", o->rays ? "rays" : "technique rays");
+    if (o->rays && (traced || o->no_ao))
+        return fault_set(why, "--rays %d and --%s cannot be used together", o->rays,
+                         traced ? "technique raytrace" : "no-ao");
+    if (o->rays && (o->error.given || o->budget_ms.given))
+        return fault_set(why, "--rays %d and --%s cannot be used together: a mean of many estimates needs no rays",
+                         o->rays, o->error.given ? "error" : "budget");
+    if (o->technique == GLSSAO_RAYS && o->sample_count)
+        return fault_set(why, "--samples %d: --rays sets how many rays are traced", o->sample_count);
     if (traced && o->bench)
         return fault_set(why,
                          "--technique raytrace and --bench %d cannot be used together; --stats reports rays per second",
@@ -178,6 +188,8 @@ static bool check_together(const options *o, bool is_viewer, failure *why)
         return fault_set(why, "--eye and --target are the same point");
     if (o->sky_up.given && o->sky_up.value[0] == 0 && o->sky_up.value[1] == 0 && o->sky_up.value[2] == 0)
         return fault_set(why, "--sky-up 0,0,0: has no direction");
+    if (is_viewer && o->technique == GLSSAO_RAYS)
+        return fault_set(why, "--technique rays: the viewer traces no rays while the view moves");
     if (is_viewer && traced)
         return fault_set(why, "--technique raytrace: the viewer shows ray-traced accessibility with the keys T and Y");
     if (!file_wanted)

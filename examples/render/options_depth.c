@@ -67,6 +67,8 @@ bool options_check_depth_map(const options *start, const options *o, options_pro
     if (o->scene_path || o->scene_name)
         return fault_set(why, "--depth-in %s and the scene %s cannot be used together", o->depth_in,
                          o->scene_path ? o->scene_path : o->scene_name);
+    if (o->rays)
+        return fault_set(why, "--rays %d: a depth map has no scene to trace", o->rays);
     if (o->technique > GLSSAO_HORIZON)
         return fault_set(why, "--technique: a depth map takes " TECHNIQUE_WORDS);
     if (!o->output && !o->ao)

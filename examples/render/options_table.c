@@ -31,8 +31,9 @@ static const option table[] = {
      "WxH with sides from 1 to 16384", SCOPE_PICTURE},
     {'q', "quality", "NAME", "low, medium, high or ultra (default high)", OPTION_WORD, AT(quality), 0, 0, QUALITY_WORDS,
      SCOPE_PICTURE},
-    {'t', "technique", "NAME", "classic, hemisphere, horizon or raytrace (default horizon)", OPTION_WORD, AT(technique),
-     0, 0, TECHNIQUE_WORDS "|raytrace", SCOPE_PICTURE},
+    {'t', "technique", "NAME",
+     "classic, hemisphere, horizon, rays (a few, denoised) or raytrace (many, in every pixel) (default horizon)",
+     OPTION_WORD, AT(technique), 0, 0, ALL_TECHNIQUE_WORDS "|raytrace", SCOPE_PICTURE},
     {0, "radius", "R", "largest distance of an occluder, in scene units (default: 1/20 of the scene's diagonal)",
      OPTION_NUMBER, AT(radius), 0, 1e11, "a number from 0 to 1e11", SCOPE_PICTURE},
     {0, "radius-in-pixels", NULL, "let --radius count pixels of the picture, at any distance (default radius: 32)",
@@ -48,6 +49,11 @@ static const option table[] = {
     {0, "samples", "N",
      "samples a pixel: classic 1 to 14, hemisphere 1 to 64, horizon 12, 16, 24, 32, 48 or 64, raytrace rays (512)",
      OPTION_INT, AT(sample_count), 1, 65536, "a whole number from 1 to 65536", SCOPE_PICTURE},
+    {0, "rays", "N",
+     "trace N rays from each pixel of the estimate, 1 to 64: all of it with -t rays (default 2 to 8, by quality), and "
+     "a "
+     "correction with another technique (default none)",
+     OPTION_INT, AT(rays), 1, 64, "a whole number from 1 to 64", SCOPE_RENDERED},
     {0, "blur-rounds", "N", "rounds of blur, 0 to 16", OPTION_INT, AT(blur_rounds), 0, 16,
      "a whole number from 0 to 16", SCOPE_PICTURE},
     {0, "error", "E", "horizon: accumulate estimates until their sampling error is at most E", OPTION_NUMBER, AT(error),

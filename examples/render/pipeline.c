@@ -8,6 +8,7 @@
 #include "camera.h"
 #include "map_view.h"
 #include "setting_table.h"
+#include "stop.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -40,6 +41,8 @@ glssao_settings pipeline_settings_at(const options *o, float radius)
         settings.power = o->power.value;
     if (o->sample_count)
         settings.sample_count = o->sample_count;
+    if (o->technique == GLSSAO_RAYS && o->rays)
+        settings.sample_count = o->rays;
     if (o->blur_rounds >= 0)
         settings.blur_rounds = o->blur_rounds;
     if (o->set) {
@@ -138,6 +141,12 @@ bool pipeline_surround(pipeline *p, const stage *st, const char *path, failure *
     return true;
 }
 
+/* Pixels to one that rays are traced from: as many as to one of the estimate. */
+static int ray_step(const pipeline *p)
+{
+    return p->settings.half_resolution ? 2 : 1;
+}
+
 bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_user, const options *o,
                       pipeline_wants wants, failure *why)
 {
@@ -168,6 +177,10 @@ bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_us
     p->debug_map = (options_map)o->debug_map;
     if (!scene_renderer_configure(p->renderer, &p->lighting, &p->draw_options, why->text, why->size))
         return false;
+    p->ray_count = o->technique == GLSSAO_RAYS ? p->settings.sample_count : o->rays;
+    if (wants.rays && (!stage_trace(st, why) || !rays_open(&p->rays, p->width, p->height, ray_step(p), why)))
+        return false;
+    p->traced = st->traced;
     if (wants.traced && (!stage_trace(st, why) || !truth_open(&p->truth, st->traced, o->width, o->height, why)))
         return false;
     if (!prepare_effect(p, load, load_user, o, why))
@@ -180,13 +193,14 @@ bool pipeline_create(pipeline *p, const scene *s, glssao_load_fn load, void *loa
                      pipeline_wants wants, failure *why)
 {
     *p = (pipeline){.margin = 0};
-    return stage_open(&p->own, s, NULL, why) && pipeline_prepare(p, &p->own, load, load_user, o, wants, why);
+    return stage_open(&p->own, s, why) && pipeline_prepare(p, &p->own, load, load_user, o, wants, why);
 }
 
 void pipeline_destroy(pipeline *p)
 {
     glssao_destroy(p->kept);
     truth_close(&p->truth);
+    rays_close(&p->rays);
     if (p->renderer) {
         drop_environment(p);
         pipeline_free_targets(p);
@@ -237,7 +251,8 @@ glssao_frame pipeline_frame(const pipeline *p, const scene_view *view)
                           .margin = p->margin,
                           .back_texture = p->draw_options.layers ? p->layers[0] : 0,
                           .second_texture = p->draw_options.layers ? p->layers[1] : 0,
-                          .normal_texture = glssao_map(p->effect, GLSSAO_MAP_NORMAL, NULL, NULL)};
+                          .normal_texture = glssao_map(p->effect, GLSSAO_MAP_NORMAL, NULL, NULL),
+                          .rays_texture = p->wants.rays ? p->rays.texture : 0};
     memcpy(frame.projection, view->clip_from_view, sizeof frame.projection);
     const scene_seen seen = scene_find_seen(p->renderer, view);
     frame.only_sky = seen.opaque == 0;
@@ -245,6 +260,27 @@ glssao_frame pipeline_frame(const pipeline *p, const scene_view *view)
     frame.no_ambient_light =
         p->wants.picture && !p->wants.ao_map && (seen.lit == 0 || !scene_lighting_has_ambient(&p->lighting));
     return frame;
+}
+
+static bool is_stopped(void *user)
+{
+    (void)user;
+    return stop_signal();
+}
+
+static bool trace_rays(pipeline *p, const scene_view *view, int index, failure *why)
+{
+    const rays_job job = {.renderer = p->renderer,
+                          .depth = p->depth,
+                          .normals = glssao_map(p->effect, GLSSAO_MAP_NORMAL, NULL, NULL),
+                          .view = view,
+                          .margin = p->margin,
+                          .step = ray_step(p),
+                          .options = {.radius = p->settings.radius,
+                                      .samples = p->ray_count,
+                                      .seed = p->seed + (uint32_t)index * 0x9e3779b9u,
+                                      .stopped = is_stopped}};
+    return rays_trace(&p->rays, p->traced, &job, why);
 }
 
 /* Finds accessibility for one of `count` samples of a pixel. The picture shows their mean. So each sample gets its
@@ -256,6 +292,8 @@ static bool find_accessibility(pipeline *p, const scene_view *view, int index, i
         share.sample_count = (share.sample_count + count - 1) / count;
         return truth_trace(&p->truth, view, &share, p->seed + (uint32_t)index * 0x9e3779b9u, why);
     }
+    if (p->wants.rays && pipeline_runs_occlusion(p, view) && !trace_rays(p, view, index, why))
+        return false;
     const glssao_frame frame = pipeline_frame(p, view);
     if (p->goal.error <= 0 && p->goal.budget_ms <= 0)
         return pipeline_check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", why);

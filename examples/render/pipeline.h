@@ -12,6 +12,7 @@
 #include "options.h"
 #include "pixel_kind.h"
 #include "progressive.h"
+#include "rays.h"
 #include "report.h"
 #include "samples.h"
 #include "scene.h"
@@ -23,7 +24,8 @@ typedef struct pipeline_wants {
     bool picture;    /* the main pass */
     bool ao_map;     /* accessibility is read back or shown */
     bool ao;         /* accessibility, from the occlusion passes or: */
-    bool traced;     /* from rays */
+    bool traced;     /* from rays through each pixel, without occlusion passes */
+    bool rays;       /* a few rays from the pre-pass's surfaces go into the occlusion passes */
     bool prepass;    /* depth */
     bool maps;       /* a map is read back or shown in the picture's corner */
     int samples;     /* for each pixel of the picture */
@@ -47,6 +49,9 @@ typedef struct pipeline {
     glssao_path kept_path;
     uint32_t seed;
     truth truth; /* only if wants.traced */
+    rays rays;   /* only if wants.rays */
+    const trace_scene *traced;
+    int ray_count; /* from each traced pixel */
     glssao_settings settings;
     progressive_goal goal; /* all 0: one estimate with the settings */
     progressive_report reached;

@@ -155,7 +155,7 @@ static void print_settings(FILE *f, const report *r)
             "\"half_resolution\": %s, \"upsample\": %s, \"tiles\": \"%s\", \"blur\": \"%s\", \"blur_rounds\": %d, "
             "\"blur_sigma\": %.9g, "
             "\"blur_normal_threshold\": %.9g, \"blur_depth_threshold\": %.9g, \"seed\": %u},\n",
-            words_at(TECHNIQUE_WORDS, (int)s->technique).text, words_at(QUALITY_WORDS, r->options->quality).text,
+            words_at(ALL_TECHNIQUE_WORDS, (int)s->technique).text, words_at(QUALITY_WORDS, r->options->quality).text,
             (double)s->radius, s->radius_in_pixels ? "true" : "false", (double)s->thickness, (double)s->fade_far_start,
             (double)s->fade_far_end, (double)s->fade_start, (double)s->fade_end, (double)s->surface_epsilon,
             (double)s->power, s->sample_count, s->half_resolution ? "true" : "false", s->upsample ? "true" : "false",

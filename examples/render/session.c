@@ -56,6 +56,7 @@ static pipeline_wants choose_wants(const session *s)
     wants.ao = !o->no_ao && (wants.picture || o->ao);
     wants.ao_map = o->ao || o->debug_map == OPTIONS_MAP_AO || o->debug_map == OPTIONS_MAP_TILES;
     wants.traced = wants.ao && o->technique == OPTIONS_RAYTRACE;
+    wants.rays = wants.ao && (o->rays || o->technique == GLSSAO_RAYS);
     wants.normal_map = o->normals || o->debug_map == OPTIONS_MAP_NORMALS;
     wants.normals = (wants.ao && !wants.traced) || wants.normal_map || o->debug_map == OPTIONS_MAP_RANDOM;
     wants.timers = o->stats || o->bench;

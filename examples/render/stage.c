@@ -21,14 +21,27 @@ scene *stage_load_scene(const options *o, inputs *out_inputs, failure *why)
     return s;
 }
 
-bool stage_open(stage *st, const scene *s, const stage *like, failure *why)
+static bool open(stage *st, const scene *s, failure *why)
 {
     *st = (stage){.scene = s, .lights = malloc((s->light_count + 1u) * sizeof *st->lights)};
     if (!st->lights) {
         return fault_set(why, "out of memory");
     }
     st->lighting = scene_lighting_of(s, st->lights);
-    st->renderer = scene_renderer_create_like(s, like ? like->renderer : NULL, why->text, why->size);
+    return true;
+}
+
+bool stage_open(stage *st, const scene *s, failure *why)
+{
+    if (open(st, s, why))
+        st->renderer = scene_renderer_create(s, why->text, why->size);
+    return st->renderer;
+}
+
+bool stage_open_spending(stage *st, scene *s, const stage *like, failure *why)
+{
+    if (open(st, s, why))
+        st->renderer = scene_renderer_create_spending(s, like ? like->renderer : NULL, why->text, why->size);
     return st->renderer;
 }
 

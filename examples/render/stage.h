@@ -25,9 +25,11 @@ typedef struct stage {
  * in `why`, on failure. Any thread. The caller frees the list in either case. */
 scene *stage_load_scene(const options *o, inputs *out_inputs, failure *why);
 
-/* Uploads the scene, which must outlive the stage. Programs are shared with those of `like`, which may be NULL. False,
- * with one line in `why`, on failure. Call stage_close in either case. */
-bool stage_open(stage *st, const scene *s, const stage *like, failure *why);
+/* Uploads the scene, which must outlive the stage. False, with one line in `why`, on failure. Call stage_close in
+ * either case. */
+bool stage_open(stage *st, const scene *s, failure *why);
+/* The same, and frees what only the upload reads. Programs are shared with those of `like`, which may be NULL. */
+bool stage_open_spending(stage *st, scene *s, const stage *like, failure *why);
 void stage_close(stage *st);
 
 /* Builds Embree's acceleration structure unless it exists. */

@@ -84,8 +84,9 @@ typedef struct scene_draw_options { /* zero is the plainest */
  * holds (alpha test, instancing, texture, vertex colour ...). The scene must outlive the renderer. NULL on
  * failure, with one line in `error`. */
 scene_renderer *scene_renderer_create(const scene *s, char *error, size_t error_size);
-/* The same, sharing the programs of another renderer of this context: they last as long as one of the two does. */
-scene_renderer *scene_renderer_create_like(const scene *s, const scene_renderer *like, char *error, size_t error_size);
+/* The same, and frees the texels of each opaque image once they are uploaded: the ray tracer needs only the others.
+ * Shares the programs of `like`, another renderer of this context or NULL; they last as long as one of the two does. */
+scene_renderer *scene_renderer_create_spending(scene *s, const scene_renderer *like, char *error, size_t error_size);
 void scene_renderer_destroy(scene_renderer *r);
 
 /* Chooses what the passes do from now on, and makes the programs and the shadow map that this calls for. Lighting may
@@ -158,5 +159,10 @@ void scene_draw_map_in(scene_renderer *r, unsigned map, scene_rectangle place, b
 void scene_draw_view_distance(scene_renderer *r, const scene_view *view, unsigned depth_texture);
 /* The same times `scale`, in rgb: a grey picture. */
 void scene_draw_distance_picture(scene_renderer *r, const scene_view *view, unsigned depth_texture, float scale);
+
+/* Normal and view distance, as for scene_draw_view_distance, of the lower left of each `step` x `step` pixels, to
+ * output 0 of the bound framebuffer, which is that much smaller, rounded up. For trace_seen. */
+void scene_draw_surfaces(scene_renderer *r, const scene_view *view, unsigned depth_texture, unsigned normal_texture,
+                         int step);
 
 #endif

@@ -66,7 +66,7 @@ typedef struct draw_pool {
     int users;
     draw_variant *variants; /* built as items need them */
     int variant_count;
-    draw_program map, view_distance; /* the same */
+    draw_program map, view_distance, surfaces; /* the same */
 } draw_pool;
 
 struct scene_environment {

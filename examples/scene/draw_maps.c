@@ -57,23 +57,41 @@ void scene_draw_view_distance(scene_renderer *r, const scene_view *view, unsigne
     scene_draw_distance_picture(r, view, depth_texture, 1);
 }
 
-void scene_draw_distance_picture(scene_renderer *r, const scene_view *view, unsigned depth_texture, float scale)
+/* ndc_z = (a z + b) / (c z + e) in view space, solved for -z: (b - e ndc_z) / (a - c ndc_z), with ndc_z = -1 at depth 0
+ * and 1 at depth 1. */
+static void set_distance(const draw_program *p, const scene_view *view)
 {
-    /* ndc_z = (a z + b) / (c z + e) in view space, solved for -z: (b - e ndc_z) / (a - c ndc_z), with ndc_z = -1 at
-     * depth 0 and 1 at depth 1. */
     const float *m = view->clip_from_view;
     double a = m[10], b = m[14], c = m[11], e = m[15];
     double numerator[2] = {b + e, b - e}, denominator[2] = {a + c, a - c};
     /* The sign of the quotient's slope says which end is the far one, also where that is infinitely far. */
     bool reversed = numerator[1] * denominator[0] < numerator[0] * denominator[1];
+    gl.Uniform2f(p->numerator, (float)numerator[0], (float)numerator[1]);
+    gl.Uniform2f(p->denominator, (float)denominator[0], (float)denominator[1]);
+    gl.Uniform1f(p->far_depth, reversed ? 0.0f : 1.0f);
+}
 
+void scene_draw_distance_picture(scene_renderer *r, const scene_view *view, unsigned depth_texture, float scale)
+{
     const draw_program *p = find(&r->pool->view_distance, "view distance pass", shader_view_distance_frag);
     if (!p)
         return;
     begin(r, p, depth_texture, r->nearest_sampler, (scene_rectangle){0, 0, view->width, view->height});
-    gl.Uniform2f(p->numerator, (float)numerator[0], (float)numerator[1]);
-    gl.Uniform2f(p->denominator, (float)denominator[0], (float)denominator[1]);
-    gl.Uniform1f(p->far_depth, reversed ? 0.0f : 1.0f);
+    set_distance(p, view);
     gl.Uniform1f(p->scale, scale);
+    end();
+}
+
+void scene_draw_surfaces(scene_renderer *r, const scene_view *view, unsigned depth_texture, unsigned normal_texture,
+                         int step)
+{
+    const draw_program *p = find(&r->pool->surfaces, "surfaces pass", shader_surfaces_frag);
+    if (!p)
+        return;
+    const scene_rectangle place = {0, 0, (view->width + step - 1) / step, (view->height + step - 1) / step};
+    begin(r, p, depth_texture, r->nearest_sampler, place);
+    draw_bind_texture(UNIT_NORMAL, normal_texture, r->nearest_sampler);
+    set_distance(p, view);
+    gl.Uniform1f(p->scale, (float)step);
     end();
 }

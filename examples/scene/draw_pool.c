@@ -30,6 +30,7 @@ void draw_pool_leave(scene_renderer *r)
         gl.DeleteProgram(pool->variants[i].program.name);
     gl.DeleteProgram(pool->map.name);
     gl.DeleteProgram(pool->view_distance.name);
+    gl.DeleteProgram(pool->surfaces.name);
     free(pool->variants);
     free(pool);
 }

@@ -115,7 +115,14 @@ static texture_list list_textures(const scene *s, const draw_item *item)
     return list;
 }
 
-static bool upload_texture(scene_renderer *r, int index, bool is_srgb, const bool *image_wants_mipmaps, char *error,
+/* What the items read of an image. */
+typedef struct image_use {
+    bool mipmaps;
+    int spaces; /* 2: as sRGB and as linear data */
+    bool is_srgb[2];
+} image_use;
+
+static bool upload_texture(scene_renderer *r, int index, bool is_srgb, const image_use *uses, scene *spent, char *error,
                            size_t error_size)
 {
     static const GLint wraps[] = {GL_REPEAT, GL_MIRRORED_REPEAT, GL_CLAMP_TO_EDGE};
@@ -135,34 +142,42 @@ static bool upload_texture(scene_renderer *r, int index, bool is_srgb, const boo
                      image->height, limit);
             return false;
         }
-        r->images[is_srgb][t->image] = upload_image(image, is_srgb, image_wants_mipmaps[t->image]);
+        r->images[is_srgb][t->image] = upload_image(image, is_srgb, uses[t->image].mipmaps);
+        if (spent && image->opaque && (uses[t->image].spaces == 1 || r->images[!is_srgb][t->image])) {
+            free(image->rgba);
+            spent->images[t->image].rgba = NULL;
+        }
     }
     return true;
 }
 
 /* Uploads only images that the items use: once as sRGB for colours, once as linear for other data. */
-static bool upload_textures(scene_renderer *r, char *error, size_t error_size)
+static bool upload_textures(scene_renderer *r, scene *spent, char *error, size_t error_size)
 {
     const scene *s = r->scene;
-    bool *wants_mipmaps = calloc((size_t)s->image_count + 1, sizeof *wants_mipmaps);
+    image_use *uses = calloc((size_t)s->image_count + 1, sizeof *uses);
     for (int k = 0; k < 2; k++)
         r->images[k] = calloc((size_t)s->image_count + 1, sizeof *r->images[k]);
     r->samplers = calloc((size_t)s->texture_count + 1, sizeof *r->samplers);
-    bool done = wants_mipmaps && r->images[0] && r->images[1] && r->samplers;
+    bool done = uses && r->images[0] && r->images[1] && r->samplers;
     if (!done)
         snprintf(error, error_size, "out of memory");
     for (uint32_t i = 0; done && i < r->item_count; i++) {
         const texture_list list = list_textures(s, &r->items[i]);
-        for (int k = 0; k < list.count; k++)
-            if (s->textures[list.texture[k]].mipmaps)
-                wants_mipmaps[s->textures[list.texture[k]].image] = true;
+        for (int k = 0; k < list.count; k++) {
+            const scene_texture *t = &s->textures[list.texture[k]];
+            image_use *use = &uses[t->image];
+            use->mipmaps = use->mipmaps || t->mipmaps;
+            use->spaces += !use->is_srgb[list.is_srgb[k]];
+            use->is_srgb[list.is_srgb[k]] = true;
+        }
     }
     for (uint32_t i = 0; done && i < r->item_count; i++) {
         const texture_list list = list_textures(s, &r->items[i]);
         for (int k = 0; done && k < list.count; k++)
-            done = upload_texture(r, list.texture[k], list.is_srgb[k], wants_mipmaps, error, error_size);
+            done = upload_texture(r, list.texture[k], list.is_srgb[k], uses, spent, error, error_size);
     }
-    free(wants_mipmaps);
+    free(uses);
     return done;
 }
 
@@ -190,12 +205,8 @@ void draw_make_neutral(scene_renderer *r)
     }
 }
 
-scene_renderer *scene_renderer_create(const scene *s, char *error, size_t error_size)
-{
-    return scene_renderer_create_like(s, NULL, error, error_size);
-}
-
-scene_renderer *scene_renderer_create_like(const scene *s, const scene_renderer *like, char *error, size_t error_size)
+/* `spent`: the scene again where its texels may be freed, or NULL. */
+static scene_renderer *create(const scene *s, scene *spent, const scene_renderer *like, char *error, size_t error_size)
 {
     scene_renderer *r = calloc(1, sizeof *r);
     draw_instance *instances = calloc((size_t)s->instance_count + 1, sizeof *instances);
@@ -212,7 +223,7 @@ scene_renderer *scene_renderer_create_like(const scene *s, const scene_renderer 
             continue;
         upload_geometry(r, instances);
         make_screen_maps(r);
-        done = upload_textures(r, error, error_size) && draw_pool_join(r, like, error, error_size);
+        done = upload_textures(r, spent, error, error_size) && draw_pool_join(r, like, error, error_size);
         GLenum code = gl.GetError();
         if (done && code != GL_NO_ERROR) {
             snprintf(error, error_size, "uploading the scene failed: %s (GL error 0x%04x)",
@@ -226,6 +237,16 @@ scene_renderer *scene_renderer_create_like(const scene *s, const scene_renderer 
         return NULL;
     }
     return r;
+}
+
+scene_renderer *scene_renderer_create(const scene *s, char *error, size_t error_size)
+{
+    return create(s, NULL, NULL, error, error_size);
+}
+
+scene_renderer *scene_renderer_create_spending(scene *s, const scene_renderer *like, char *error, size_t error_size)
+{
+    return create(s, s, like, error, error_size);
 }
 
 void scene_renderer_destroy(scene_renderer *r)

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "gltf_decoding.h"
 #include "gltf_file.h"
 #include "gltf_loader.h"
 
@@ -47,6 +48,7 @@ bool gltf_loader_begin(gltf_loader *l)
 
 void gltf_loader_end(gltf_loader *l)
 {
+    gltf_decoding_end(l->decoding);
     gltf_free_vertices(&l->recent);
     free(l->world_from_node);
     free(l->drawn);
@@ -103,7 +105,8 @@ scene *scene_load_with(const char *path, const scene_load_options *options, char
             gltf_pose pose = {0};
             const bool timed = options && options->timed;
             if (gltf_loader_begin(&loader) && (!timed || gltf_animate(&loader, &document, options->time_s, &pose)) &&
-                gltf_place_nodes(&loader) && gltf_add_scene(&loader) && gltf_warn_of_omissions(&loader))
+                gltf_place_nodes(&loader) && gltf_decoding_begin(&loader) && gltf_add_scene(&loader) &&
+                gltf_warn_of_omissions(&loader))
                 made = scene_builder_finish(&builder);
             else
                 scene_builder_abandon(&builder);

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * Decodes the images of materials that are drawn. An image that is missing or cannot be decoded is left out with a
+ * The images of materials that are drawn. An image that is missing or cannot be decoded is left out with a
  * warning, and the material keeps its factor alone.
  */
-#include "gltf_loader.h"
-#include "image_decode.h"
+#include "gltf_decoding.h"
 #include "image_header.h"
 
 #include <stdio.h>
@@ -47,9 +46,9 @@ static const char *find_obstacle(image_kind kind)
     }
 }
 
-/* NULL, or why there is no image; the fault is set where the whole file fails. */
-static const char *decode(gltf_loader *l, const gltf_image *from, scene_image *out)
+const char *gltf_find_image(gltf_loader *l, int image, gltf_encoded *out)
 {
+    const gltf_image *from = &l->document->images[image];
     const image_bytes bytes = find_bytes(l->document, from);
     if (!bytes.data)
         return from->fault ? from->fault : "it has no bytes";
@@ -61,20 +60,9 @@ static const char *decode(gltf_loader *l, const gltf_image *from, scene_image *o
         return "its head is damaged";
     if (width > MOST_SIDE || height > MOST_SIDE)
         return "too large, more than 16384 pixels on a side";
-    if (!memory_budget_charge(&l->document->budget, 4 * (uint64_t)width * height, "the file's images", l->fault))
-        return NULL;
-    if (!image_decode(bytes.data, bytes.size, &out->width, &out->height, &out->rgba))
-        return "it cannot be decoded";
+    *out = (gltf_encoded){bytes.data, bytes.size, (uint64_t)width * height};
+    memory_budget_charge(&l->document->budget, 4 * out->pixels, "the file's images", l->fault);
     return NULL;
-}
-
-static bool is_opaque(const scene_image *image)
-{
-    const size_t count = (size_t)image->width * (size_t)image->height;
-    uint8_t least = 255;
-    for (size_t i = 0; i < count; ++i)
-        least = image->rgba[4 * i + 3] < least ? image->rgba[4 * i + 3] : least;
-    return least == 255;
 }
 
 bool gltf_add_image(gltf_loader *l, int number, int *out_image)
@@ -86,7 +74,7 @@ bool gltf_add_image(gltf_loader *l, int number, int *out_image)
         return true;
     const gltf_image *from = &l->document->images[number];
     scene_image image = {0};
-    const char *fault = decode(l, from, &image);
+    const char *fault = gltf_decoding_take(l, number, &image);
     if (l->fault->set)
         return false;
     if (fault) {
@@ -94,7 +82,6 @@ bool gltf_add_image(gltf_loader *l, int number, int *out_image)
         return scene_warn(l->document->warnings, l->fault, *from->name ? "image %d (%.120s): %s" : "image %d%s: %s",
                           number, from->name, fault);
     }
-    image.opaque = is_opaque(&image);
     *made = *out_image = scene_builder_add_image(l->builder, &image);
     return *made >= 0;
 }

@@ -46,6 +46,8 @@ typedef struct gltf_mesh_range {
     int first, count;
 } gltf_mesh_range;
 
+typedef struct gltf_decoding gltf_decoding;
+
 typedef struct gltf_loader {
     gltf_document *document;
     scene_builder *builder;
@@ -60,6 +62,7 @@ typedef struct gltf_loader {
     gltf_vertices recent;      /* of the last primitive; the next one often shares them */
     gltf_omissions omitted;
     uint64_t reads_left;
+    gltf_decoding *decoding;
 } gltf_loader;
 
 /* gltf.c: limits and maps of a loader whose document, builder and fault are set. Ending is due in either case. */

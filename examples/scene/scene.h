@@ -26,8 +26,8 @@ typedef struct scene_vertex {
 /* Rows top to bottom, as in the file. */
 typedef struct scene_image {
     int width, height;
-    uint8_t *rgba;
-    bool opaque; /* every alpha is 255 */
+    uint8_t *rgba; /* NULL: opaque, and freed after the upload */
+    bool opaque;   /* every alpha is 255 */
 } scene_image;
 
 enum { SCENE_UV_COUNT = 4 };

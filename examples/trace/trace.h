@@ -50,6 +50,34 @@ bool trace_accessibility(const trace_scene *t, const scene_view *view, const tra
                          float *out_accessibility, uint8_t *out_foreground, trace_stats *out_stats, char *error,
                          size_t error_size);
 
+/* What a rasteriser saw of a view: a normal in view space, of any length, and in the fourth component a view distance.
+ * Where nothing is seen the distance is 0. A texel stands for the lower left of `step` x `step` pixels of the view;
+ * there are (width + step - 1) / step of them in a row. */
+typedef struct trace_seen {
+    const float (*const *rows)[4]; /* bottom to top */
+    int step;                      /* 1 or 2 */
+    int margin;                    /* pixels of the view on each side whose texels get no rays */
+    double depth_step;             /* of the window depth that the distances come from, for instance 2^-24 */
+} trace_seen;
+
+/* A picture whose surfaces are known already: rays start where the rasteriser found a surface, and no primary rays are
+ * cast. Neighbouring pixels share out the directions: the rays of any 4 x 4 texels, `samples` each, are stratified
+ * together, so that a blur of that size takes out most of the noise. Each call of a frame comes from one thread; others
+ * trace meanwhile. */
+typedef struct trace_picture trace_picture;
+
+/* Starts to trace a picture. `out`: accessibility of each texel, negative where there is no surface. `counts`: NULL, or
+ * rays for each texel, at most options->samples; those with 0 become negative. All must live until trace_picture_end.
+ * options->samples is 1 to 64. `seed` turns the pattern. NULL, with one line in `error`, on failure. */
+trace_picture *trace_picture_begin(const trace_scene *t, const scene_view *view, const trace_seen *seen,
+                                   const uint8_t *counts, const trace_options *options, float *out, char *error,
+                                   size_t error_size);
+/* So many rows of texels (and counts) are there now, from the bottom; further pointers of seen->rows may be set before.
+ */
+void trace_picture_feed(trace_picture *p, int rows);
+/* Traces what is left, waits for the other threads, and frees the picture. False where options->stopped ended it. */
+bool trace_picture_end(trace_picture *p, trace_stats *out_stats);
+
 typedef enum trace_distribution { TRACE_COSINE = 0, TRACE_UNIFORM } trace_distribution;
 
 /* Accessibility of given points in world space with unit normals; the rays start `offset` scene units along them.

@@ -40,3 +40,23 @@ bool trace_points(const trace_scene *t, const float (*positions)[3], const float
     (void)out_accessibility, (void)out_stats;
     return absent(error, error_size);
 }
+
+trace_picture *trace_picture_begin(const trace_scene *t, const scene_view *view, const trace_seen *seen,
+                                   const uint8_t *counts, const trace_options *options, float *out, char *error,
+                                   size_t error_size)
+{
+    (void)t, (void)view, (void)seen, (void)counts, (void)options, (void)out;
+    absent(error, error_size);
+    return NULL;
+}
+
+void trace_picture_feed(trace_picture *p, int rows)
+{
+    (void)p, (void)rows;
+}
+
+bool trace_picture_end(trace_picture *p, trace_stats *out_stats)
+{
+    (void)p, (void)out_stats;
+    return false;
+}

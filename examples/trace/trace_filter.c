@@ -29,7 +29,7 @@ bool trace_filter_needed(const scene *s, const scene_primitive *p)
     }
     const scene_image *image = image_of(s, m);
     uint8_t least_texel = 255;
-    for (size_t i = 0; image && i < (size_t)image->width * (size_t)image->height; i++) {
+    for (size_t i = 0; image && !image->opaque && i < (size_t)image->width * (size_t)image->height; i++) {
         least_texel = image->rgba[4 * i + 3] < least_texel ? image->rgba[4 * i + 3] : least_texel;
     }
     return m->base_color[3] * least * ((float)least_texel / 255) < m->alpha_cutoff;
@@ -51,6 +51,8 @@ static int wrap(double at, int size, scene_wrap mode)
 
 static double texel_alpha(const scene_image *image, const scene_texture *texture, double x, double y)
 {
+    if (image->opaque)
+        return 1;
     const int column = wrap(x, image->width, texture->wrap_u), row = wrap(y, image->height, texture->wrap_v);
     return image->rgba[4 * ((size_t)row * (size_t)image->width + (size_t)column) + 3] / 255.0;
 }

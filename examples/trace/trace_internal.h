@@ -108,6 +108,23 @@ void trace_samples_close(trace_samples *s);
 void trace_samples_get(const trace_samples *s, uint64_t point, int first, float x[TRACE_PACKET], float y[TRACE_PACKET],
                        float z[TRACE_PACKET]);
 
+/* A bijection whose every output bit depends on every input bit. */
+uint32_t trace_mix(uint32_t x);
+/* The index-th point of Sobol's sequence in its first (0) or second (1) dimension, as a fraction of 2^32. */
+uint32_t trace_sobol(uint32_t index, int dimension);
+/* The same fraction, Owen-scrambled. */
+uint32_t trace_owen(uint32_t fraction, uint32_t seed);
+
+/* trace_pattern.c: directions for the pixels of a picture. */
+
+typedef struct trace_pattern {
+    int side, rays;         /* of the tile, pixels; of a pixel */
+    float (*directions)[3]; /* about +z, cosine-weighted; ray k of pixel x, y: [(y * side + x) * rays + k] */
+} trace_pattern;
+
+bool trace_pattern_open(trace_pattern *p, int rays, uint32_t seed);
+void trace_pattern_close(trace_pattern *p);
+
 /* trace_rays.c: the share of a point's rays that get through. */
 float trace_point_accessibility(const trace_scene *t, const trace_samples *samples, float radius, uint64_t number,
                                 const trace_point *point);

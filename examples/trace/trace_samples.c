@@ -11,7 +11,7 @@
 #include <stdlib.h>
 
 /* A bijection whose every output bit depends on every input bit (the finaliser of MurmurHash3). */
-static uint32_t mix(uint32_t x)
+uint32_t trace_mix(uint32_t x)
 {
     x ^= x >> 16;
     x *= 0x85ebca6bu;
@@ -29,19 +29,40 @@ static uint32_t reverse_bits(uint32_t x)
     return x << 16 | x >> 16;
 }
 
-/* Owen scrambling of numbers whose bits are reversed: each bit is flipped by a hash of those below it. Laine and
- * Karras's construction with the constants of Burley's section 3. The results have their bits in order again, and lie
- * in the middle of 2^23 steps from 0 to 1, so that none is a half, where the map to the disk has its corner. */
+/* Owen scrambling of a number whose bits are reversed: each bit is flipped by a hash of those below it. Laine and
+ * Karras's construction with the constants of Burley's section 3. */
+static inline uint32_t scrambled(uint32_t reversed, uint32_t seed)
+{
+    uint32_t x = reversed + seed;
+    x ^= x * 0x6c50b47cu;
+    x ^= x * 0xb82f1e52u;
+    x ^= x * 0xc7afe638u;
+    return x ^ x * 0x8d22f6e6u;
+}
+
+/* The results have their bits in order again, and lie in the middle of 2^23 steps from 0 to 1, so that none is a half,
+ * where the map to the disk has its corner. */
 static void scramble(const uint32_t reversed[TRACE_PACKET], uint32_t seed, float out[TRACE_PACKET])
 {
     for (int i = 0; i < TRACE_PACKET; i++) {
-        uint32_t x = reversed[i] + seed;
-        x ^= x * 0x6c50b47cu;
-        x ^= x * 0xb82f1e52u;
-        x ^= x * 0xc7afe638u;
-        x ^= x * 0x8d22f6e6u;
-        out[i] = ((float)(int32_t)(reverse_bits(x) >> 9) + 0.5f) * 0x1p-23f;
+        out[i] = ((float)(int32_t)(reverse_bits(scrambled(reversed[i], seed)) >> 9) + 0.5f) * 0x1p-23f;
     }
+}
+
+uint32_t trace_owen(uint32_t x, uint32_t seed)
+{
+    return reverse_bits(scrambled(reverse_bits(x), trace_mix(seed)));
+}
+
+uint32_t trace_sobol(uint32_t index, int dimension)
+{
+    uint32_t value = 0, column = 1u << 31;
+    for (int bit = 0; bit < 32; bit++) {
+        value ^= index >> bit & 1u ? column : 0;
+        /* The generator matrices: the identity, and Pascal's triangle modulo 2. */
+        column = dimension == 0 ? column >> 1 : column ^ column >> 1;
+    }
+    return value;
 }
 
 bool trace_samples_open(trace_samples *s, int count, trace_distribution distribution, uint32_t seed)
@@ -52,17 +73,8 @@ bool trace_samples_open(trace_samples *s, int count, trace_distribution distribu
     if (!s->second) {
         return false;
     }
-    uint32_t columns[32]; /* of the generator matrix: Pascal's triangle modulo 2 */
-    columns[0] = 1u << 31;
-    for (int i = 1; i < 32; i++) {
-        columns[i] = columns[i - 1] ^ columns[i - 1] >> 1;
-    }
     for (int i = 0; i < room; i++) {
-        uint32_t value = 0;
-        for (int bit = 0; bit < 32; bit++) {
-            value ^= (uint32_t)i >> bit & 1u ? columns[bit] : 0;
-        }
-        s->second[i] = reverse_bits(value);
+        s->second[i] = reverse_bits(trace_sobol((uint32_t)i, 1));
     }
     return true;
 }
@@ -93,14 +105,14 @@ static void map_to_disk(float u[TRACE_PACKET], float v[TRACE_PACKET])
 void trace_samples_get(const trace_samples *s, uint64_t point, int first, float x[TRACE_PACKET], float y[TRACE_PACKET],
                        float z[TRACE_PACKET])
 {
-    const uint32_t key = mix(mix(mix(s->seed) ^ (uint32_t)(point >> 32)) + (uint32_t)point);
+    const uint32_t key = trace_mix(trace_mix(trace_mix(s->seed) ^ (uint32_t)(point >> 32)) + (uint32_t)point);
     uint32_t numbers[TRACE_PACKET];
     for (int i = 0; i < TRACE_PACKET; i++) {
         numbers[i] = (uint32_t)(first + i);
     }
     /* The first dimension is the sample's number with its bits reversed; reversed again it is the number itself. */
-    scramble(numbers, mix(key ^ 0x9e3779b9u), x);
-    scramble(s->second + first, mix(key ^ 0x7f4a7c15u), y);
+    scramble(numbers, trace_mix(key ^ 0x9e3779b9u), x);
+    scramble(s->second + first, trace_mix(key ^ 0x7f4a7c15u), y);
     map_to_disk(x, y);
     const bool uniform = s->distribution == TRACE_UNIFORM;
     for (int i = 0; i < TRACE_PACKET; i++) {

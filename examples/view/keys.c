@@ -44,7 +44,7 @@ const char *const keys_help[][2] = {
 
 static void step_technique(viewer *v)
 {
-    viewer_set_technique(v, (v->options.technique + 1) % OPTIONS_RAYTRACE, v->options.quality);
+    viewer_set_technique(v, (v->options.technique + 1) % (GLSSAO_HORIZON + 1), v->options.quality);
 }
 
 static void step_quality(viewer *v)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One pass of the planar blur (shared/planar_blur.glsl): a direction of the first round, or with WIDE 1 a later round.
+// STRIDE: the neighbours of the first round lie 2 to that power of pixels apart.
 // in  u_ambient_map  paired values; point sampled, clamped
 // out result         by OUTPUT: accessibility or the paired value
 
@@ -25,7 +26,7 @@ RESULT result()
         blurred_wide(paired_at(uv - x), paired_at(uv - y), center, paired_at(uv + y), paired_at(uv + x));
 #else
     vec2 way = gHorizontalBlur ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
-    vec2 by = way * gInvRenderTargetSize;
+    vec2 by = float(1 << STRIDE) * way * gInvRenderTargetSize;
     float accessibility = blurred(paired_at(uv - 2.0 * by), paired_at(uv - by), center, paired_at(uv + by),
                                   paired_at(uv + 2.0 * by), way);
 #endif

@@ -37,23 +37,41 @@ float accessibility_of(vec2 paired)
 
 // Accessibility is rounded to the 13 bits that are left, about 4 steps of R16 near 1. The floor, which R16 rounds to 0,
 // avoids denormal numbers, which drivers may flush.
+// RAYS: the value comes from the host's rays. It may be missing, which any negative number means.
+#define MISSING (-1.0)
+
 vec2 paired(float accessibility, float linear, uint code)
 {
+#if RAYS
+    if (accessibility < 0.0)
+        return vec2(uintBitsToFloat(floatBitsToUint(MISSING) | code), linear);
+#endif
     uint bits = floatBitsToUint(max(accessibility, 2e-6)) + 512u;
     return vec2(uintBitsToFloat((bits & ~1023u) | code), linear);
+}
+
+// RAYS 2: the last pass that may find no value. Pixels that no ray tells anything about count as open. The power waits until
+// here, because it would change what a blur averages.
+float finished(float accessibility)
+{
+#if RAYS == 2
+    return accessibility < 0.0 ? 1.0 : pow(accessibility, gPower);
+#else
+    return accessibility;
+#endif
 }
 
 #if OUTPUT == OUTPUT_PAIRED
 #define AMBIENT vec2
 vec2 ambient(float accessibility, float linear, uint code)
 {
-    return paired(accessibility, linear, code);
+    return paired(finished(accessibility), linear, code);
 }
 #else
 #define AMBIENT float
 float ambient(float accessibility, float linear, uint code)
 {
-    return accessibility;
+    return finished(accessibility);
 }
 #endif
 

@@ -15,6 +15,26 @@ float line_tolerance(float linear)
     return max(BLUR_TOLERANCE * radius_in_linear(linear), linear_step(linear));
 }
 
+// Of the pixel's own value and four others. RAYS 1: of those that are not missing; missing where all are. Later rounds for
+// rays alone (STRIDE above 0, CORRECTS 0) count values less the more they differ: the first has left little noise, so a
+// difference is a shadow's edge.
+float weighted_mean(float own, float weight, vec4 others, vec4 weights)
+{
+#if RAYS
+    weight = own < 0.0 ? 0.0 : weight;
+    weights = mix(weights, vec4(0.0), lessThan(others, vec4(0.0)));
+#if STRIDE > 0 && !CORRECTS
+    vec4 apart = (others - own) * (1.0 / RAYS_ALIKE);
+    weights *= own < 0.0 ? vec4(1.0) : max(vec4(0.0), 1.0 - apart * apart);
+#endif
+    float sum = weight * own + dot(weights, others);
+    float total = weight + dot(weights, vec4(1.0));
+    return total > 0.0 ? sum / total : MISSING;
+#else
+    return (weight * own + dot(weights, others)) / (weight + dot(weights, vec4(1.0)));
+#endif
+}
+
 // Accessibility of a pixel from the paired values of itself and of the two on each side along `way`.
 float blurred(vec2 before_2, vec2 before, vec2 center, vec2 after, vec2 after_2, vec2 way)
 {
@@ -46,9 +66,14 @@ float blurred(vec2 before_2, vec2 before, vec2 center, vec2 after, vec2 after_2,
     vec4 taps = vec4(accessibility_of(before_2), accessibility_of(before), accessibility_of(after),
                      accessibility_of(after_2));
     float own = accessibility_of(center);
+    float mean = weighted_mean(own, 1.0, taps, weights);
     // What is left without any tap keeps its noise, which shows where it is dark among bright neighbours.
     float least = weights.y + weights.z == 0.0 ? min(taps.y, taps.z) - BLUR_ALONE : 0.0;
-    return max((own + dot(weights, taps)) / (1.0 + dot(weights, vec4(1.0))), least);
+#if RAYS
+    if (own < 0.0)
+        return mean;
+#endif
+    return max(mean, least);
 }
 
 // The same for a later round, from itself and the four at three pixels from it.
@@ -75,6 +100,5 @@ float blurred_wide(vec2 left, vec2 below, vec2 center, vec2 above, vec2 right)
     }
     vec4 weights = mix(vec4(0.0), vec4(0.1875), joins);
     vec4 taps = vec4(accessibility_of(left), accessibility_of(below), accessibility_of(above), accessibility_of(right));
-    float sum = 0.25 * accessibility_of(center) + dot(weights, taps);
-    return sum / (0.25 + dot(weights, vec4(1.0)));
+    return weighted_mean(accessibility_of(center), 0.25, taps, weights);
 }

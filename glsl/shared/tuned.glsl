@@ -26,6 +26,8 @@
 #define BLUR_ALONE 0.5         // how much darker than its neighbours a pixel may be that can't be smoothed
 #define BLUR_HOLLOW 0.1       // how far a later round's line may bend towards the eye at its ends
 
+#define RAYS_ALIKE 0.14
+
 // Upsampling (shared/upsample.glsl).
 #define UPSAMPLE_TOLERANCE 0.02 // how far off the plane of its neighbours a pixel may be
 #define UPSAMPLE_NEAR 0.1       // how far off a neighbour on the same surface may be

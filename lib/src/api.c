@@ -213,8 +213,10 @@ glssao_result glssao_accumulate(glssao_effect *effect, const glssao_frame *frame
         return glssao__log_refuse(&effect->log, "settings.technique = %d: only the horizon technique accumulates",
                                   settings->technique);
     const glssao_settings estimate = glssao__schedule_accumulated(settings);
-    call c = {.function = "glssao_accumulate", .frame = frame, .settings = &estimate};
-    c.estimates = glssao__accumulate_next(&effect->accumulation, frame, &estimate);
+    glssao_frame without_rays = *frame; /* a mean needs no correction by a few of them */
+    without_rays.rays_texture = 0;
+    call c = {.function = "glssao_accumulate", .frame = &without_rays, .settings = &estimate};
+    c.estimates = glssao__accumulate_next(&effect->accumulation, &without_rays, &estimate);
     return run_call(effect, &c);
 }
 

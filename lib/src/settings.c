@@ -32,6 +32,19 @@ static glssao_settings horizon_settings(glssao_settings s, glssao_quality qualit
     return s;
 }
 
+/* As many rays as the host may trace for a result that is better than that of horizon's level, docs/decisions/0142. */
+static glssao_settings rays_settings(glssao_settings s, glssao_quality quality)
+{
+    s.technique = GLSSAO_RAYS;
+    s.power = 1.0f;
+    s.sample_count = quality == GLSSAO_LOW ? 2 : quality == GLSSAO_ULTRA ? 8 : 4;
+    s.half_resolution = quality <= GLSSAO_MEDIUM;
+    s.upsample = quality != GLSSAO_LOW;
+    s.blur = GLSSAO_BLUR_PLANAR;
+    s.blur_rounds = 2;
+    return s;
+}
+
 glssao_settings glssao_default_settings(glssao_technique technique, glssao_quality quality)
 {
     /* The first edition of the effect in Luna's book; HIGH has the book's values. */
@@ -53,6 +66,8 @@ glssao_settings glssao_default_settings(glssao_technique technique, glssao_quali
     };
     if (technique == GLSSAO_HEMISPHERE)
         return hemisphere_settings(s, quality);
+    if (technique == GLSSAO_RAYS)
+        return rays_settings(s, quality);
     if (technique == GLSSAO_HORIZON)
         return horizon_settings(s, quality);
     switch (quality) {

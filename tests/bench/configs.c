@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const technique_names[BENCH_TECHNIQUES] = {"classic", "hemisphere", "horizon"};
+static const char *const technique_names[BENCH_TECHNIQUES] = {"classic", "hemisphere", "horizon", "rays"};
 static const char *const blur_names[] = {[GLSSAO_BLUR_NONE] = "none",
                                          [GLSSAO_BLUR_GAUSSIAN] = "gaussian",
                                          [GLSSAO_BLUR_BILATERAL] = "bilateral",

@@ -10,7 +10,7 @@
 
 #include <glssao/glssao.h>
 
-enum { BENCH_CONFIGS_MAX = 160, BENCH_TECHNIQUES = GLSSAO_HORIZON + 1 };
+enum { BENCH_CONFIGS_MAX = 160, BENCH_TECHNIQUES = GLSSAO_RAYS + 1 };
 
 typedef enum bench_kind { BENCH_EFFECT = 0, BENCH_RAYS, BENCH_PEER } bench_kind;
 

@@ -34,6 +34,7 @@ void multisampled(glssao_effect *effect, GLuint multisampled_framebuffer, GLuint
 void reversed(glssao_effect *effect, GLuint depth, float aspect, float focal, float near_plane,
               glssao_settings settings);
 void two_eyes(glssao_effect *effect, const eye eyes[2], glssao_settings settings);
+void few_rays(glssao_effect *effect, GLuint depth, GLuint normals, GLuint rays, const float *projection);
 glssao_settings large_frames(void);
 void logarithmic(glssao_effect *effect, GLuint depth, float far_plane, const float *projection,
                  glssao_settings settings);
@@ -326,4 +327,15 @@ glssao_effect *without_compute(glssao_config config)
     glssao_create(&config, &effect);
     /* end */
     return effect;
+}
+
+void few_rays(glssao_effect *effect, GLuint depth, GLuint normals, GLuint rays, const float *projection)
+{
+    /* snippet: rays */
+    const glssao_settings settings = glssao_default_settings(GLSSAO_RAYS, GLSSAO_MEDIUM);
+    glssao_frame frame = {.depth_texture = depth, .normal_texture = normals};
+    frame.rays_texture = rays; /* of half size here: 4 rays for the lower left of each 2 x 2 pixels */
+    memcpy(frame.projection, projection, sizeof frame.projection);
+    glssao_compute(effect, &frame, &settings);
+    /* end */
 }

@@ -38,10 +38,11 @@ static glssao_frame room_frame(void)
     return fixture_frame(&view, room, ANALYTIC_ROOM_SHAPES, W, H);
 }
 
-/* Letters of the passes that run, in order: Inputs, Normals, Distance, Tiles, Estimate, Resolve, Blur, Upsample. */
+/* Letters of the passes that run, in order: Inputs, Normals, Distance, Tiles, Estimate, Resolve, Blur, rAys, Upsample.
+ */
 static void letters(const glssao_plan *plan, char out[GLSSAO_PASS_COUNT + 1])
 {
-    static const char all[] = "INDTERBU";
+    static const char all[] = "INDTERBAU";
     int n = 0;
     for (int i = 0; i < GLSSAO_PASS_APPLY; ++i)
         if (plan->passes[i].run)

@@ -64,6 +64,24 @@ class Effect(Case):
         self.assertLess(np.abs(got[..., 0] / 255 - result).max(), 0.003)
         self.assertTrue((got[..., 3] == 255).all())
 
+    def test_apply_takes_options(self):
+        texture = self.context.depth_texture(SIZE, step_depth().tobytes())
+        color = self.context.texture(SIZE, 4, dtype="f4")
+        framebuffer = self.context.framebuffer(color)
+        strength = np.linspace(0.0, 1.0, width * height, dtype="f4").reshape(height, width)
+        weights = self.context.texture(SIZE, 1, strength.tobytes(), dtype="f4")
+        framebuffer.clear(1.0, 1.0, 1.0, 1.0)
+        with glssao.Effect(*SIZE) as effect:
+            result = self.read(effect.compute(texture, PROJECTION, 1.5))[::-1]
+            effect.apply(framebuffer, intensity=0.5, color=(0.0, 0.25, 1.0), strength_texture=weights)
+            with self.assertRaisesRegex(glssao.Error, "options.intensity = 2"):
+                effect.apply(framebuffer, intensity=2)
+            with self.assertRaises(TypeError):
+                effect.apply(framebuffer, strenght_texture=weights)
+        got = np.frombuffer(color.read(), "f4").reshape(height, width, 4)
+        gone = (0.5 * strength * (1.0 - result))[..., None]
+        np.testing.assert_allclose(got[..., :3], 1.0 - gone + gone * np.array([0.0, 0.25, 1.0]), atol=1e-5)
+
     def test_frame_fields_are_options(self):
         distance = np.full((height, width), 4.0, "f4")
         distance[:, width // 2:] = 5.0

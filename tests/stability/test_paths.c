@@ -269,6 +269,31 @@ static void margins_layers_and_viewports_agree(void **state)
     subject_free(&behind);
 }
 
+/* Rays alone and as a correction, at each size of rays and estimate. */
+static void rays_agree(void **state)
+{
+    float values[66 * 51];
+    for (int i = 0; i < 66 * 51; ++i)
+        values[i] = i * 7 % 11 == 0 ? -1.0f : 0.5f * (float)(i * 5 % 3);
+    glssao_frame frame = room_frame(PERSPECTIVE, 66, 51, DEPTH_32F, NORMAL_NONE);
+    for (int i = 0; i < 16; ++i) {
+        const bool half = i & 1, is_half = i & 2, margin = i & 4;
+        const int width = half ? 33 : 66, height = half ? 26 : 51;
+        glssao_settings s = i & 8 ? wide_horizon(GLSSAO_MEDIUM) : glssao_default_settings(GLSSAO_RAYS, GLSSAO_HIGH);
+        s.half_resolution = is_half;
+        s.upsample = i % 3 != 0;
+        s.power = 1.0f + (float)(i % 2);
+        frame.margin = margin ? 8 : 0;
+        gl.GenTextures(1, &frame.rays_texture);
+        gl.BindTexture(GL_TEXTURE_2D, frame.rays_texture);
+        gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, width, height, 0, GL_RED, GL_FLOAT, values);
+        gl.BindTexture(GL_TEXTURE_2D, 0);
+        assert_alike(*state, "rays", 66, 51, &frame, &s);
+        gl.DeleteTextures(1, &frame.rays_texture);
+    }
+    subject_frame_free(&frame);
+}
+
 /* Estimates are added by drawing; the passes before and after may be dispatched. */
 static void accumulated_estimates_agree(void **state)
 {
@@ -386,15 +411,11 @@ int main(int argc, char **argv)
     stride = configuration_stride(argc, argv);
 #define TEST(name) cmocka_unit_test_setup_teardown(name, NULL, end_ways)
     const struct CMUnitTest tests[] = {
-        TEST(techniques_and_qualities_agree),
-        TEST(blurs_and_sizes_of_the_result_agree),
-        TEST(odd_and_small_sizes_agree),
-        TEST(ways_to_hand_over_agree),
-        TEST(margins_layers_and_viewports_agree),
-        TEST(accumulated_estimates_agree),
-        TEST(the_context_and_the_config_decide),
-        TEST(an_unknown_path_is_refused),
-        TEST(refused_compute_shaders_are_done_without),
+        TEST(techniques_and_qualities_agree),     TEST(blurs_and_sizes_of_the_result_agree),
+        TEST(odd_and_small_sizes_agree),          TEST(ways_to_hand_over_agree),
+        TEST(margins_layers_and_viewports_agree), TEST(rays_agree),
+        TEST(accumulated_estimates_agree),        TEST(the_context_and_the_config_decide),
+        TEST(an_unknown_path_is_refused),         TEST(refused_compute_shaders_are_done_without),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
 }

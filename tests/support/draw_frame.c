@@ -58,6 +58,29 @@ static void free_target(target *t)
     gl.DeleteFramebuffers(2, framebuffers);
 }
 
+static frame draw_by(scene_renderer *r, const scene_view *view, const scene_lighting *lighting, bool prepass,
+                     unsigned ambient_map)
+{
+    scene_draw_shadow(r, lighting);
+    target t = make_target(view->width);
+    const float cleared[4] = {FRAME_EMPTY, FRAME_EMPTY, FRAME_EMPTY, FRAME_EMPTY}, far_depth = 1;
+    gl.BindFramebuffer(GL_FRAMEBUFFER, t.normals_framebuffer);
+    gl.ClearBufferfv(GL_COLOR, 0, cleared);
+    gl.ClearBufferfv(GL_DEPTH, 0, &far_depth);
+    if (prepass)
+        scene_draw_normals(r, view);
+    frame f = {.normals = fixture_read_texture(t.normals, t.size, t.size, 4)};
+    gl.BindFramebuffer(GL_FRAMEBUFFER, t.color_framebuffer);
+    scene_draw_main(r, view, lighting, ambient_map);
+    f.counts = scene_renderer_counts(r);
+    f.color = malloc((size_t)(t.size * t.size) * 4);
+    gl.ReadPixels(0, 0, t.size, t.size, GL_RGBA, GL_UNSIGNED_BYTE, f.color);
+    f.depth = fixture_read_depth(t.depth, t.size, t.size);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    free_target(&t);
+    return f;
+}
+
 frame frame_draw(const small_scene *s, const scene_view *view, const scene_lighting *lighting, unsigned ambient_map)
 {
     return frame_draw_with(s, view, lighting, NULL, ambient_map);
@@ -72,25 +95,14 @@ frame frame_draw_with(const small_scene *s, const scene_view *view, const scene_
         fail_msg("%s", error);
     if (options && !scene_renderer_configure(r, lighting, options, error, sizeof error))
         fail_msg("%s", error);
-    scene_draw_shadow(r, lighting);
-    target t = make_target(view->width);
-    const float cleared[4] = {FRAME_EMPTY, FRAME_EMPTY, FRAME_EMPTY, FRAME_EMPTY}, far_depth = 1;
-    gl.BindFramebuffer(GL_FRAMEBUFFER, t.normals_framebuffer);
-    gl.ClearBufferfv(GL_COLOR, 0, cleared);
-    gl.ClearBufferfv(GL_DEPTH, 0, &far_depth);
-    if (!options || !options->no_prepass)
-        scene_draw_normals(r, view);
-    frame f = {.normals = fixture_read_texture(t.normals, t.size, t.size, 4)};
-    gl.BindFramebuffer(GL_FRAMEBUFFER, t.color_framebuffer);
-    scene_draw_main(r, view, lighting, ambient_map);
-    f.counts = scene_renderer_counts(r);
-    f.color = malloc((size_t)(t.size * t.size) * 4);
-    gl.ReadPixels(0, 0, t.size, t.size, GL_RGBA, GL_UNSIGNED_BYTE, f.color);
-    f.depth = fixture_read_depth(t.depth, t.size, t.size);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
-    free_target(&t);
+    const frame f = draw_by(r, view, lighting, !options || !options->no_prepass, ambient_map);
     scene_renderer_destroy(r);
     return f;
+}
+
+frame frame_draw_by(scene_renderer *r, const scene_view *view, const scene_lighting *lighting, unsigned ambient_map)
+{
+    return draw_by(r, view, lighting, true, ambient_map);
 }
 
 void frame_free(frame *f)

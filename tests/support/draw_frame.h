@@ -31,6 +31,8 @@ frame frame_draw(const small_scene *s, const scene_view *view, const scene_light
 /* The same with options; NULL takes the renderer's defaults. */
 frame frame_draw_with(const small_scene *s, const scene_view *view, const scene_lighting *lighting,
                       const scene_draw_options *options, unsigned ambient_map);
+/* The same by a renderer that the caller keeps. */
+frame frame_draw_by(scene_renderer *r, const scene_view *view, const scene_lighting *lighting, unsigned ambient_map);
 void frame_free(frame *f);
 
 /* Whether the pre-pass drew that pixel; the number of pixels it drew. */

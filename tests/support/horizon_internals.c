@@ -21,6 +21,16 @@ uint32_t horizon_paired_map(const glssao_effect *effect, int number)
     return map_of(effect, number == 0 ? MAP_PAIRED_0 : MAP_PAIRED_1)->texture;
 }
 
+uint32_t horizon_rays_map(const glssao_effect *effect, int number)
+{
+    return map_of(effect, number == 0 ? MAP_RAYS_0 : MAP_RAYS_1)->texture;
+}
+
+double horizon_rays_alike(void)
+{
+    return RAYS_ALIKE;
+}
+
 uint32_t horizon_sum_map(const glssao_effect *effect)
 {
     return map_of(effect, MAP_SUM)->texture;

@@ -17,6 +17,11 @@ uint32_t horizon_distance_map(const glssao_effect *effect, int *out_width, int *
  * read in turn; see paired_map. */
 uint32_t horizon_paired_map(const glssao_effect *effect, int number);
 
+/* One of the two maps of differences between rays and estimate. */
+uint32_t horizon_rays_map(const glssao_effect *effect, int number);
+/* The constant RAYS_ALIKE. */
+double horizon_rays_alike(void);
+
 /* The sum of accumulation: linear accessibility of two replicates, full size. */
 uint32_t horizon_sum_map(const glssao_effect *effect);
 

@@ -122,10 +122,11 @@ enum {
     TESTS
 };
 
-/* Five taps in a row, and how much darker than its neighbours the middle one may be if nothing joins it. */
+/* Five taps in a row, how much darker than its neighbours the middle one may be if nothing joins it, and as
+ * pass_constants.alike. */
 typedef struct row {
     texel taps[5];
-    double alone;
+    double alone, alike;
 } row;
 
 static double blurred(const truth *t, const void *user)
@@ -141,22 +142,31 @@ static double blurred(const truth *t, const void *user)
         weights[1] = t[JOINS_BEFORE] && t[NEAR_BEFORE] ? 1.0 : 0.0;
         weights[3] = t[JOINS_AFTER] && t[NEAR_AFTER] ? 1.0 : 0.0;
     }
+    const bool is_alone = weights[1] + weights[3] == 0.0;
     double sum = 0.0, total = 0.0;
     for (int i = 0; i < 5; ++i) {
+        const double off = taps[i].value - taps[2].value;
+        if (r->alike > 0.0 && taps[2].value >= 0.0)
+            weights[i] *= fmax(1.0 - off * off / (r->alike * r->alike), 0.0);
+        if (taps[i].value < 0.0)
+            continue;
         sum += weights[i] * taps[i].value;
         total += weights[i];
     }
-    const bool is_alone = weights[1] + weights[3] == 0.0;
-    return is_alone ? fmax(sum / total, fmin(taps[1].value, taps[3].value) - r->alone) : sum / total;
+    if (total <= 0.0)
+        return -1.0;
+    return is_alone && taps[2].value >= 0.0 ? fmax(sum / total, fmin(taps[1].value, taps[3].value) - r->alone)
+                                            : sum / total;
 }
 
 void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic, const pass_constants *constants,
                        int x, int y, double *out_low, double *out_high)
 {
-    row r = {.alone = constants->alone};
+    row r = {.alone = constants->alone, .alike = constants->alike};
     texel *taps = r.taps;
+    const int apart = constants->apart > 0 ? constants->apart : 1;
     for (int i = 0; i < 5; ++i)
-        taps[i] = texel_at(map, horizontal ? x + i - 2 : x, horizontal ? y : y + i - 2);
+        taps[i] = texel_at(map, horizontal ? x + (i - 2) * apart : x, horizontal ? y : y + (i - 2) * apart);
     const double tolerance = fmax(in_linear(constants->tolerance, taps[2].linear, orthographic),
                                   step_in_linear(1.0, taps[2].linear, orthographic, constants));
     const double near = in_linear(constants->near, taps[2].linear, orthographic);

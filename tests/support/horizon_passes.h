@@ -20,11 +20,14 @@ typedef struct pass_constants {
     double alone;                   /* accessibility that a pixel without taps may be darker by than its neighbours */
     double chord;                   /* between two unit normals on different sides of a crease */
     double normal_step;
+    int apart;            /* pixels between neighbours of the first round; 0: 1 */
+    double alike;         /* values of rays that differ by so much do not count; 0: all do */
     double fall;          /* upsampling without normals: see upsample_model */
     double depth_step[3]; /* step of the depth format at view distance t: coefficients of 1, t and t^2 */
 } pass_constants;
 
-/* One direction of the first round; one later round. */
+/* One direction of the first round; one later round. In the first, values below 0 are missing, and so is the result of
+ * none but such, which is -1. */
 void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic, const pass_constants *constants,
                        int x, int y, double *out_low, double *out_high);
 void wide_blur_model(const paired_map *map, bool orthographic, const pass_constants *constants, int x, int y,

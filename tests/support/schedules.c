@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "schedules.h"
 
-enum { DEPTH_NAME = 1, NORMAL_NAME, BACK_NAME, SECOND_NAME };
+enum { DEPTH_NAME = 1, NORMAL_NAME, BACK_NAME, SECOND_NAME, RAYS_NAME };
 
 glssao__request schedules_request(glssao_frame *frame, glssao_settings *settings, int width, int height)
 {
@@ -66,7 +66,7 @@ int schedules_visit(void (*function)(const glssao__request *request, const glssa
     glssao_frame frame;
     glssao_settings settings;
     glssao__request q = schedules_request(&frame, &settings, 1280, 720);
-    for (int technique = 0; technique <= GLSSAO_HORIZON; ++technique)
+    for (int technique = 0; technique <= GLSSAO_RAYS; ++technique)
         for (int blur = 0; blur <= GLSSAO_BLUR_PLANAR; ++blur)
             for (int rounds = 0; rounds <= 4; ++rounds)
                 for (int size = 0; size < 3; ++size) {
@@ -77,9 +77,12 @@ int schedules_visit(void (*function)(const glssao__request *request, const glssa
                     settings.upsample = size > 1;
                     settings.no_angle_weight = rounds == 1;
                     frame.margin = rounds == 2 ? 16 : 0;
-                    visit_capabilities(&v, &q, &frame);
+                    frame.rays_texture = technique == GLSSAO_RAYS || rounds == 3 ? RAYS_NAME : 0;
+                    if (technique != GLSSAO_RAYS || blur == GLSSAO_BLUR_NONE || blur == GLSSAO_BLUR_PLANAR)
+                        visit_capabilities(&v, &q, &frame);
                 }
     frame.margin = 0;
+    frame.rays_texture = 0;
     for (int i = 0; i < 6; ++i)
         for (int accumulates = 0; accumulates < 2; ++accumulates) {
             settings = glssao_default_settings(GLSSAO_HORIZON, i % 2 ? GLSSAO_HIGH : GLSSAO_ULTRA);

@@ -18,23 +18,25 @@ typedef struct change {
     glssao_quality quality;
     int half, upsample; /* -1: as the quality has it */
     int margin;
-    bool layers, tiles, accumulate;
+    bool layers, tiles, accumulate, rays;
 } change;
 
 static const change changes[] = {
-    {"ultra", GLSSAO_HORIZON, GLSSAO_ULTRA, -1, -1, 0, false, false, false},
-    {"high", GLSSAO_HORIZON, GLSSAO_HIGH, -1, -1, 0, false, false, false},
-    {"full size", GLSSAO_HORIZON, GLSSAO_LOW, 0, 0, 0, false, false, false},
-    {"half size, not upsampled", GLSSAO_HORIZON, GLSSAO_LOW, 1, 0, 0, false, false, false},
-    {"half size, upsampled", GLSSAO_HORIZON, GLSSAO_LOW, 1, 1, 0, false, false, false},
-    {"margin of 8", GLSSAO_HORIZON, GLSSAO_LOW, 1, 1, 8, false, false, false},
-    {"margin of 4", GLSSAO_HORIZON, GLSSAO_LOW, 0, 0, 4, false, false, false},
-    {"layers", GLSSAO_HORIZON, GLSSAO_LOW, -1, -1, 0, true, false, false},
-    {"tiles", GLSSAO_HORIZON, GLSSAO_LOW, -1, -1, 0, false, true, false},
-    {"accumulation", GLSSAO_HORIZON, GLSSAO_LOW, -1, -1, 0, false, false, true},
-    {"classic, half size", GLSSAO_CLASSIC, GLSSAO_HIGH, 1, 0, 0, false, false, false},
-    {"classic, full size", GLSSAO_CLASSIC, GLSSAO_HIGH, 0, 0, 0, false, false, false},
-    {"hemisphere", GLSSAO_HEMISPHERE, GLSSAO_LOW, -1, -1, 0, false, false, false},
+    {"ultra", GLSSAO_HORIZON, GLSSAO_ULTRA, -1, -1, 0, false, false, false, false},
+    {"high", GLSSAO_HORIZON, GLSSAO_HIGH, -1, -1, 0, false, false, false, false},
+    {"full size", GLSSAO_HORIZON, GLSSAO_LOW, 0, 0, 0, false, false, false, false},
+    {"half size, not upsampled", GLSSAO_HORIZON, GLSSAO_LOW, 1, 0, 0, false, false, false, false},
+    {"half size, upsampled", GLSSAO_HORIZON, GLSSAO_LOW, 1, 1, 0, false, false, false, false},
+    {"margin of 8", GLSSAO_HORIZON, GLSSAO_LOW, 1, 1, 8, false, false, false, false},
+    {"margin of 4", GLSSAO_HORIZON, GLSSAO_LOW, 0, 0, 4, false, false, false, false},
+    {"layers", GLSSAO_HORIZON, GLSSAO_LOW, -1, -1, 0, true, false, false, false},
+    {"tiles", GLSSAO_HORIZON, GLSSAO_LOW, -1, -1, 0, false, true, false, false},
+    {"accumulation", GLSSAO_HORIZON, GLSSAO_LOW, -1, -1, 0, false, false, true, false},
+    {"classic, half size", GLSSAO_CLASSIC, GLSSAO_HIGH, 1, 0, 0, false, false, false, false},
+    {"classic, full size", GLSSAO_CLASSIC, GLSSAO_HIGH, 0, 0, 0, false, false, false, false},
+    {"hemisphere", GLSSAO_HEMISPHERE, GLSSAO_LOW, -1, -1, 0, false, false, false, false},
+    {"rays", GLSSAO_RAYS, GLSSAO_HIGH, -1, -1, 0, false, false, false, true},
+    {"corrected, half size", GLSSAO_HORIZON, GLSSAO_LOW, 1, 1, 0, false, false, false, true},
 };
 enum { CHANGES = sizeof changes / sizeof *changes };
 
@@ -50,6 +52,8 @@ static void run_change(guest *g, const change *c)
         settings.tiles = GLSSAO_TILES_ON;
     if (c->layers)
         frame.back_texture = frame.second_texture = frame.depth_texture;
+    if (c->rays) /* any texture of the full size */
+        frame.rays_texture = frame.depth_texture;
     frame.margin = c->margin;
     const glssao_result result =
         c->accumulate ? glssao_accumulate(g->effect, &frame, &settings) : glssao_compute(g->effect, &frame, &settings);

@@ -145,12 +145,48 @@ static void each_map_reads_its_uv_set(void **state)
     }
 }
 
+/* The texels of opaque images alone are freed, once, also where an image is uploaded in two spaces. */
+static void spending_renderer_frees_opaque_texels(void **state)
+{
+    (void)state;
+    const scene_lighting lighting = scene_default_lighting();
+    uint8_t *texels[2];
+    small_scene *s = small_scene_create();
+    for (int i = 0; i < 2; i++) {
+        texels[i] = malloc(2 * 2 * 4);
+        memset(texels[i], i == 0 ? 255 : 200, 2 * 2 * 4);
+        scene_material material = small_scene_material();
+        material.base_color_texture = small_scene_add_texture(s, 2, 2, texels[i]);
+        s->images[i].opaque = i == 0;
+        if (i == 0) {
+            material.metallic_roughness = true;
+            material.metallic_roughness_map = (scene_map){.used = true, .texture = material.base_color_texture};
+        }
+        const float place[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, i ? 0.5f : -0.5f, 0, 0, 1};
+        frame_add_quad(s, material, place);
+    }
+    frame before = frame_draw(s, &frame_front, &lighting, 0);
+    char error[512];
+    scene_renderer *r = scene_renderer_create_spending(&s->scene, NULL, error, sizeof error);
+    assert_non_null(r);
+    assert_null(s->images[0].rgba);
+    assert_ptr_equal(s->images[1].rgba, texels[1]);
+    frame after = frame_draw_by(r, &frame_front, &lighting, 0);
+    assert_memory_equal(before.color, after.color, FRAME_SIZE * FRAME_SIZE * sizeof *before.color);
+    scene_renderer_destroy(r);
+    frame_free(&before);
+    frame_free(&after);
+    free(texels[1]);
+    free(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(flat_primitives_take_the_normal_of_their_triangles),
         cmocka_unit_test(lines_and_points_are_drawn_over_what_is_behind_them),
         cmocka_unit_test(each_map_reads_its_uv_set),
+        cmocka_unit_test(spending_renderer_frees_opaque_texels),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
 }

@@ -160,6 +160,86 @@ static void estimates_are_added_and_averaged(void **state)
     assert_steps(&q, "distance! horizon probe resolve");
 }
 
+static void rays_take_the_place_of_an_estimate(void **state)
+{
+    (void)state;
+    glssao_frame frame;
+    glssao_settings s = glssao_default_settings(GLSSAO_RAYS, GLSSAO_MEDIUM);
+    glssao__request q = schedules_request(&frame, &s, 1280, 720);
+    frame.rays_texture = 9;
+    s.blur_rounds = 1;
+    assert_steps(&q, "rays! planar-blur! planar-blur! planar-tile!");
+    q.can.path = GLSSAO_PATH_FRAGMENT;
+    q.can.is_software = true; /* there are no tiles: rays see what is not in the picture */
+    assert_steps(&q, "rays planar-blur planar-blur upsample spread");
+    s.half_resolution = false;
+    s.blur_rounds = 2;
+    assert_steps(&q, "rays planar-blur planar-blur planar-blur planar-blur");
+    s.blur = GLSSAO_BLUR_NONE;
+    frame.normal_texture = 0;
+    assert_steps(&q, "normals rays");
+    frame.multisample = true; /* which rays are not */
+    assert_steps(&q, "input normals rays");
+}
+
+/* The rounds look ever farther, and only the last step fills in what is missing. */
+static void rounds_of_rays_widen(void **state)
+{
+    (void)state;
+    glssao_frame frame;
+    glssao_settings s = glssao_default_settings(GLSSAO_RAYS, GLSSAO_HIGH);
+    const glssao__request q = schedules_request(&frame, &s, 64, 48);
+    glssao__schedule schedule;
+    frame.rays_texture = 9;
+    s.blur_rounds = 5;
+    glssao__schedule_make(&schedule, &q);
+    assert_int_equal(schedule.count, 11);
+    for (int i = 0; i < 11; ++i) {
+        const glssao__variant *v = &schedule.steps[i].variant;
+        assert_int_equal(v->values[MACRO_STRIDE], i == 0 ? 0 : i <= 6 ? (i - 1) / 2 : 3);
+        assert_int_equal(v->values[MACRO_RAYS], i == 10 ? 2 : 1);
+        assert_true(i == 0 || schedule.steps[i].is_horizontal == (i % 2 == 1));
+    }
+}
+
+static void rays_correct_an_estimate(void **state)
+{
+    (void)state;
+    glssao_frame frame;
+    glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
+    glssao__request q = schedules_request(&frame, &s, 1280, 720);
+    frame.rays_texture = 9;
+    assert_steps(&q,
+                 "distance! horizon! planar-tile! rays! planar-blur! planar-blur! planar-blur! planar-blur! correct! "
+                 "planar-tile!");
+    q.can.path = GLSSAO_PATH_FRAGMENT;
+    q.can.is_software = true;
+    assert_steps(&q, "distance horizon planar-blur planar-blur rays planar-blur planar-blur planar-blur planar-blur "
+                     "correct upsample spread");
+    s = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_LOW);
+    s.half_resolution = false; /* one round more */
+    assert_steps(&q, "classic blur blur rays planar-blur planar-blur planar-blur planar-blur planar-blur planar-blur "
+                     "correct");
+    s.radius = 0.0f;
+    assert_steps(&q, "=1 =1");
+}
+
+/* The same steps and variants as ever where there are no rays. */
+static void no_rays_cost_nothing(void **state)
+{
+    (void)state;
+    glssao_frame frame;
+    glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
+    const glssao__request q = schedules_request(&frame, &s, 1280, 720);
+    glssao__schedule schedule;
+    glssao__schedule_make(&schedule, &q);
+    assert_false(schedule.plan.passes[GLSSAO_PASS_RAYS].run);
+    assert_int_equal(schedule.maps[MAP_RAYS_0].format, 0);
+    for (int i = 0; i < schedule.count; ++i)
+        assert_true(schedule.steps[i].variant.values[MACRO_RAYS] == 0 &&
+                    schedule.steps[i].variant.values[MACRO_STRIDE] == 0);
+}
+
 static void nothing_is_only_cleared(void **state)
 {
     (void)state;
@@ -242,13 +322,14 @@ static void all_schedules_keep_the_rules(void **state)
 static void default_frames_have_at_most_twenty_steps(void **state)
 {
     (void)state;
-    for (int technique = 0; technique <= GLSSAO_HORIZON; ++technique)
+    for (int technique = 0; technique <= GLSSAO_RAYS; ++technique)
         for (int quality = 0; quality <= GLSSAO_ULTRA; ++quality) {
             glssao_frame frame;
             glssao_settings s = glssao_default_settings((glssao_technique)technique, (glssao_quality)quality);
             glssao__request q = schedules_request(&frame, &s, 1280, 720);
             q.can.is_software = true;
             frame.normal_texture = 0;
+            frame.rays_texture = 9;
             glssao__schedule schedule;
             glssao__schedule_make(&schedule, &q);
             assert_true(schedule.count <= 20);
@@ -296,6 +377,10 @@ int main(void)
         cmocka_unit_test(inputs_are_copied_first),
         cmocka_unit_test(rounds_share_dispatches_by_two),
         cmocka_unit_test(estimates_are_added_and_averaged),
+        cmocka_unit_test(rays_take_the_place_of_an_estimate),
+        cmocka_unit_test(rounds_of_rays_widen),
+        cmocka_unit_test(rays_correct_an_estimate),
+        cmocka_unit_test(no_rays_cost_nothing),
         cmocka_unit_test(nothing_is_only_cleared),
         cmocka_unit_test(all_schedules_keep_the_rules),
         cmocka_unit_test(default_frames_have_at_most_twenty_steps),

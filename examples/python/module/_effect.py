@@ -97,9 +97,16 @@ class Effect:
         self._check(library.glssao_compute(self._handle, ctypes.byref(frame), ctypes.byref(settings)))
         return self.map()[0]
 
-    def apply(self, framebuffer: Any = 0) -> None:
-        """Multiplies the last result into the colour of a framebuffer: a name, an object, or 0 for the default one."""
-        self._check(library.glssao_apply(self._handle, _name(framebuffer)))
+    def apply(self, framebuffer: Any = 0, **options: Any) -> None:
+        """Multiplies the last result into the colour of a framebuffer: a name, an object, or 0 for the default one.
+
+        options      any other field of glssao_apply_options, such as intensity=0.5 or strength_texture=texture
+        """
+        given = library.glssao_default_apply_options()
+        given.framebuffer = _name(framebuffer)
+        textures = {name: _name(value) for name, value in options.items() if name.endswith("_texture")}
+        refuse_rest(fill(given, options | textures), _layout.glssao_apply_options)
+        self._check(library.glssao_apply_with(self._handle, ctypes.byref(given)))
 
     def resize(self, width: int, height: int) -> None:
         """Takes depth textures of this size from now on. Textures that map returned are no longer valid."""

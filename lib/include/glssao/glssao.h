@@ -115,7 +115,8 @@ typedef struct glssao_config { /* zero means default */
 typedef enum glssao_technique { /* how occlusion is estimated */
     GLSSAO_CLASSIC = 0, /* 14 offsets about the point, distance fade, bilateral blur (Luna, D3D12 book, ch. 21) */
     GLSSAO_HEMISPHERE,  /* samples in the half ball about the normal, 4x4 tile of rotations (Chapman 2013) */
-    GLSSAO_HORIZON      /* cosine-weighted visibility by slices: nearest to ray-traced truth (Jimenez 2016, Therrien 2023) */
+    GLSSAO_HORIZON,     /* cosine-weighted visibility by slices: nearest to ray-traced truth (Jimenez 2016, Therrien 2023) */
+    GLSSAO_RAYS         /* frame.rays_texture alone: a few rays that the host traced, denoised along surfaces */
 } glssao_technique;
 
 /* Default settings by cost: see docs/accuracy.md. */
@@ -143,7 +144,8 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     float surface_epsilon;         /* scene units, >= 0: an occluder counts only if it is nearer than the point (classic) or
                                       than the sample (hemisphere) by more than this */
     float power;                   /* 0 to 64: accessibility is raised to this; more is darker */
-    int sample_count;              /* classic: 1 to 14 offset vectors, the 8 cube corners first; hemisphere: 1 to 64;
+    int sample_count;              /* classic: 1 to 14 offset vectors, the 8 cube corners first; hemisphere: 1 to 64; rays: 1
+                                      to 64, how many a texel of rays_texture stands for, which only the host reads;
                                       horizon: samples of depth, 12 (one slice of 6 a side), 16 (1 x 8), 24 (1 x 12),
                                       32 (2 x 8), 48 (2 x 12) or 64 (2 x 16) */
     bool half_resolution;          /* estimate at half the size, (w + 1) / 2 by (h + 1) / 2 */
@@ -208,6 +210,10 @@ typedef struct glssao_frame { /* zero a field that you don't use */
                                   are the effect's full size. Each texture is copied, as above. All 0: the whole texture */
     float view[16];            /* view_from_world, column-major; for world_normals */
     bool world_normals;        /* true: normal_texture is in world space. view turns each normal as it is read */
+    uint32_t rays_texture;     /* linear accessibility in red from a few rays a texel, unbiased (from Embree, from hardware ray
+                                  tracing): GL_TEXTURE_2D of R8, R16, R16F or R32F, full or half size, where a texel belongs
+                                  to the lower left of four pixels. Negative, NaN: no rays there. It corrects the technique's
+                                  result by the blurred difference, or is all of it (GLSSAO_RAYS); see docs/integration.md */
 } glssao_frame;
 
 /* ---- apply: how the result gets into a picture ---------------------------------------------------------- */
@@ -218,10 +224,11 @@ typedef struct glssao_apply_options { /* fill with glssao_default_apply_options(
                                   where frame.viewport has the picture, else the lower left corner */
     float intensity;           /* 0 none to 1 full (default) */
     float color[3];            /* 0 to 65504: what full occlusion turns the picture into. Black by default */
-    uint32_t strength_texture; /* optional, lies as frame.depth_texture, red: 0 keeps a pixel free of occlusion, 1: full */
+    uint32_t strength_texture; /* optional, lies as frame.depth_texture, or as the framebuffer of glssao_compute_framebuffer.
+                                  Red: 0 keeps a pixel free of occlusion, 1 is full strength */
     bool keep_scissor, keep_stencil; /* the host's tests stay on, with all that belongs to them */
-    uint32_t albedo_texture;   /* optional, lies as frame.depth_texture, rgb, linear: the surface's diffuse colour. Adds light
-                                  that bounced off neighbours of the same colour (Jimenez et al. 2016, section 5) */
+    uint32_t albedo_texture;   /* optional, lies as that. Rgb, linear: the surface's diffuse colour. Adds light that bounced off
+                                  neighbours of the same colour (Jimenez et al. 2016, section 5) */
     bool show;                 /* true: accessibility replaces the picture. For a first look */
 } glssao_apply_options;
 
@@ -261,6 +268,7 @@ typedef enum glssao_pass { /* in the order of the frame */
     GLSSAO_PASS_ESTIMATE,    /* raw accessibility */
     GLSSAO_PASS_RESOLVE,     /* glssao_accumulate: the mean of the estimates and its error */
     GLSSAO_PASS_BLUR,        /* all rounds */
+    GLSSAO_PASS_RAYS,        /* corrects the estimate by the host's rays */
     GLSSAO_PASS_UPSAMPLE,    /* brings a half-size result to full size */
     GLSSAO_PASS_APPLY,       /* glssao_apply: multiplies accessibility into colour */
     GLSSAO_PASS_COUNT

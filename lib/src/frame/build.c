@@ -112,6 +112,11 @@ enum glssao__map glssao__build_turn_map(const glssao__builder *b, int number)
     return (enum glssao__map)((b->c.paired ? MAP_PAIRED_0 : MAP_AMBIENT_0) + number % 2);
 }
 
+bool glssao__build_has_more(const glssao__builder *b)
+{
+    return b->c.upsamples || b->c.corrects;
+}
+
 /* A step that draws the `number`-th turn, or the result. */
 glssao__step *glssao__build_turn(glssao__builder *b, glssao_pass pass, enum glssao__shader shader, int number,
                                  bool is_result)

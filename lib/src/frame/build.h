@@ -28,6 +28,9 @@ glssao__step *glssao__build_step(glssao__builder *b, glssao_pass pass, enum glss
 /* Adds a draw of the `number`-th of the passes that draw by turns into two maps, or of the result. */
 glssao__step *glssao__build_turn(glssao__builder *b, glssao_pass pass, enum glssao__shader shader, int number,
                                  bool is_result);
+/* Whether later passes read what the estimate, and the technique's own blur, leave in the maps that are drawn by turns.
+ */
+bool glssao__build_has_more(const glssao__builder *b);
 /* The map that holds the value after so many of these passes. */
 enum glssao__map glssao__build_turn_map(const glssao__builder *b, int number);
 void glssao__build_clear(glssao__builder *b, glssao_pass pass, enum glssao__map map, enum glssao__step_kind kind);

@@ -16,7 +16,8 @@ enum {
 static const char *const pass_names[GLSSAO_PASS_COUNT] = {
     [GLSSAO_PASS_INPUTS] = "inputs", [GLSSAO_PASS_NORMALS] = "normals",   [GLSSAO_PASS_DISTANCE] = "distance",
     [GLSSAO_PASS_TILES] = "tiles",   [GLSSAO_PASS_ESTIMATE] = "estimate", [GLSSAO_PASS_RESOLVE] = "resolve",
-    [GLSSAO_PASS_BLUR] = "blur",     [GLSSAO_PASS_UPSAMPLE] = "upsample", [GLSSAO_PASS_APPLY] = "apply",
+    [GLSSAO_PASS_BLUR] = "blur",     [GLSSAO_PASS_RAYS] = "rays",         [GLSSAO_PASS_UPSAMPLE] = "upsample",
+    [GLSSAO_PASS_APPLY] = "apply",
 };
 
 const char *glssao__pass_name(glssao_pass pass)
@@ -80,8 +81,9 @@ bool glssao__choose_dispatches(const glssao__capabilities *can)
 static bool can_be_dispatched(const glssao__choice *c, glssao_pass pass)
 {
     return pass == GLSSAO_PASS_NORMALS || pass == GLSSAO_PASS_DISTANCE || pass == GLSSAO_PASS_BLUR ||
-           pass == GLSSAO_PASS_UPSAMPLE ||
-           (pass == GLSSAO_PASS_ESTIMATE && c->is_horizon && !c->accumulates); /* a sum is added to by blending */
+           pass == GLSSAO_PASS_RAYS || pass == GLSSAO_PASS_UPSAMPLE ||
+           (pass == GLSSAO_PASS_ESTIMATE && (c->is_horizon || c->is_rays) &&
+            !c->accumulates); /* a sum is added to by blending */
 }
 
 /* Why tiles are not sorted; NULL where they are. */
@@ -92,6 +94,8 @@ static const char *tiles_refusal(const glssao__choice *c, const glssao__request 
     const int rows = (c->estimate[1] + TILE_SIDE - 1) / TILE_SIDE;
     if (q->settings->tiles == GLSSAO_TILES_OFF)
         return "settings.tiles is off: every pixel is estimated";
+    if (c->is_rays || c->corrects)
+        return "rays may see what is not in the picture";
     if (c->compute)
         return "compute shaders leave out open pixels themselves";
     /* Points as large as a block of 4 x 4 tiles, and at full size a viewport that holds all tiles. */
@@ -117,7 +121,7 @@ static void choose_blur(glssao__choice *c, const glssao__request *q)
     const glssao_settings *settings = q->settings;
     const bool asked = settings->blur != GLSSAO_BLUR_NONE && settings->blur_rounds > 0;
     const bool is_smooth = c->accumulates && q->estimates >= TILE_ESTIMATES;
-    if (c->compute && c->upsamples && c->is_planar && asked)
+    if (c->compute && c->upsamples && c->is_planar && !c->is_rays && !c->corrects && asked)
         c->inner_rounds = settings->blur_rounds < ROUNDS_OF_A_DISPATCH ? settings->blur_rounds : ROUNDS_OF_A_DISPATCH;
     c->blurs = asked && !is_smooth && settings->blur_rounds > c->inner_rounds;
     choose_pass(c, GLSSAO_PASS_BLUR, c->blurs,
@@ -139,10 +143,17 @@ static void choose_passes(glssao__choice *c, const glssao__request *q)
     choose_pass(c, GLSSAO_PASS_NORMALS, !frame->normal_texture,
                 frame->normal_texture ? "the host brings normals" : "there is no normal map: rebuilt from depth");
     choose_pass(c, GLSSAO_PASS_DISTANCE, c->is_horizon, c->is_horizon ? "the estimate reads it" : "no pass reads it");
-    choose_pass(c, GLSSAO_PASS_ESTIMATE, true, c->factor == 2 ? "at half size" : "at full size");
+    choose_pass(c, GLSSAO_PASS_ESTIMATE, true,
+                c->is_rays       ? "takes the host's rays"
+                : c->factor == 2 ? "at half size"
+                                 : "at full size");
     choose_pass(c, GLSSAO_PASS_RESOLVE, c->accumulates,
                 c->accumulates ? "the mean of the estimates" : "runs when glssao_accumulate is called");
     choose_blur(c, q);
+    choose_pass(c, GLSSAO_PASS_RAYS, c->corrects,
+                c->corrects  ? "adds the blurred difference between the host's rays and the estimate"
+                : c->is_rays ? "rays are all of the estimate"
+                             : "the host brings no rays");
     choose_pass(c, GLSSAO_PASS_UPSAMPLE, c->upsamples,
                 c->upsamples     ? "from half size to full size along surfaces"
                 : c->factor == 2 ? "the host takes the half-size map"
@@ -164,7 +175,7 @@ static void choose_copies(glssao__choice *c, const glssao__request *q)
     c->is_oblique = q->is_oblique && frame->depth_kind == GLSSAO_DEPTH_WINDOW;
     const bool depth = c->is_oblique || frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC;
     glssao__host_names(frame, c->host_names);
-    for (int i = 0; i < HOST_TEXTURES; ++i)
+    for (int i = 0; i < HOST_RAYS; ++i) /* rays are a picture of their own */
         c->copies[i] = c->host_names[i] != 0 && (all || (depth && i != HOST_NORMAL));
 }
 
@@ -188,8 +199,21 @@ static void choose_reach(glssao__choice *c, const glssao_settings *settings)
 {
     const int first = c->is_planar || settings->blur == GLSSAO_BLUR_BOX ? 2 : 5, later = c->is_planar ? 3 : first;
     const bool blurs = c->blurs || c->inner_rounds > 0;
-    c->reach = (blurs ? first + later * (settings->blur_rounds - 1) : 0) + (c->upsamples ? 1 : 0);
+    c->rays_rounds = c->corrects           ? CORRECTION_ROUNDS + (c->factor == 1)
+                     : c->is_rays && blurs ? settings->blur_rounds
+                                           : 0;
+    if (blurs && !c->is_rays)
+        c->reach = first + later * (settings->blur_rounds - 1);
+    for (int i = 0; i < c->rays_rounds; ++i)
+        c->reach += 2 << glssao__rays_stride(i);
+    c->reach += c->upsamples ? 1 : 0;
     c->tile_rings = (c->reach + TILE_SIDE - 1) / TILE_SIDE;
+}
+
+/* Windows of 4, 8, 16 and 32 pixels. */
+int glssao__rays_stride(int round)
+{
+    return round < 3 ? round : 3;
 }
 
 void glssao__choose(glssao__choice *c, const glssao__request *q)
@@ -206,6 +230,8 @@ void glssao__choose(glssao__choice *c, const glssao__request *q)
     c->accumulates = q->estimates > 0;
     c->is_horizon = settings->technique == GLSSAO_HORIZON;
     c->is_planar = settings->blur == GLSSAO_BLUR_PLANAR;
+    c->is_rays = settings->technique == GLSSAO_RAYS;
+    c->corrects = !c->is_rays && !c->accumulates && q->frame->rays_texture != 0;
     const char *nothing = nothing_to_occlude(q->frame, settings);
     glssao__choose_nothing(&c->plan, nothing ? nothing : "");
     c->nothing = nothing != NULL;
@@ -217,6 +243,6 @@ void glssao__choose(glssao__choice *c, const glssao__request *q)
         choose_inputs(c, q);
         choose_reach(c, settings);
     }
-    c->paired = c->upsamples || (c->blurs && c->is_planar);
+    c->paired = c->upsamples || c->corrects || (c->blurs && c->is_planar);
     c->result_apart = c->upsamples || c->margin > 0;
 }

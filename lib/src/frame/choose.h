@@ -7,7 +7,10 @@
 
 #include "frame/steps.h"
 
-enum { ROUNDS_OF_A_DISPATCH = 2 }; /* rounds of the planar blur that one dispatch runs, at most */
+enum {
+    ROUNDS_OF_A_DISPATCH = 2, /* rounds of the planar blur that one dispatch runs, at most */
+    CORRECTION_ROUNDS = 2 /* of the blur of the difference between rays and estimate at half size; one more at full */
+};
 
 /* All that the steps follow from. */
 typedef struct glssao__choice {
@@ -16,6 +19,8 @@ typedef struct glssao__choice {
     bool compute;     /* passes that can be dispatched are */
     bool accumulates;
     bool is_horizon, is_planar;
+    bool is_rays;    /* the estimate is the host's rays */
+    bool corrects;   /* the host's rays correct another estimate */
     bool is_oblique; /* window depth becomes view distance in a copy */
     bool blurs, upsamples, has_tiles;
     bool paired;       /* later passes read paired values */
@@ -23,16 +28,20 @@ typedef struct glssao__choice {
     int size[2], estimate[2];
     int factor; /* full-size pixels to one of the estimate: 1 or 2 */
     int margin, estimate_margin;
+    int rays_rounds;                 /* of the blur of values from rays */
     int inner_rounds;                /* rounds of the blur within the dispatch that upsamples */
     int reach;                       /* texels of the estimate beyond a pixel that later passes read */
     int tile_rings;                  /* the same in tiles, rounded up */
-    gl_uint host_names[4];           /* as in glssao__schedule */
-    bool copies[4];                  /* which of the host's textures are copied, in the order of HOST_DEPTH and so on */
+    gl_uint host_names[5];           /* as in glssao__schedule */
+    bool copies[5];                  /* which of the host's textures are copied, in the order of HOST_DEPTH and so on */
     enum glssao__map depth, normals; /* where the passes after the copying read them */
     glssao__variant inputs;          /* how these are stored, and what all variants have in common */
 } glssao__choice;
 
 void glssao__choose(glssao__choice *out, const glssao__request *request);
+
+/* Pixels between the neighbours that a round of the blur of values from rays reads, as a power of 2. */
+int glssao__rays_stride(int round);
 
 /* A plan in which every pass is skipped, for that reason. */
 void glssao__choose_nothing(glssao_plan *out, const char *reason);

@@ -13,7 +13,8 @@ static void add_separable_blur(glssao__builder *b)
     const int count = 2 * b->settings->blur_rounds;
     for (int i = 1; i <= count; ++i) {
         const bool is_last = i == count, bilateral = b->settings->blur == GLSSAO_BLUR_BILATERAL;
-        glssao__step *step = glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_BLUR, i, is_last && !b->c.upsamples);
+        glssao__step *step =
+            glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_BLUR, i, is_last && !glssao__build_has_more(b));
         glssao__build_point(step, UNIT_AMBIENT, glssao__build_turn_map(b, i - 1));
         if (bilateral)
             glssao__build_surfaces(b, step);
@@ -36,12 +37,36 @@ static void add_planar_draws(glssao__builder *b)
     const int count = b->settings->blur_rounds + 1;
     for (int i = 1; i <= count; ++i) {
         glssao__step *step =
-            glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_PLANAR_BLUR, i, i == count && !b->c.upsamples);
+            glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_PLANAR_BLUR, i, i == count && !glssao__build_has_more(b));
         glssao__build_point(step, UNIT_AMBIENT, glssao__build_turn_map(b, i - 1));
         step->is_horizontal = i % 2 == 1;
         glssao__build_set(step, MACRO_WIDE, i > 2);
         glssao__build_finish(b, step);
         glssao__build_tiles(b, step, 1, 0, b->c.tile_rings + i % 2);
+    }
+}
+
+/* One direction of a round of the blur of values from rays, which may be missing. */
+static void set_rays_blur(const glssao__builder *b, glssao__step *step, int i, enum glssao__map from)
+{
+    glssao__build_point(step, UNIT_AMBIENT, from);
+    step->is_horizontal = i % 2 == 0;
+    glssao__build_set(step, MACRO_STRIDE, glssao__rays_stride(i / 2));
+    glssao__build_set(step, MACRO_RAYS, 1);
+    glssao__build_set(step, MACRO_CORRECTS, b->c.corrects);
+    glssao__build_finish(b, step);
+}
+
+/* The blur of rays alone: two directions a round, farther apart in each. */
+static void add_rays_blur(glssao__builder *b)
+{
+    const int count = 2 * b->c.rays_rounds;
+    for (int i = 0; i < count; ++i) {
+        glssao__step *step =
+            glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_PLANAR_BLUR, i + 1, i + 1 == count && !b->c.upsamples);
+        set_rays_blur(b, step, i, glssao__build_turn_map(b, i));
+        if (i + 1 == count)
+            glssao__build_set(step, MACRO_RAYS, 2);
     }
 }
 
@@ -59,8 +84,8 @@ static void add_planar_dispatches(glssao__builder *b)
     const int rounds = b->settings->blur_rounds - b->c.inner_rounds;
     for (int done = 0, i = 1; done < rounds; ++i) {
         const int now = rounds - done < ROUNDS_OF_A_DISPATCH ? rounds - done : ROUNDS_OF_A_DISPATCH;
-        glssao__step *step =
-            glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_PLANAR_TILE, i, done + now == rounds && !b->c.upsamples);
+        glssao__step *step = glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_PLANAR_TILE, i,
+                                                done + now == rounds && !glssao__build_has_more(b));
         glssao__build_point(step, UNIT_AMBIENT, glssao__build_turn_map(b, i - 1));
         set_tile(b, step, now, done == 0);
         glssao__build_set(step, MACRO_NORMALS, 0); /* only upsampling reads normals and depth */
@@ -72,7 +97,9 @@ static void add_planar_dispatches(glssao__builder *b)
 
 void glssao__add_blur(glssao__builder *b)
 {
-    if (!b->c.is_planar)
+    if (b->c.is_rays)
+        add_rays_blur(b);
+    else if (!b->c.is_planar)
         add_separable_blur(b);
     else if (b->c.plan.passes[GLSSAO_PASS_BLUR].compute)
         add_planar_dispatches(b);
@@ -80,18 +107,53 @@ void glssao__add_blur(glssao__builder *b)
         add_planar_draws(b);
 }
 
-/* The last map that the passes by turns drew into. */
-static enum glssao__map last_turn(const glssao__builder *b)
+/* The number of the passes by turns so far, the estimate not counted. */
+static int count_turns(const glssao__builder *b)
 {
     int turns = 0;
     for (int i = 0; i < b->s->count; ++i)
-        turns += b->s->steps[i].pass == GLSSAO_PASS_BLUR;
-    return glssao__build_turn_map(b, turns);
+        turns += b->s->steps[i].pass == GLSSAO_PASS_BLUR || b->s->steps[i].shader == SHADER_CORRECT;
+    return turns;
+}
+
+void glssao__build_rays(glssao__builder *b, glssao__step *step, bool is_last)
+{
+    glssao__build_point(step, UNIT_NORMAL, b->c.normals);
+    glssao__build_point(step, UNIT_DEPTH, b->c.depth);
+    glssao__build_point(step, UNIT_RAYS, MAP_HOST_RAYS);
+    glssao__build_set(step, MACRO_RAYS, is_last ? 2 : 1);
+    glssao__build_finish(b, step);
+}
+
+/* The difference between rays and estimate, its blur, and the sum with the estimate. */
+void glssao__add_correction(glssao__builder *b)
+{
+    const int turns = count_turns(b);
+    const enum glssao__map estimate = glssao__build_turn_map(b, turns);
+    for (int i = 0; i < 2; ++i)
+        glssao__build_map(b, (enum glssao__map)(MAP_RAYS_0 + i), "ray difference", GL_RG32F, b->c.estimate);
+    for (int i = 0; i <= 2 * b->c.rays_rounds; ++i) {
+        glssao__step *step = glssao__build_step(b, GLSSAO_PASS_RAYS, i == 0 ? SHADER_RAYS : SHADER_PLANAR_BLUR,
+                                                (enum glssao__map)(MAP_RAYS_0 + i % 2));
+        step->region = glssao__region_of(&b->c, GLSSAO_PASS_RAYS);
+        glssao__build_set(step, MACRO_OUTPUT, OUTPUT_PAIRED);
+        if (i == 0) {
+            glssao__build_point(step, UNIT_AMBIENT, estimate);
+            glssao__build_set(step, MACRO_CORRECTS, 1);
+            glssao__build_rays(b, step, false);
+        } else {
+            set_rays_blur(b, step, i - 1, (enum glssao__map)(MAP_RAYS_0 + (i - 1) % 2));
+        }
+    }
+    glssao__step *step = glssao__build_turn(b, GLSSAO_PASS_RAYS, SHADER_CORRECT, turns + 1, !b->c.upsamples);
+    glssao__build_point(step, UNIT_AMBIENT, estimate);
+    glssao__build_point(step, UNIT_RAYS, MAP_RAYS_0);
+    glssao__build_finish(b, step);
 }
 
 void glssao__add_upsample(glssao__builder *b)
 {
-    const enum glssao__map from = last_turn(b);
+    const enum glssao__map from = glssao__build_turn_map(b, count_turns(b));
     const bool compute = b->c.plan.passes[GLSSAO_PASS_UPSAMPLE].compute;
     if (!compute)
         glssao__build_map(b, MAP_BLOCKS, "block", GL_RGBA16, b->c.estimate);

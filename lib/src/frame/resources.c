@@ -21,7 +21,7 @@ static const struct glssao__sampler_name sampler_names[] = {
     {"u_normal_map", UNIT_NORMAL},   {"u_depth_map", UNIT_DEPTH},       {"u_random_vector_map", UNIT_RANDOM_VECTOR},
     {"u_ambient_map", UNIT_AMBIENT}, {"u_distance_map", UNIT_DISTANCE}, {"u_back_map", UNIT_BACK},
     {"u_second_map", UNIT_SECOND},   {"u_input_map", UNIT_DEPTH},       {"u_tile_map", UNIT_TILES},
-    {"u_strength_map", UNIT_DEPTH},  {"u_albedo_map", UNIT_NORMAL}, /* apply.c */
+    {"u_rays_map", UNIT_RAYS},       {"u_strength_map", UNIT_DEPTH},    {"u_albedo_map", UNIT_NORMAL}, /* apply.c */
 };
 
 static const glssao__program_ties ties = {

@@ -107,9 +107,11 @@ static void set_estimate(const glssao__builder *b, glssao__step *step)
 
 static void add_estimate(glssao__builder *b)
 {
-    const enum glssao__shader shader = b->settings->technique == GLSSAO_CLASSIC      ? SHADER_CLASSIC
-                                       : b->settings->technique == GLSSAO_HEMISPHERE ? SHADER_HEMISPHERE
-                                                                                     : SHADER_HORIZON;
+    static const enum glssao__shader shaders[] = {[GLSSAO_CLASSIC] = SHADER_CLASSIC,
+                                                  [GLSSAO_HEMISPHERE] = SHADER_HEMISPHERE,
+                                                  [GLSSAO_HORIZON] = SHADER_HORIZON,
+                                                  [GLSSAO_RAYS] = SHADER_RAYS};
+    const enum glssao__shader shader = shaders[b->settings->technique];
     if (b->c.accumulates) {
         glssao__step *step = glssao__build_step(b, GLSSAO_PASS_ESTIMATE, shader, MAP_SUM);
         step->region = glssao__region_of(&b->c, GLSSAO_PASS_ESTIMATE);
@@ -118,7 +120,12 @@ static void add_estimate(glssao__builder *b)
         set_estimate(b, step);
         return;
     }
-    glssao__step *step = glssao__build_turn(b, GLSSAO_PASS_ESTIMATE, shader, 0, !b->c.blurs && !b->c.upsamples);
+    glssao__step *step =
+        glssao__build_turn(b, GLSSAO_PASS_ESTIMATE, shader, 0, !b->c.blurs && !glssao__build_has_more(b));
+    if (b->c.is_rays) {
+        glssao__build_rays(b, step, !b->c.blurs);
+        return;
+    }
     set_estimate(b, step);
     glssao__build_tiles(b, step, 1, 0, 0);
     if (!b->c.has_tiles || !b->c.paired)
@@ -213,10 +220,15 @@ static void add_open_result(glssao__builder *b)
 void glssao__schedule_make(glssao__schedule *out, const glssao__request *q)
 {
     static void (*const parts[GLSSAO_PASS_COUNT])(glssao__builder *) = {
-        [GLSSAO_PASS_INPUTS] = add_copies,     [GLSSAO_PASS_NORMALS] = add_normals,
-        [GLSSAO_PASS_DISTANCE] = add_distance, [GLSSAO_PASS_TILES] = add_tiles,
-        [GLSSAO_PASS_ESTIMATE] = add_estimate, [GLSSAO_PASS_RESOLVE] = add_resolve,
-        [GLSSAO_PASS_BLUR] = glssao__add_blur, [GLSSAO_PASS_UPSAMPLE] = glssao__add_upsample,
+        [GLSSAO_PASS_INPUTS] = add_copies,
+        [GLSSAO_PASS_NORMALS] = add_normals,
+        [GLSSAO_PASS_DISTANCE] = add_distance,
+        [GLSSAO_PASS_TILES] = add_tiles,
+        [GLSSAO_PASS_ESTIMATE] = add_estimate,
+        [GLSSAO_PASS_RESOLVE] = add_resolve,
+        [GLSSAO_PASS_BLUR] = glssao__add_blur,
+        [GLSSAO_PASS_RAYS] = glssao__add_correction,
+        [GLSSAO_PASS_UPSAMPLE] = glssao__add_upsample,
     };
     glssao__builder b = {.s = out, .frame = q->frame, .settings = q->settings, .estimates = q->estimates};
     memset(out, 0, sizeof *out);

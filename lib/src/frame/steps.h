@@ -21,7 +21,8 @@ enum glssao__unit {
     UNIT_BACK,
     UNIT_SECOND,
     UNIT_TILES,
-    UNIT_COUNT
+    UNIT_COUNT,
+    UNIT_RAYS = UNIT_RANDOM_VECTOR /* no pass reads both */
 };
 
 /* Textures that steps read and draw into. */
@@ -31,6 +32,7 @@ enum glssao__map {
     MAP_HOST_NORMAL,
     MAP_HOST_BACK,
     MAP_HOST_SECOND,
+    MAP_HOST_RAYS,
     MAP_RANDOM_VECTOR,
     MAP_DEPTH_COPY, /* the effect's targets from here on */
     MAP_NORMAL_COPY,
@@ -47,6 +49,8 @@ enum glssao__map {
     MAP_AMBIENT_1,
     MAP_PAIRED_0, /* paired values (paired.glsl) */
     MAP_PAIRED_1,
+    MAP_RAYS_0, /* differences between rays and estimate (rays.frag) */
+    MAP_RAYS_1,
     MAP_BLOCKS, /* blocks of four pixels (upsample.frag) */
     MAP_RESULT, /* the result, where it has another size than the estimate */
     MAP_SUM,    /* sums of accumulated estimates, one channel for each of two replicates */
@@ -126,7 +130,7 @@ typedef struct glssao__schedule {
     enum glssao__barrier last_barrier;   /* after the last step */
     glssao__target_spec maps[MAP_COUNT]; /* those that must be there; format 0: not used */
     gl_uint
-        host_names[4]; /* of the textures that the frame reads, 0 for others, in the order of HOST_DEPTH and so on */
+        host_names[5]; /* of the textures that the frame reads, 0 for others, in the order of HOST_DEPTH and so on */
     int estimate_size[2];
     enum glssao__map result;  /* holds the result afterwards */
     enum glssao__map other;   /* the other of the maps that the passes draw into by turns */

@@ -47,7 +47,7 @@ static bool check_fade(const glssao__log *log, const char *field, float start, f
 
 bool glssao__check_settings(const glssao_settings *settings, const glssao__log *log)
 {
-    if ((unsigned)settings->technique > GLSSAO_HORIZON)
+    if ((unsigned)settings->technique > GLSSAO_RAYS)
         return refuse(log, "settings.technique", settings->technique, "unknown");
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; ++i) {
         const struct number *n = &numbers[i];
@@ -74,6 +74,9 @@ bool glssao__check_settings(const glssao_settings *settings, const glssao__log *
     if (!check_fade(log, "fade", settings->fade_start, settings->fade_end) ||
         !check_fade(log, "fade_far", settings->fade_far_start, settings->fade_far_end))
         return false;
+    if (settings->technique == GLSSAO_RAYS && settings->blur != GLSSAO_BLUR_PLANAR &&
+        settings->blur != GLSSAO_BLUR_NONE)
+        return refuse(log, "settings.blur", settings->blur, "the rays technique takes the planar blur, or none");
     switch (settings->blur) {
     case GLSSAO_BLUR_NONE:
     case GLSSAO_BLUR_GAUSSIAN:
@@ -164,6 +167,8 @@ bool glssao__check_frame(const glssao_frame *frame, const glssao_settings *setti
     if ((frame->back_texture == 0) != (frame->second_texture == 0))
         return refuse(log, frame->back_texture ? "frame.second_texture" : "frame.back_texture", 0,
                       "no texture, but the other layer has one");
+    if (settings->technique == GLSSAO_RAYS && frame->rays_texture == 0)
+        return refuse(log, "frame.rays_texture", 0, "no texture, and the rays technique has no estimate of its own");
     return check_margin(frame, size, log) && check_viewport(frame, size, log) && check_logarithm(frame, log) &&
            check_view(frame, log) && glssao__projection_analyse(frame, log, out_projection);
 }

@@ -134,6 +134,7 @@ const char *glssao__format_fault(const glssao__format *f, enum glssao__role role
             return "can't hold view distance in alpha: want GL_RGBA32F or GL_RGBA16F";
         return normal_fault(f, normals);
     case ROLE_COLOR:
+    case ROLE_RAYS:
         break;
     }
     return NULL;

@@ -11,6 +11,7 @@
 /* What a texture is read as. */
 enum glssao__role {
     ROLE_COLOR, /* any format but integers */
+    ROLE_RAYS,  /* the same */
     ROLE_WINDOW_DEPTH,
     ROLE_DISTANCE,
     ROLE_NORMAL,

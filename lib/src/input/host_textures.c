@@ -13,6 +13,7 @@ void glssao__host_names(const glssao_frame *frame, gl_uint out_names[HOST_TEXTUR
     out_names[HOST_NORMAL] = frame->normal_texture;
     out_names[HOST_BACK] = frame->back_texture;
     out_names[HOST_SECOND] = frame->second_texture;
+    out_names[HOST_RAYS] = frame->rays_texture;
 }
 
 /* Parameters that change what a shader reads without a sampler object having a say. */
@@ -150,7 +151,7 @@ static void tell_target(const glssao__gl *gl, const glssao__log *log, const char
     if (found == GL_TEXTURE_2D)
         cure = "frame.multisample must be false";
     else if (found == GL_TEXTURE_2D_MULTISAMPLE)
-        cure = t->role == ROLE_COLOR ? "resolve it" : "set frame.multisample";
+        cure = t->role == ROLE_COLOR || t->role == ROLE_RAYS ? "resolve it" : "set frame.multisample";
     else if (found == GL_TEXTURE_2D_ARRAY || found == GL_TEXTURE_CUBE_MAP)
         cure = "hand over a glTextureView of one layer, or copy it";
     glssao__log_write(log, GLSSAO_LOG_ERROR, "%s = %u: a %s, not a %s: %s", field, t->name,
@@ -175,6 +176,19 @@ static bool look_at(const glssao__gl *gl, const glssao__log *log, const char *fi
     t->format = format_of(gl, t->target, t->role == ROLE_NORMAL_AND_DISTANCE);
     t->precision = precision_of(&t->format, t->role == ROLE_NORMAL_AND_DISTANCE);
     return true;
+}
+
+/* The host's rays are a picture of the effect's own, whatever its other textures are a part of. */
+static bool has_size_of_rays(const glssao__log *log, const char *field, const int size[2],
+                             const glssao__host_texture *t)
+{
+    const int half[2] = {(size[0] + 1) / 2, (size[1] + 1) / 2};
+    if ((t->width == size[0] && t->height == size[1]) || (t->width == half[0] && t->height == half[1]))
+        return true;
+    glssao__log_write(log, GLSSAO_LOG_ERROR,
+                      "%s = %u: %d x %d, neither of the full size, %d x %d, nor of half, %d x %d", field, t->name,
+                      t->width, t->height, size[0], size[1], half[0], half[1]);
+    return false;
 }
 
 static bool is_fitting(const glssao__log *log, const char *field, const glssao__host_texture *t, glssao_normal normals)
@@ -249,7 +263,7 @@ static bool check_texture(const glssao__gl *gl, const glssao__log *log, const ch
                           field, t->name);
         return false;
     }
-    if (!is_large_enough(log, field, frame, size, t))
+    if (t->role == ROLE_RAYS ? !has_size_of_rays(log, field, size, t) : !is_large_enough(log, field, frame, size, t))
         return false;
     if (known && !seen) {
         known->seen[known->next] = *t;
@@ -285,7 +299,8 @@ glssao_result glssao__host_textures_check(const glssao__gl *gl, const glssao__lo
                                           glssao__host_inputs *out)
 {
     static const char *const fields[HOST_TEXTURES] = {"frame.depth_texture", "frame.normal_texture",
-                                                      "frame.back_texture", "frame.second_texture"};
+                                                      "frame.back_texture", "frame.second_texture",
+                                                      "frame.rays_texture"};
     const bool in_alpha = frame->depth_kind == GLSSAO_DEPTH_NORMAL_ALPHA;
     const bool in_red = in_alpha || frame->depth_kind == GLSSAO_DEPTH_VIEW_DISTANCE;
     gl_uint names[HOST_TEXTURES];
@@ -297,10 +312,11 @@ glssao_result glssao__host_textures_check(const glssao__gl *gl, const glssao__lo
         if (!names[i])
             continue;
         t->name = names[i];
-        t->target = frame->multisample ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
-        t->role = i != HOST_NORMAL ? (in_red ? ROLE_DISTANCE : ROLE_WINDOW_DEPTH)
-                  : in_alpha       ? ROLE_NORMAL_AND_DISTANCE
-                                   : ROLE_NORMAL;
+        t->target = frame->multisample && i != HOST_RAYS ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
+        t->role = i == HOST_RAYS     ? ROLE_RAYS
+                  : i != HOST_NORMAL ? (in_red ? ROLE_DISTANCE : ROLE_WINDOW_DEPTH)
+                  : in_alpha         ? ROLE_NORMAL_AND_DISTANCE
+                                     : ROLE_NORMAL;
         if (!check_texture(gl, log, fields[i], frame, size, known, t))
             return GLSSAO_INVALID_ARGUMENT;
     }

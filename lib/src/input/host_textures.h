@@ -11,7 +11,7 @@
 #include "log.h"
 
 /* The textures of a frame, in this order. */
-enum { HOST_DEPTH, HOST_NORMAL, HOST_BACK, HOST_SECOND, HOST_TEXTURES };
+enum { HOST_DEPTH, HOST_NORMAL, HOST_BACK, HOST_SECOND, HOST_RAYS, HOST_TEXTURES };
 
 enum { HOST_PARAMETERS = 4, HOST_SEEN = 8 };
 

@@ -1,0 +1,375 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Pictures whose surfaces a rasteriser found. Threads take blocks of 16 x 16 texels from the bottom up, as far as
+ * texels have come. All in single precision, and in packets that are full but for the last of a block.
+ */
+#define _POSIX_C_SOURCE 200809L
+#include "clock.h"
+#include "trace_internal.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+enum { BLOCK = 16, BLOCK_TEXELS = BLOCK * BLOCK, MOST_RAYS = 64, MOST_THREADS = 256 };
+
+/* How a texel leads to a point in the world, and how far off that may be. */
+typedef struct lens {
+    float ndc[2][2];          /* x: ndc = column * [0] + [1]; y the same */
+    float scale[2];           /* view x = scale (ndc w - shift[0] + shift[1] distance); y the same */
+    float shift[2][2];        /* [x or y] */
+    float w[2];               /* clip w = w[0] - w[1] distance */
+    float depth_error;        /* view distance, per w^2 */
+    float view_from_world[9]; /* rotation, columns of three */
+    float eye[3];             /* in the world */
+    float perspective;        /* 1, or 0 in an orthographic projection */
+} lens;
+
+struct trace_picture {
+    const trace_scene *trace;
+    lens lens;
+    trace_seen seen;
+    const uint8_t *counts;
+    int width, height; /* texels */
+    int blocks_across;
+    float radius;
+    float *out;
+    trace_pattern pattern;
+    bool (*stopped)(void *user);
+    void *stopped_user;
+    double start_ms;
+    pthread_mutex_t lock; /* of the members below */
+    pthread_cond_t fed;
+    int rows, next, rays_known;
+    bool is_stopped, is_ending;
+    uint64_t rays;
+    pthread_t threads[MOST_THREADS];
+    int thread_count;
+};
+
+/* The texels of a block that show a surface. Arrays of one number each, so that compilers make vector code. */
+typedef struct block {
+    int count;
+    int texel[BLOCK_TEXELS]; /* index in the picture */
+    int first[BLOCK_TEXELS]; /* of its directions in the pattern */
+    int rays[BLOCK_TEXELS], blocked[BLOCK_TEXELS];
+    float x[BLOCK_TEXELS], y[BLOCK_TEXELS], distance[BLOCK_TEXELS];
+    float origin[3][BLOCK_TEXELS], normal[3][BLOCK_TEXELS]; /* the normal in view space, then a unit one in the world */
+    float u[3][BLOCK_TEXELS], v[3][BLOCK_TEXELS];           /* a frame with the normal */
+} block;
+
+static bool open_lens(const scene_view *view, const trace_seen *seen, lens *out)
+{
+    const float *c = view->clip_from_view, *v = view->view_from_world;
+    const int size[2] = {view->width, view->height};
+    for (int i = 0; i < 2; i++) {
+        out->ndc[i][0] = (float)(2.0 * seen->step / size[i]);
+        out->ndc[i][1] = (float)(1.0 / size[i] - 1);
+        out->scale[i] = 1 / c[5 * i];
+        out->shift[i][0] = c[12 + i];
+        out->shift[i][1] = c[8 + i];
+    }
+    out->w[0] = c[15];
+    out->w[1] = c[11];
+    out->perspective = fabsf(c[11]) > 0;
+    /* ndc z = (c10 z + c14) / w: its derivative is (c10 w - c11 (c10 z + c14)) / w^2, and depth is half of it. A
+     * rasteriser rounds depth more than once: measured, the surface lies up to four steps from it. */
+    const double slope = (double)c[10] * (double)c[15] - (double)c[11] * (double)c[14];
+    out->depth_error = (float)(4 * 2 * seen->depth_step / fabs(slope));
+    for (int k = 0; k < 3; k++) {
+        double eye = 0;
+        for (int r = 0; r < 3; r++) {
+            out->view_from_world[3 * k + r] = v[4 * k + r];
+            eye -= (double)v[4 * k + r] * (double)v[12 + r];
+        }
+        out->eye[k] = (float)eye;
+    }
+    return isfinite(out->depth_error) && isfinite(out->scale[0] * out->scale[1]);
+}
+
+static inline float least(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+/* Unit normals, and frames about them: Duff et al., "Building an orthonormal basis, revisited", JCGT 2017. */
+static void turn_normals(const lens *l, int count, block *b)
+{
+    const float *m = l->view_from_world;
+    for (int i = 0; i < count; i++) {
+        const float nx = b->normal[0][i], ny = b->normal[1][i], nz = b->normal[2][i];
+        const float unit = 1 / sqrtf(nx * nx + ny * ny + nz * nz);
+        const float x = unit * (m[0] * nx + m[1] * ny + m[2] * nz);
+        const float y = unit * (m[3] * nx + m[4] * ny + m[5] * nz);
+        const float z = unit * (m[6] * nx + m[7] * ny + m[8] * nz);
+        const float sign = z < 0 ? -1.0f : 1.0f, a = -1 / (sign + z), xy = x * y * a;
+        b->normal[0][i] = x;
+        b->normal[1][i] = y;
+        b->normal[2][i] = z;
+        b->u[0][i] = 1 + sign * x * x * a;
+        b->u[1][i] = sign * xy;
+        b->u[2][i] = -sign * x;
+        b->v[0][i] = xy;
+        b->v[1][i] = sign + y * y * a;
+        b->v[2][i] = -y;
+    }
+}
+
+/* Where rays start: off the surface along the normal, by as much as the rasteriser's depth may be off along the ray
+ * from the eye; by a 16th of a pixel, since corners are snapped to pixels' 256ths and shading normals are not the
+ * triangles' own; and by what single precision loses. */
+static void find_origins(const lens *l, float radius, int count, block *b)
+{
+    const float *m = l->view_from_world;
+    for (int i = 0; i < count; i++) {
+        const float t = b->distance[i], w = l->w[0] - l->w[1] * t;
+        const float ndc_x = b->x[i] * l->ndc[0][0] + l->ndc[0][1], ndc_y = b->y[i] * l->ndc[1][0] + l->ndc[1][1];
+        const float x = l->scale[0] * (ndc_x * w - l->shift[0][0] + l->shift[0][1] * t);
+        const float y = l->scale[1] * (ndc_y * w - l->shift[1][0] + l->shift[1][1] * t);
+        const float nx = b->normal[0][i], ny = b->normal[1][i], nz = b->normal[2][i];
+        /* The ray from the surface to the eye, of view distance 1. */
+        const float to_eye = l->perspective / t;
+        const float toward = (nz - to_eye * (nx * x + ny * y)) / sqrtf(nx * nx + ny * ny + nz * nz);
+        const float depth_error = l->depth_error * w * w * fabsf(toward);
+        const float pixel = fabsf(l->ndc[1][0] * l->scale[1] * w);
+        const float point[3] = {l->eye[0] + m[0] * x + m[1] * y - m[2] * t, l->eye[1] + m[3] * x + m[4] * y - m[5] * t,
+                                l->eye[2] + m[6] * x + m[7] * y - m[8] * t};
+        const float size = fabsf(point[0]) + fabsf(point[1]) + fabsf(point[2]) + fabsf(t);
+        const float offset = least(depth_error + pixel / 16 + 0x1p-20f * size, 0.25f * radius);
+        for (int k = 0; k < 3; k++) {
+            b->origin[k][i] = point[k];
+        }
+        b->distance[i] = offset;
+    }
+}
+
+static void move_origins(int count, block *b)
+{
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < count; i++) {
+            b->origin[k][i] += b->distance[i] * b->normal[k][i];
+        }
+    }
+}
+
+static bool has_surface(const float texel[4])
+{
+    const float square = texel[0] * texel[0] + texel[1] * texel[1] + texel[2] * texel[2];
+    return texel[3] > 0 && texel[3] < 1e15f && square > 1e-20f && square < 1e20f;
+}
+
+static bool is_within(const trace_picture *p, int x, int y)
+{
+    const int m = p->seen.margin / p->seen.step;
+    return x >= m && y >= m && x < p->width - m && y < p->height - m;
+}
+
+static void add_texel(const trace_picture *p, int x, int y, block *b)
+{
+    const int at = y * p->width + x, side = p->pattern.side;
+    const float *texel = p->seen.rows[y][x];
+    const int rays = !is_within(p, x, y) ? 0 : p->counts ? p->counts[at] : p->pattern.rays;
+    p->out[at] = -1;
+    if (rays == 0 || !has_surface(texel)) {
+        return;
+    }
+    const int i = b->count++;
+    b->x[i] = (float)x;
+    b->y[i] = (float)y;
+    b->distance[i] = texel[3];
+    for (int k = 0; k < 3; k++) {
+        b->normal[k][i] = texel[k];
+    }
+    b->texel[i] = at;
+    b->first[i] = (y % side * side + x % side) * p->pattern.rays;
+    b->rays[i] = rays < p->pattern.rays ? rays : p->pattern.rays;
+    b->blocked[i] = 0;
+}
+
+/* Ray number `k` of up to 16 texels of a block. */
+static void trace_packet(const trace_picture *p, block *b, const int texels[TRACE_PACKET], int count, int k)
+{
+    trace_query query = {.trace = p->trace};
+    struct RTCRay16 rays;
+    _Alignas(64) int valid[TRACE_PACKET];
+    float x[TRACE_PACKET], y[TRACE_PACKET], z[TRACE_PACKET];
+    embree_init_context(&query.embree);
+    for (int i = 0; i < TRACE_PACKET; i++) {
+        const float *d = p->pattern.directions[b->first[texels[i]] + k];
+        x[i] = d[0];
+        y[i] = d[1];
+        z[i] = d[2];
+        valid[i] = i < count ? -1 : 0;
+    }
+    for (int i = 0; i < TRACE_PACKET; i++) {
+        const int from = texels[i];
+        rays.org_x[i] = b->origin[0][from];
+        rays.org_y[i] = b->origin[1][from];
+        rays.org_z[i] = b->origin[2][from];
+        rays.dir_x[i] = x[i] * b->u[0][from] + y[i] * b->v[0][from] + z[i] * b->normal[0][from];
+        rays.dir_y[i] = x[i] * b->u[1][from] + y[i] * b->v[1][from] + z[i] * b->normal[1][from];
+        rays.dir_z[i] = x[i] * b->u[2][from] + y[i] * b->v[2][from] + z[i] * b->normal[2][from];
+        rays.tnear[i] = 0;
+        rays.tfar[i] = p->radius;
+        rays.time[i] = 0;
+        rays.mask[i] = UINT32_MAX;
+        rays.id[i] = (unsigned)i;
+        rays.flags[i] = 0;
+    }
+    embree_occluded(p->trace->world, &query.embree, valid, &rays);
+    for (int i = 0; i < count; i++) {
+        b->blocked[texels[i]] += rays.tfar[i] < 0;
+    }
+}
+
+/* Ray number `k` of all texels of a block that have so many. */
+static void trace_round(const trace_picture *p, block *b, int k)
+{
+    int texels[BLOCK_TEXELS + TRACE_PACKET], count = 0;
+    for (int i = 0; i < b->count; i++) {
+        texels[count] = i;
+        count += k < b->rays[i];
+    }
+    for (int i = 0; i < TRACE_PACKET; i++) { /* fills up the last packet, with rays that are not valid */
+        texels[count + i] = 0;
+    }
+    for (int i = 0; i < count; i += TRACE_PACKET) {
+        trace_packet(p, b, texels + i, count - i < TRACE_PACKET ? count - i : TRACE_PACKET, k);
+    }
+}
+
+/* The number of rays that were traced. */
+static uint64_t trace_block(const trace_picture *p, int number)
+{
+    const int left = number % p->blocks_across * BLOCK, bottom = number / p->blocks_across * BLOCK;
+    block b;
+    uint64_t rays = 0;
+    b.count = 0;
+    /* Texels that have the same place in their 4 x 4 follow each other: their rays point nearly the same way. */
+    for (int place = 0; place < 16; place++) {
+        for (int y = bottom + place / 4; y < bottom + BLOCK && y < p->height; y += 4) {
+            for (int x = left + place % 4; x < left + BLOCK && x < p->width; x += 4) {
+                add_texel(p, x, y, &b);
+            }
+        }
+    }
+    find_origins(&p->lens, p->radius, b.count, &b);
+    turn_normals(&p->lens, b.count, &b);
+    move_origins(b.count, &b);
+    for (int k = 0; b.count > 0 && k < p->pattern.rays; k++) {
+        trace_round(p, &b, k);
+    }
+    for (int i = 0; i < b.count; i++) {
+        p->out[b.texel[i]] = 1 - (float)b.blocked[i] / (float)b.rays[i];
+        rays += (uint64_t)b.rays[i];
+    }
+    return rays;
+}
+
+/* Takes blocks until none is left; waits for texels if `patient`. */
+static void take_blocks(trace_picture *p, bool patient)
+{
+    const int blocks = p->blocks_across * ((p->height + BLOCK - 1) / BLOCK);
+    pthread_mutex_lock(&p->lock);
+    for (;;) {
+        const int row = p->next / p->blocks_across,
+                  needed = (row + 1) * BLOCK < p->height ? (row + 1) * BLOCK : p->height;
+        if (p->next >= blocks || p->is_stopped) {
+            break;
+        }
+        if (p->rows < needed) {
+            if (!patient || p->is_ending) {
+                break;
+            }
+            pthread_cond_wait(&p->fed, &p->lock);
+            continue;
+        }
+        const int number = p->next++;
+        pthread_mutex_unlock(&p->lock);
+        const bool stop = p->stopped && p->stopped(p->stopped_user);
+        const uint64_t rays = stop ? 0 : trace_block(p, number);
+        pthread_mutex_lock(&p->lock);
+        p->is_stopped |= stop;
+        p->rays += rays;
+    }
+    pthread_mutex_unlock(&p->lock);
+}
+
+static void *run_thread(void *argument)
+{
+    take_blocks(argument, true);
+    return NULL;
+}
+
+trace_picture *trace_picture_begin(const trace_scene *t, const scene_view *view, const trace_seen *seen,
+                                   const uint8_t *counts, const trace_options *options, float *out, char *error,
+                                   size_t error_size)
+{
+    if (options->samples < 1 || options->samples > MOST_RAYS || !(options->radius >= 0)) {
+        snprintf(error, error_size, "%d rays within a radius of %g: out of range", options->samples,
+                 (double)options->radius);
+        return NULL;
+    }
+    trace_picture *p = calloc(1, sizeof *p);
+    if (!p || !trace_pattern_open(&p->pattern, options->samples, options->seed)) {
+        snprintf(error, error_size, "out of memory");
+        free(p);
+        return NULL;
+    }
+    p->trace = t;
+    p->seen = *seen;
+    p->counts = counts;
+    p->out = out;
+    p->width = (view->width + seen->step - 1) / seen->step;
+    p->height = (view->height + seen->step - 1) / seen->step;
+    p->blocks_across = (p->width + BLOCK - 1) / BLOCK;
+    p->radius = options->radius;
+    p->stopped = options->stopped;
+    p->stopped_user = options->stopped_user;
+    p->start_ms = clock_wall_ms();
+    if (!open_lens(view, seen, &p->lens)) {
+        snprintf(error, error_size, "the view's matrices have no inverse");
+        trace_pattern_close(&p->pattern);
+        free(p);
+        return NULL;
+    }
+    pthread_mutex_init(&p->lock, NULL);
+    pthread_cond_init(&p->fed, NULL);
+    const int threads = options->threads > 0 ? options->threads : (int)sysconf(_SC_NPROCESSORS_ONLN);
+    while (p->thread_count + 1 < threads && p->thread_count < MOST_THREADS &&
+           pthread_create(&p->threads[p->thread_count], NULL, run_thread, p) == 0) {
+        p->thread_count++;
+    }
+    return p;
+}
+
+void trace_picture_feed(trace_picture *p, int rows)
+{
+    pthread_mutex_lock(&p->lock);
+    p->rows = rows;
+    pthread_cond_broadcast(&p->fed);
+    pthread_mutex_unlock(&p->lock);
+}
+
+bool trace_picture_end(trace_picture *p, trace_stats *out_stats)
+{
+    pthread_mutex_lock(&p->lock);
+    p->is_ending = true; /* rows that have not come are not waited for */
+    pthread_cond_broadcast(&p->fed);
+    pthread_mutex_unlock(&p->lock);
+    take_blocks(p, false);
+    for (int i = 0; i < p->thread_count; i++) {
+        pthread_join(p->threads[i], NULL);
+    }
+    const bool done = !p->is_stopped;
+    if (out_stats) {
+        *out_stats = (trace_stats){.rays = p->rays, .seconds = (clock_wall_ms() - p->start_ms) * 1e-3};
+    }
+    pthread_cond_destroy(&p->fed);
+    pthread_mutex_destroy(&p->lock);
+    trace_pattern_close(&p->pattern);
+    free(p);
+    return done;
+}

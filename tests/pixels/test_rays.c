@@ -1,0 +1,547 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The host's rays: alone, denoised, and as a correction of another technique. Each pass is compared with a model in
+ * double precision, from the maps that it reads; and what must hold whatever the passes are: rays that say nothing
+ * change nothing, rays that all say the same win.
+ */
+#include "analytic.h"
+#include "fixture.h"
+#include "horizon_internals.h"
+#include "horizon_passes.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double PAIRED = 0x1p-14 + 1e-6, RESULT = 1.5 / 65535.0;
+
+typedef struct setup {
+    glssao_effect *effect;
+    glssao_frame frame;
+    glssao_settings settings;
+    int width, height; /* full size */
+    float *depth;
+    float sky;
+} setup;
+
+static void set_up(setup *s, fixture *f, analytic_projection projection, const analytic_shape *shapes, int shape_count,
+                   int width, int height)
+{
+    const analytic_view view = analytic_make_view(projection, (double)width / height, 0.5, 40.0, 1.0);
+    float *normals;
+    *s = (setup){.width = width, .height = height};
+    analytic_render(&view, shapes, shape_count, width, height, &s->depth, &normals);
+    s->effect = fixture_effect(f, width, height);
+    s->frame = (glssao_frame){.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, width, height, s->depth),
+                              .normal_texture = fixture_normal_texture(width, height, normals),
+                              .clip_zero_to_one = view.clip_zero_to_one};
+    memcpy(s->frame.projection, view.projection, sizeof view.projection);
+    s->sky = view.clip_zero_to_one ? 0.0f : 1.0f;
+    s->settings = glssao_default_settings(GLSSAO_RAYS, GLSSAO_HIGH);
+    s->settings.radius = 0.8f;
+    free(normals);
+}
+
+static void set_up_room(setup *s, fixture *f, analytic_projection projection, int width, int height)
+{
+    analytic_shape room[ANALYTIC_ROOM_SHAPES];
+    analytic_room(room, 1.0);
+    set_up(s, f, projection, room, ANALYTIC_ROOM_SHAPES, width, height);
+}
+
+static void tear_down(setup *s)
+{
+    gl.DeleteTextures(1, &s->frame.depth_texture);
+    gl.DeleteTextures(1, &s->frame.normal_texture);
+    gl.DeleteTextures(1, &s->frame.rays_texture);
+    glssao_destroy(s->effect);
+    free(s->depth);
+}
+
+/* Replaces the rays of the frame; half: of half size. */
+static void bring(setup *s, GLenum format, bool half, const float *values)
+{
+    const int width = half ? (s->width + 1) / 2 : s->width, height = half ? (s->height + 1) / 2 : s->height;
+    gl.DeleteTextures(1, &s->frame.rays_texture);
+    gl.GenTextures(1, &s->frame.rays_texture);
+    gl.BindTexture(GL_TEXTURE_2D, s->frame.rays_texture);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)format, width, height, 0, GL_RED, GL_FLOAT, values);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+}
+
+static void bring_constant(setup *s, GLenum format, bool half, float value)
+{
+    const int count = s->width * s->height;
+    float *values = malloc((size_t)count * sizeof *values);
+    for (int i = 0; i < count; ++i)
+        values[i] = value;
+    bring(s, format, half, values);
+    free(values);
+}
+
+/* As two rays a pixel would say, at a known seed; one pixel in eight has none. */
+static float *bring_noise(setup *s, bool half)
+{
+    const int count = s->width * s->height;
+    float *values = malloc((size_t)count * sizeof *values);
+    uint32_t random = 12345;
+    for (int i = 0; i < count; ++i) {
+        random = random * 1664525u + 1013904223u;
+        const int roll = (int)(random >> 29);
+        values[i] = roll == 0 ? -1.0f : 0.5f * (float)(roll % 3);
+    }
+    bring(s, GL_R32F, half, values);
+    return values;
+}
+
+static float *compute(const setup *s, int *out_count)
+{
+    int width, height;
+    float *result = fixture_compute(s->effect, &s->frame, &s->settings, &width, &height);
+    *out_count = width * height;
+    return result;
+}
+
+static paired_map read_paired(const setup *s, uint32_t texture)
+{
+    const int divisor = s->settings.half_resolution ? 2 : 1;
+    paired_map map = {.width = (s->width + divisor - 1) / divisor, .height = (s->height + divisor - 1) / divisor};
+    map.texels = fixture_read_texture(texture, map.width, map.height, 3);
+    return map;
+}
+
+static pass_constants constants_of(const setup *s, int round, bool corrects)
+{
+    pass_constants c, upsample;
+    horizon_read_pass_constants(&c, &upsample);
+    c.tolerance *= (double)s->settings.radius;
+    c.near *= (double)s->settings.radius;
+    c.apart = 1 << round;
+    c.alike = round > 0 && !corrects ? horizon_rays_alike() : 0.0;
+    horizon_depth_step(s->effect, c.depth_step);
+    return c;
+}
+
+/* One pass of the blur; `got` has `stride` floats a texel, 1 where it is the result, in which nothing is missing. Few
+ * pixels may be open, where rounding decides whether a tap counts. */
+static void check_blur(const setup *s, const paired_map *from, bool horizontal, int round, bool corrects,
+                       const float *got, int stride)
+{
+    const pass_constants c = constants_of(s, round, corrects);
+    const bool orthographic = s->frame.projection[11] == 0.0f;
+    int wrong = 0, open = 0, changed = 0, count = from->width * from->height;
+    for (int i = 0; i < count; ++i) {
+        double low, high;
+        planar_blur_model(from, horizontal, orthographic, &c, i % from->width, i / from->width, &low, &high);
+        const double value = stride == 1 ? (double)got[i] : paired_accessibility(got[stride * i]);
+        if (stride == 1 && low < 0.0)
+            low = high = 1.0;
+        const double tolerance = stride == 1 ? RESULT : PAIRED;
+        wrong += !(value >= low - tolerance && value <= high + tolerance);
+        open += high - low > 0.01;
+        changed += fabs(value - paired_accessibility(from->texels[3 * i])) > 0.01;
+    }
+    print_message("round %d %s: open %.2f %%, changed %.0f %%\n", round, horizontal ? "horizontal" : "vertical",
+                  100.0 * open / count, 100.0 * changed / count);
+    assert_int_equal(wrong, 0);
+    assert_true(open * 50 < count);
+    assert_true(changed * 20 > count);
+}
+
+/* ---- models ---- */
+
+static void rays_are_read_as_they_are(void **state)
+{
+    setup s;
+    set_up_room(&s, *state, PERSPECTIVE, 121, 91);
+    for (int half = 0; half < 2; ++half) {
+        float *values = bring_noise(&s, half);
+        int count;
+        s.settings.blur_rounds = 1;
+        free(compute(&s, &count));
+        paired_map map = read_paired(&s, horizon_paired_map(s.effect, 0));
+        for (int y = 0; y < s.height; ++y)
+            for (int x = 0; x < s.width; ++x) {
+                const float *own = half ? &values[y / 2 * ((s.width + 1) / 2) + x / 2] : &values[y * s.width + x];
+                const bool is_there = !half || (x % 2 == 0 && y % 2 == 0);
+                const bool sky = s.depth[y * s.width + x] == s.sky;
+                const double wanted = sky ? 1.0 : is_there ? (double)*own : -1.0;
+                const double got = paired_accessibility(map.texels[3 * (y * s.width + x)]);
+                assert_true(wanted < 0.0 ? got == -1.0 : fabs(got - wanted) <= PAIRED + 2e-6);
+            }
+        free(map.texels);
+        free(values);
+    }
+    tear_down(&s);
+}
+
+static void check_rounds(fixture *f, analytic_projection projection, int width, int height)
+{
+    setup s;
+    int count;
+    set_up_room(&s, f, projection, width, height);
+    free(bring_noise(&s, false));
+    s.settings.blur_rounds = 1;
+    float *result = compute(&s, &count);
+    paired_map estimate = read_paired(&s, horizon_paired_map(s.effect, 0));
+    paired_map across = read_paired(&s, horizon_paired_map(s.effect, 1));
+    check_blur(&s, &estimate, true, 0, false, across.texels, 3);
+    check_blur(&s, &across, false, 0, false, result, 1);
+    free(result);
+    s.settings.blur_rounds = 2;
+    result = compute(&s, &count);
+    paired_map first = read_paired(&s, horizon_paired_map(s.effect, 0));
+    paired_map second = read_paired(&s, horizon_paired_map(s.effect, 1));
+    check_blur(&s, &across, false, 0, false, first.texels, 3);
+    check_blur(&s, &first, true, 1, false, second.texels, 3);
+    check_blur(&s, &second, false, 1, false, result, 1);
+    free(result);
+    free(estimate.texels);
+    free(across.texels);
+    free(first.texels);
+    free(second.texels);
+    tear_down(&s);
+}
+
+static void rounds_agree_with_their_model(void **state)
+{
+    check_rounds(*state, PERSPECTIVE, 120, 90);
+    check_rounds(*state, PERSPECTIVE_REVERSED_ZERO_TO_ONE, 121, 91);
+    check_rounds(*state, ORTHOGRAPHIC, 91, 121);
+}
+
+/* The difference's last pass, and the sum of estimate and difference. */
+static void corrections_agree_with_their_model(void **state)
+{
+    static const float powers[] = {1.0f, 3.0f};
+    for (int i = 0; i < 2; ++i) {
+        setup s;
+        int count;
+        set_up_room(&s, *state, i ? ORTHOGRAPHIC : PERSPECTIVE, 120, 90);
+        free(bring_noise(&s, true));
+        s.settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
+        s.settings.radius = 0.8f;
+        s.settings.power = powers[i];
+        s.settings.blur_rounds = 1;
+        float *result = compute(&s, &count);
+        paired_map estimate = read_paired(&s, horizon_paired_map(s.effect, 0));
+        paired_map before = read_paired(&s, horizon_rays_map(s.effect, 1));
+        paired_map difference = read_paired(&s, horizon_rays_map(s.effect, 0));
+        assert_int_equal(count, estimate.width * estimate.height);
+        check_blur(&s, &before, false, 1, true, difference.texels, 3);
+        int moved = 0;
+        for (int k = 0; k < count; ++k) {
+            const double own = paired_accessibility(estimate.texels[3 * k]),
+                         half = paired_accessibility(difference.texels[3 * k]), power = (double)powers[i];
+            const double linear = pow(own, 1.0 / power) + (half < 0.0 ? 0.0 : 2.0 * half - 1.0);
+            const double wanted = pow(fmin(fmax(linear, 0.0), 1.0), power);
+            assert_true(fabs((double)result[k] - wanted) <= RESULT);
+            moved += fabs(wanted - own) > 0.05;
+        }
+        assert_true(moved * 50 > count);
+        free(result);
+        free(estimate.texels);
+        free(before.texels);
+        free(difference.texels);
+        tear_down(&s);
+    }
+}
+
+/* ---- properties ---- */
+
+static const GLenum formats[] = {GL_R8, GL_R16, GL_R16F, GL_R32F};
+
+/* Rays that all say the same are the result where they see a surface, with any technique before them. */
+static void agreeing_rays_win(void **state)
+{
+    const analytic_shape wall = {ANALYTIC_PLANE, {0.0, 0.0, -4.0}, {0.3, 0.2, 0.9}};
+    setup s;
+    int count;
+    set_up(&s, *state, PERSPECTIVE, &wall, 1, 65, 47);
+    for (int technique = GLSSAO_CLASSIC; technique <= GLSSAO_RAYS; ++technique)
+        for (int i = 0; i < 16; ++i) {
+            s.settings = glssao_default_settings((glssao_technique)technique, i & 1 ? GLSSAO_HIGH : GLSSAO_LOW);
+            s.settings.half_resolution = i & 2;
+            s.settings.upsample = i & 1;
+            s.settings.power = 1.0f;
+            bring_constant(&s, formats[i / 4], i & 1, 0.625f);
+            float *result = compute(&s, &count);
+            for (int k = 0; k < count; ++k)
+                assert_true(fabs((double)result[k] - 0.625) < 0.002); /* a half step of R8 */
+            free(result);
+        }
+    tear_down(&s);
+}
+
+/* No rays anywhere, as hosts may say it. */
+static void missing_rays_change_nothing(void **state)
+{
+    static const float nothing[] = {-1.0f, -1e-6f, NAN, -INFINITY};
+    setup s;
+    int count;
+    set_up_room(&s, *state, PERSPECTIVE, 97, 63);
+    for (int technique = GLSSAO_CLASSIC; technique <= GLSSAO_RAYS; ++technique)
+        for (int i = 0; i < 4; ++i) {
+            s.settings = glssao_default_settings((glssao_technique)technique, i & 1 ? GLSSAO_HIGH : GLSSAO_ULTRA);
+            float *before = NULL;
+            s.settings.tiles = GLSSAO_TILES_OFF;
+            gl.DeleteTextures(1, &s.frame.rays_texture);
+            s.frame.rays_texture = 0;
+            if (technique != GLSSAO_RAYS)
+                before = compute(&s, &count);
+            bring_constant(&s, i == 1 ? GL_R16F : GL_R32F, i & 2, nothing[i]);
+            float *result = compute(&s, &count);
+            /* The estimate is rounded to 13 bits on its way. */
+            for (int k = 0; k < count; ++k)
+                assert_true(fabsf(result[k] - (before ? before[k] : 1.0f)) < 2e-4f);
+            free(before);
+            free(result);
+        }
+    tear_down(&s);
+}
+
+/* Rays that say what the technique says leave it as it is. */
+static void rays_that_agree_with_the_estimate_keep_it(void **state)
+{
+    setup s;
+    int count;
+    set_up_room(&s, *state, PERSPECTIVE, 96, 64);
+    for (int technique = GLSSAO_CLASSIC; technique < GLSSAO_RAYS; ++technique) {
+        s.settings = glssao_default_settings((glssao_technique)technique, GLSSAO_HIGH);
+        s.settings.half_resolution = false;
+        s.settings.power = 2.0f;
+        s.frame.rays_texture = 0;
+        float *before = compute(&s, &count), *linear = malloc((size_t)count * sizeof *linear);
+        for (int i = 0; i < count; ++i)
+            linear[i] = sqrtf(before[i]);
+        bring(&s, GL_R32F, false, linear);
+        float *result = compute(&s, &count);
+        for (int i = 0; i < count; ++i)
+            assert_true(fabsf(result[i] - before[i]) < 1e-3f);
+        gl.DeleteTextures(1, &s.frame.rays_texture);
+        free(before);
+        free(linear);
+        free(result);
+        s.frame.rays_texture = 0;
+    }
+    tear_down(&s);
+}
+
+/* Infinite and huge values count as open. Sky is open, whatever its rays say. */
+static void odd_values_stay_in_range(void **state)
+{
+    static const float odd[] = {INFINITY, 1e30f, 7.0f, 0.0f, NAN, -1.0f, 0.25f};
+    const analytic_shape ball = {ANALYTIC_SPHERE, {0.0, 0.0, -3.0}, {1.0, 0.0, 0.0}};
+    setup s;
+    int count;
+    set_up(&s, *state, PERSPECTIVE_INFINITE_REVERSED_ZERO_TO_ONE, &ball, 1, 63, 49);
+    float *values = malloc((size_t)(63 * 49) * sizeof *values);
+    for (int i = 0; i < 63 * 49; ++i)
+        values[i] = odd[i % 7];
+    bring(&s, GL_R32F, false, values);
+    for (int technique = GLSSAO_CLASSIC; technique <= GLSSAO_RAYS; ++technique) {
+        s.settings = glssao_default_settings((glssao_technique)technique, GLSSAO_ULTRA);
+        s.settings.half_resolution = false;
+        float *result = compute(&s, &count);
+        for (int i = 0; i < count; ++i) {
+            assert_true(result[i] >= 0.0f && result[i] <= 1.0f);
+            assert_true(s.depth[i] != s.sky || result[i] == 1.0f);
+        }
+        free(result);
+    }
+    free(values);
+    tear_down(&s);
+}
+
+/* With a margin the result is what the middle of the whole picture has. */
+static void margins_cut_the_same_picture(void **state)
+{
+    const int width = 92, height = 68, margin = 12;
+    for (int half = 0; half < 2; ++half)
+        for (int technique = GLSSAO_HORIZON; technique <= GLSSAO_RAYS; ++technique) {
+            setup s;
+            int count;
+            set_up_room(&s, *state, PERSPECTIVE, width, height);
+            free(bring_noise(&s, half));
+            s.settings = glssao_default_settings((glssao_technique)technique, half ? GLSSAO_HIGH : GLSSAO_ULTRA);
+            s.settings.half_resolution = half;
+            s.settings.upsample = true;
+            s.settings.radius = 0.3f;
+            float *whole = compute(&s, &count);
+            s.frame.margin = margin;
+            float *inner = compute(&s, &count);
+            const int across = width - 2 * margin;
+            assert_int_equal(count, across * (height - 2 * margin));
+            for (int i = 0; i < count; ++i) {
+                const int x = i % across + margin, y = i / across + margin;
+                assert_true(fabsf(inner[i] - whole[y * width + x]) < 1e-4f);
+            }
+            free(whole);
+            free(inner);
+            tear_down(&s);
+        }
+}
+
+/* Depth and normals may lie in a part of larger textures; rays are a picture of their own. */
+static void viewports_do_not_move_rays(void **state)
+{
+    const int width = 60, height = 40, left = 7, bottom = 3;
+    setup s, large;
+    int count;
+    set_up_room(&s, *state, PERSPECTIVE, width, height);
+    s.settings.blur_rounds = 1;
+    free(bring_noise(&s, false));
+    float *wanted = compute(&s, &count);
+    set_up_room(&large, *state, PERSPECTIVE, width + 20, height + 10);
+    for (int y = 0; y < height; ++y) /* the picture of `s` within */
+        memcpy(large.depth + (y + bottom) * large.width + left, s.depth + y * width, (size_t)width * sizeof *s.depth);
+    gl.DeleteTextures(1, &large.frame.depth_texture);
+    large.frame.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, large.width, large.height, large.depth);
+    large.frame.normal_texture = 0;
+    s.frame.normal_texture = 0;
+    free(wanted);
+    wanted = compute(&s, &count);
+    memcpy(large.frame.projection, s.frame.projection, sizeof s.frame.projection);
+    memcpy(large.frame.viewport, (const int[4]){left, bottom, width, height}, sizeof large.frame.viewport);
+    large.frame.rays_texture = s.frame.rays_texture;
+    assert_int_equal(glssao_resize(large.effect, width, height), GLSSAO_OK);
+    float *got = compute(&(setup){.effect = large.effect, .frame = large.frame, .settings = s.settings}, &count);
+    for (int i = 0; i < count; ++i)
+        assert_true(fabsf(got[i] - wanted[i]) < 1e-4f);
+    free(got);
+    free(wanted);
+    large.frame.rays_texture = 0;
+    tear_down(&large);
+    tear_down(&s);
+}
+
+static void every_size_is_taken(void **state)
+{
+    static const int sizes[][2] = {{1, 1}, {2, 1}, {1, 7}, {3, 3}, {5, 2}, {33, 17}};
+    for (int i = 0; i < 6; ++i)
+        for (int technique = GLSSAO_CLASSIC; technique <= GLSSAO_RAYS; ++technique)
+            for (int k = 0; k < 4; ++k) {
+                setup s;
+                int count;
+                set_up_room(&s, *state, k & 1 ? ORTHOGRAPHIC : PERSPECTIVE, sizes[i][0], sizes[i][1]);
+                s.settings = glssao_default_settings((glssao_technique)technique, GLSSAO_HIGH);
+                s.settings.half_resolution = k & 1;
+                s.settings.upsample = true;
+                free(bring_noise(&s, k & 2));
+                float *result = compute(&s, &count);
+                assert_int_equal(count, sizes[i][0] * sizes[i][1]);
+                for (int j = 0; j < count; ++j)
+                    assert_true(result[j] >= 0.0f && result[j] <= 1.0f);
+                free(result);
+                tear_down(&s);
+            }
+}
+
+/* Values are averaged before the power, as light is. */
+static void power_comes_last(void **state)
+{
+    const analytic_shape wall = {ANALYTIC_PLANE, {0.0, 0.0, -4.0}, {0.0, 0.0, 1.0}};
+    setup s;
+    int count;
+    set_up(&s, *state, PERSPECTIVE, &wall, 1, 64, 48);
+    float *values = malloc((size_t)(64 * 48) * sizeof *values);
+    for (int i = 0; i < 64 * 48; ++i)
+        values[i] = (float)(i % 2); /* columns by turns */
+    bring(&s, GL_R8, false, values);
+    s.settings.power = 3.0f;
+    s.settings.blur_rounds = 1;
+    for (int half = 0; half < 2; ++half) {
+        float *result = compute(&s, &count);
+        for (int y = 4; y < 44; ++y)
+            for (int x = 4; x < 60; ++x) /* 1/2 1 1 1 1/2 of columns by turns: 2 of 4 */
+                assert_true(fabs((double)result[y * 64 + x] - (half ? 0.0 : 0.125)) < 1e-3);
+        s.settings.half_resolution = true; /* only even columns have a say */
+        s.settings.upsample = true;
+        free(result);
+    }
+    free(values);
+    tear_down(&s);
+}
+
+/* ---- refusals ---- */
+
+static void refuse(setup *s, fixture *f, const char *said)
+{
+    fixture_clear_log(f);
+    assert_int_equal(glssao_compute(s->effect, &s->frame, &s->settings), GLSSAO_INVALID_ARGUMENT);
+    if (!strstr(f->log, said))
+        fail_msg("\"%s\" does not hold \"%s\"", f->log, said);
+    fixture_clear_log(f);
+}
+
+static void wrong_rays_are_refused(void **state)
+{
+    fixture *f = *state;
+    setup s;
+    const float one = 1.0f;
+    set_up_room(&s, f, PERSPECTIVE, 64, 48);
+    refuse(&s, f, "frame.rays_texture = 0: no texture, and the rays technique has no estimate of its own");
+    bring_constant(&s, GL_R8, false, 1.0f);
+    gl.BindTexture(GL_TEXTURE_2D, s.frame.rays_texture);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R8, 1, 1, 0, GL_RED, GL_FLOAT, &one);
+    refuse(&s, f, ": 1 x 1, neither of the full size, 64 x 48, nor of half, 32 x 24");
+    s.settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
+    refuse(&s, f, "frame.rays_texture = ");
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R8UI, 64, 48, 0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, NULL);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    refuse(&s, f, "an integer format");
+    bring_constant(&s, GL_R8, false, 1.0f);
+    s.settings = glssao_default_settings(GLSSAO_RAYS, GLSSAO_LOW);
+    s.settings.blur = GLSSAO_BLUR_BOX;
+    refuse(&s, f, "settings.blur = 3: the rays technique takes the planar blur, or none");
+    s.settings.blur = GLSSAO_BLUR_PLANAR;
+    s.frame.rays_texture = 4711;
+    refuse(&s, f, "frame.rays_texture = 4711: no texture of this context");
+    s.frame.rays_texture = 0;
+    tear_down(&s);
+}
+
+/* A mean of many estimates is not corrected by a few rays. */
+static void accumulation_ignores_rays(void **state)
+{
+    setup s;
+    int width, height;
+    set_up_room(&s, *state, PERSPECTIVE, 64, 48);
+    s.settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
+    float *maps[2];
+    for (int i = 0; i < 2; ++i) {
+        glssao_restart_accumulation(s.effect);
+        if (i)
+            bring_constant(&s, GL_R8, false, 0.25f);
+        assert_int_equal(glssao_accumulate(s.effect, &s.frame, &s.settings), GLSSAO_OK);
+        const GLuint map = glssao_map(s.effect, GLSSAO_MAP_AMBIENT, &width, &height);
+        maps[i] = fixture_read_texture(map, width, height, 1);
+    }
+    assert_memory_equal(maps[0], maps[1], (size_t)(width * height) * sizeof *maps[0]);
+    free(maps[0]);
+    free(maps[1]);
+    tear_down(&s);
+}
+
+int main(void)
+{
+#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
+    const struct CMUnitTest tests[] = {
+        GL_TEST(rays_are_read_as_they_are),
+        GL_TEST(rounds_agree_with_their_model),
+        GL_TEST(corrections_agree_with_their_model),
+        GL_TEST(agreeing_rays_win),
+        GL_TEST(missing_rays_change_nothing),
+        GL_TEST(rays_that_agree_with_the_estimate_keep_it),
+        GL_TEST(odd_values_stay_in_range),
+        GL_TEST(margins_cut_the_same_picture),
+        GL_TEST(viewports_do_not_move_rays),
+        GL_TEST(every_size_is_taken),
+        GL_TEST(power_comes_last),
+        GL_TEST(wrong_rays_are_refused),
+        GL_TEST(accumulation_ignores_rays),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+}

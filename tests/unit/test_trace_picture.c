@@ -1,0 +1,295 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * A few rays from depth and normals: they agree with the tracer that casts primary rays, whatever the projection; no
+ * surface blocks its own rays; neither threads nor strips change a bit.
+ */
+#include "camera.h"
+#include "gbuffer.h"
+#include "rays.h"
+#include "small_scene.h"
+
+#include "fixture.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { W = 150, H = 90, ERROR_LENGTH = 512 };
+
+typedef struct setup {
+    scene *scene; /* NULL: not ours */
+    trace_scene *traced;
+    scene_renderer *renderer;
+    gbuffer gbuffer;
+    rays rays;
+    float radius;
+} setup;
+
+static void set_up_scene(setup *t, const scene *s, const camera *c, float radius)
+{
+    char error[ERROR_LENGTH];
+    const scene_view view = camera_view(c, W, H);
+    t->radius = radius;
+    if (!(t->traced = trace_scene_create(s, error, sizeof error)) ||
+        !(t->renderer = scene_renderer_create(s, error, sizeof error)) ||
+        !gbuffer_draw(&t->gbuffer, s, &view, 0, error, sizeof error))
+        fail_msg("%s", error);
+}
+
+static void set_up(setup *t, const char *name, bool orthographic)
+{
+    char error[ERROR_LENGTH];
+    *t = (setup){.scene = scene_make(name, error, sizeof error)};
+    camera c = camera_frame_scene(t->scene, (float)W / H);
+    if (orthographic)
+        c.half_height = 2;
+    camera_fit_planes(&c, t->scene);
+    set_up_scene(t, t->scene, &c, 0.5f);
+}
+
+static void tear_down(setup *t)
+{
+    rays_close(&t->rays);
+    gbuffer_destroy(&t->gbuffer);
+    scene_renderer_destroy(t->renderer);
+    trace_scene_destroy(t->traced);
+    scene_destroy(t->scene);
+}
+
+/* Accessibility of each texel; the rays' own memory. */
+static const float *trace(setup *t, int samples, int step, int threads, uint32_t seed)
+{
+    char error[ERROR_LENGTH] = "";
+    failure why = {.text = error, .size = sizeof error};
+    const rays_job job = {.renderer = t->renderer,
+                          .depth = t->gbuffer.depth,
+                          .normals = t->gbuffer.normals,
+                          .view = &t->gbuffer.view,
+                          .step = step,
+                          .options = {.radius = t->radius, .samples = samples, .threads = threads, .seed = seed}};
+    if (!rays_trace(&t->rays, t->traced, &job, &why))
+        fail_msg("%s", error);
+    return t->rays.accessibility;
+}
+
+static void truth_of(const setup *t, float truth[W * H], uint8_t seen[W * H])
+{
+    char error[ERROR_LENGTH] = "";
+    const trace_options options = {.radius = t->radius, .samples = 256};
+    if (!trace_accessibility(t->traced, &t->gbuffer.view, &options, truth, seen, NULL, error, sizeof error))
+        fail_msg("%s", error);
+}
+
+/* Pixels at a triangle's edge may show another surface to the rasteriser. The noise of 64 stratified rays is below that
+ * of 64 independent ones, 1/16 at most. */
+static void assert_near_truth(setup *t, const char *what)
+{
+    static float truth[W * H];
+    static uint8_t seen[W * H];
+    truth_of(t, truth, seen);
+    const float *got = trace(t, 64, 1, 0, 1);
+    int count = 0, far = 0, elsewhere = 0;
+    double bias = 0;
+    for (int i = 0; i < W * H; i++) {
+        elsewhere += (got[i] >= 0) != seen[i];
+        if (got[i] < 0 || !seen[i])
+            continue;
+        bias += (double)got[i] - (double)truth[i];
+        far += fabs((double)got[i] - (double)truth[i]) > 3.0 / 16;
+        count++;
+    }
+    print_message("%s: bias %+.4f, %d of %d pixels far off, %d seen by one alone\n", what, bias / count, far, count,
+                  elsewhere);
+    assert_true(count > W * H / 8);
+    assert_true(fabs(bias / count) < 0.004);
+    assert_true(far * 200 < count);
+    assert_true(elsewhere * 100 < W * H);
+}
+
+static void rays_agree_with_the_truth(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"steps", "columns", "cornell"};
+    for (int i = 0; i < 6; i++) {
+        setup t;
+        set_up(&t, names[i / 2], i % 2);
+        assert_near_truth(&t, names[i / 2]);
+        tear_down(&t);
+    }
+}
+
+/* An open plane, seen ever more from the side and from ever farther, blocks none of its rays. */
+static void no_surface_blocks_its_own_rays(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 12; i++) {
+        const float distance = powf(10, (float)(i / 4)), height = distance * powf(0.25f, (float)(i % 4));
+        small_scene *s = small_scene_create();
+        small_scene_begin_mesh(s, small_scene_add_material(s, small_scene_material()));
+        small_scene_add_quad(s, (float[3]){-500, 0, -500}, (float[3]){0, 0, 1000}, (float[3]){1000, 0, 0});
+        small_scene_add_instance(s, NULL);
+        const camera c = {
+            .eye = {3, height, distance}, .up = {0, 1, 0}, .fov_y_rad = 0.8f, .near_plane = 0.1f, .far_plane = 1000};
+        setup t = {NULL};
+        set_up_scene(&t, &s->scene, &c, 2);
+        const float *got = trace(&t, 4, 1, 0, 0);
+        int seen = 0, blocked = 0;
+        for (int k = 0; k < W * H; k++) {
+            seen += got[k] >= 0;
+            blocked += got[k] >= 0 && got[k] < 1;
+        }
+        assert_true(seen > W * H / 20);
+        if (blocked > 0)
+            fail_msg("from %g, %g up: %d of %d pixels are blocked", (double)distance, (double)height, blocked, seen);
+        tear_down(&t);
+        free(s);
+    }
+}
+
+/* Holes that an alpha test cuts are holes for rays, too: a roof whose texels are all holes darkens nothing. */
+static void alpha_tests_let_rays_through(void **state)
+{
+    (void)state;
+    for (int hole = 0; hole < 2; hole++) {
+        small_scene *s = small_scene_create();
+        scene_material roof = small_scene_material();
+        roof.alpha = SCENE_ALPHA_MASK;
+        roof.alpha_cutoff = 0.5f;
+        roof.base_color[3] = hole ? 0.25f : 0.75f;
+        small_scene_begin_mesh(s, small_scene_add_material(s, small_scene_material()));
+        small_scene_add_quad(s, (float[3]){-4, 0, -4}, (float[3]){0, 0, 8}, (float[3]){8, 0, 0});
+        small_scene_add_instance(s, NULL);
+        small_scene_begin_mesh(s, small_scene_add_material(s, roof));
+        small_scene_add_quad(s, (float[3]){-1, 1, -1}, (float[3]){0, 0, 2}, (float[3]){2, 0, 0});
+        small_scene_add_instance(s, NULL);
+        const camera c = {
+            .eye = {0, 0.6f, 5}, .up = {0, 1, 0}, .fov_y_rad = 0.8f, .near_plane = 0.1f, .far_plane = 100};
+        setup t = {NULL};
+        set_up_scene(&t, &s->scene, &c, 3);
+        const float *got = trace(&t, 16, 1, 0, 0);
+        float least = 1;
+        for (int k = 0; k < W * H; k++)
+            least = got[k] >= 0 && got[k] < least ? got[k] : least;
+        assert_true(hole ? least == 1 : least < 0.5f);
+        tear_down(&t);
+        free(s);
+    }
+}
+
+static void threads_change_nothing(void **state)
+{
+    (void)state;
+    setup t;
+    set_up(&t, "steps", false);
+    float *alone = malloc(sizeof(float) * W * H);
+    memcpy(alone, trace(&t, 3, 1, 1, 7), sizeof(float) * W * H);
+    assert_memory_equal(alone, trace(&t, 3, 1, 5, 7), sizeof(float) * W * H);
+    assert_int_not_equal(memcmp(alone, trace(&t, 3, 1, 5, 8), sizeof(float) * W * H), 0);
+    free(alone);
+    tear_down(&t);
+}
+
+/* At half size a texel stands for the lower left of four pixels. */
+static void half_size_takes_every_other_surface(void **state)
+{
+    (void)state;
+    setup t;
+    set_up(&t, "steps", false);
+    uint8_t *full = malloc(W * H);
+    const float *got = trace(&t, 1, 1, 0, 0);
+    for (int i = 0; i < W * H; i++)
+        full[i] = got[i] >= 0;
+    got = trace(&t, 1, 2, 0, 0);
+    assert_int_equal(t.rays.width, (W + 1) / 2);
+    for (int y = 0; y < (H + 1) / 2; y++)
+        for (int x = 0; x < (W + 1) / 2; x++)
+            assert_int_equal(got[y * ((W + 1) / 2) + x] >= 0, full[2 * y * W + 2 * x]);
+    free(full);
+    tear_down(&t);
+}
+
+/* Counts of 0 to N, fed by and by: texels without rays are negative, and the others unbiased whatever their count. */
+static void counts_are_kept(void **state)
+{
+    (void)state;
+    setup t;
+    set_up(&t, "columns", false);
+    static float truth[W * H], out[W * H], (*texels)[4];
+    static uint8_t seen[W * H], counts[W * H];
+    static const float(*rows[H])[4];
+    char error[ERROR_LENGTH] = "";
+    truth_of(&t, truth, seen);
+    float *distance, *normals;
+    gbuffer_read(&t.gbuffer, &distance, &normals);
+    texels = malloc(sizeof *texels * W * H);
+    for (int i = 0; i < W * H; i++) {
+        memcpy(texels[i], normals + 3 * i, 3 * sizeof(float));
+        texels[i][3] = distance[i];
+        counts[i] = (uint8_t)(i % 5);
+    }
+    for (int y = 0; y < H; y++)
+        rows[y] = (const float(*)[4])(texels + y * W);
+    const trace_seen surfaces = {.rows = rows, .step = 1, .depth_step = 0x1p-24};
+    double bias[5] = {0};
+    int number[5] = {0};
+    for (uint32_t seed = 0; seed < 8; seed++) {
+        const trace_options options = {.radius = t.radius, .samples = 4, .seed = seed, .threads = 2};
+        trace_picture *p =
+            trace_picture_begin(t.traced, &t.gbuffer.view, &surfaces, counts, &options, out, error, sizeof error);
+        trace_stats stats;
+        for (int y = 0; p && y <= H; y += 7)
+            trace_picture_feed(p, y + 7 <= H ? y : H);
+        assert_true(p && trace_picture_end(p, &stats));
+        uint64_t wanted = 0;
+        for (int i = 0; i < W * H; i++) {
+            assert_true((out[i] >= 0) == (counts[i] > 0 && distance[i] > 0));
+            if (out[i] < 0 || !seen[i])
+                continue;
+            bias[counts[i]] += (double)out[i] - (double)truth[i];
+            number[counts[i]]++;
+        }
+        for (int i = 0; i < W * H; i++)
+            wanted += distance[i] > 0 ? counts[i] : 0;
+        assert_int_equal(stats.rays, wanted);
+    }
+    for (int k = 1; k < 5; k++)
+        assert_true(fabs(bias[k] / number[k]) < 0.006);
+    free(texels);
+    free(distance);
+    free(normals);
+    tear_down(&t);
+}
+
+static void wrong_arguments_are_named(void **state)
+{
+    (void)state;
+    setup t;
+    char error[ERROR_LENGTH] = "";
+    failure why = {.text = error, .size = sizeof error};
+    set_up(&t, "plane", false);
+    rays_job job = {.renderer = t.renderer,
+                    .depth = t.gbuffer.depth,
+                    .normals = t.gbuffer.normals,
+                    .view = &t.gbuffer.view,
+                    .step = 1,
+                    .options = {.radius = 1, .samples = 65}};
+    assert_false(rays_trace(&t.rays, t.traced, &job, &why));
+    assert_string_equal(error, "65 rays within a radius of 1: out of range");
+    job.options.samples = 0;
+    assert_false(rays_trace(&t.rays, t.traced, &job, &why));
+    job.options.samples = 1;
+    assert_true(rays_trace(&t.rays, t.traced, &job, &why));
+    tear_down(&t);
+}
+
+int main(void)
+{
+#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
+    const struct CMUnitTest tests[] = {
+        GL_TEST(rays_agree_with_the_truth),           GL_TEST(no_surface_blocks_its_own_rays),
+        GL_TEST(alpha_tests_let_rays_through),        GL_TEST(threads_change_nothing),
+        GL_TEST(half_size_takes_every_other_surface), GL_TEST(counts_are_kept),
+        GL_TEST(wrong_arguments_are_named),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+}
