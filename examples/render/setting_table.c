@@ -52,6 +52,8 @@ const setting setting_table[] = {
      TILES_WORDS, ALL},
     {"no-angle-weight", "", "for teaching: count occluders at any angle", SETTING_SWITCH, AT(no_angle_weight), 0, 1,
      false, NULL, CLASSIC},
+    {"bent-normals", "", "also make the directions in which surfaces are open", SETTING_SWITCH, AT(bent_normals), 0, 1,
+     false, NULL, HORIZON},
 };
 #undef AT
 const int setting_count = sizeof setting_table / sizeof setting_table[0];

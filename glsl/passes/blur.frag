@@ -17,7 +17,7 @@ float center_distance;
 #endif
 
 // Adds the tap `i` pixels from the centre.
-void add_tap(int i, float weight, vec2 step_uv, inout float sum, inout float weights)
+void add_tap(int i, float weight, vec2 step_uv, inout CONTENTS sum, inout float weights)
 {
     vec2 uv = pixel_uv() + float(i) * step_uv;
 #if FILTER == FILTER_BILATERAL
@@ -30,8 +30,8 @@ void add_tap(int i, float weight, vec2 step_uv, inout float sum, inout float wei
                            abs(distance - center_distance) <= gBlurDepthThreshold);
     weight = keep ? weight : 0.0;
 #endif
-#if OUTPUT == OUTPUT_PAIRED
-    sum += weight * accessibility_of(texture(u_ambient_map, uv).rg);
+#if OUTPUT == OUTPUT_PAIRED || BENT
+    sum += weight * contents_of(PAIRED(texture(u_ambient_map, uv)));
 #else
     sum += weight * texture(u_ambient_map, uv).r;
 #endif
@@ -47,7 +47,7 @@ RESULT result()
     center_normal = normal_view_from_map(center);
     center_distance = distance_from_depth(fetched_depth(center));
 #endif
-    float sum = 0.0;
+    CONTENTS sum = CONTENTS(0.0);
     float weights = 0.0;
 #if FILTER == FILTER_BOX
     UNROLL for (int i = -2; i <= 1; ++i) {
@@ -58,6 +58,6 @@ RESULT result()
         add_tap(i, gBlurWeights[(i + 5) / 4][(i + 5) % 4], step_uv, sum, weights);
     }
 #endif
-    vec2 own = texture(u_ambient_map, pixel_uv()).rg;
+    PAIRED own = PAIRED(texture(u_ambient_map, pixel_uv()));
     return ambient(sum / weights, own.g, normal_code(own));
 }

@@ -6,7 +6,8 @@
 // in  u_normal_map    view space; point sampled
 // in  u_distance_map  view distance at the estimate's size, with LAYERS 1 thickness and second layer too; point sampled,
 //                     clamped
-// out result          by OUTPUT: accessibility, the paired value, or linear accessibility for the sum of its replicate
+// out result          by OUTPUT: accessibility, the paired value, or linear accessibility for the sum of its replicate; with
+//                     BENT 1 the latter two with the hidden vector
 // SLICES slices of STEPS samples on each side. LOOPS 1: the loops over slices and sides are not written out, and a side
 // without an occluder is left early.
 //
@@ -20,9 +21,15 @@
 //   (5) an occluder from y - thickness to y hides the cosines between those of its ends, c = y / sqrt(x^2 + y^2), as far as
 //       the sphere, x^2 + y^2 <= 1, and the hemisphere reach
 //   (6) occlusion = |n'| mix(total (sectors hidden) / 31, measure below the two horizons, VEIL)
+// BENT 1: the directions that the hidden sectors stand for are summed too:
+//   (7) the integral of (sin t, cos t) cos(t - g) sin t over the angles from 0 to acos(c), with s = sqrt(1 - c^2):
+//       D(c, g) = (cos g s^3 + sin g (2 - 3 c + c^3), cos g (1 - c^3) + sin g s^3) / 3
+//   (8) hidden vector = |n'| mix(D between the ends of each run of hidden sectors, D below the two horizons, VEIL)
 
 uniform sampler2D u_distance_map;
-#if OUTPUT == OUTPUT_SUM
+#if OUTPUT == OUTPUT_SUM && BENT
+#define RESULT vec4
+#elif OUTPUT == OUTPUT_SUM
 #define RESULT vec2
 #else
 #define RESULT AMBIENT
@@ -130,7 +137,7 @@ vec3 sample_at(point p, slice_side side, float number, out vec2 layers)
 }
 
 // Whether a sample can hide anything: within the sphere, off the point's own texel (where x is 0, or below it where the border
-// holds a sample back), and above the tangent plane by more than the depth format can tell.
+// holds a sample back), and above the tangent plane by more than depth formats and normals can tell.
 bool occludes(point p, slice_side side, vec3 at)
 {
     return at.x > side.least_x && at.x < 1.0 && at.y > side.tangent * at.x + p.y_step;
@@ -244,6 +251,55 @@ vec2 tile_noise()
     return noise;
 }
 
+#if BENT
+// (7)
+vec2 directions(float cos_g, float sin_g, float c)
+{
+    float s2 = max(1.0 - c * c, 0.0);
+    float s3 = s2 * sqrt(s2);
+    float c3 = c * c * c;
+    return vec2(cos_g * s3 + sin_g * (2.0 - 3.0 * c + c3), cos_g * (1.0 - c3) + sin_g * s3) / 3.0;
+}
+
+// The cosine up to which a side has a given measure. With acos(c) - c sqrt(1 - c^2) about pi/2 - 2 c + (2 - pi/2) c |c|, (2) is
+// a quadratic; one step of Newton's method on the polynomial leaves 0.001 of (7) on average, 0.02 at most.
+float cosine_at(float cos_g, float sin_g, float lowest, float amount)
+{
+    float rest = cos_g + 0.5 * PI * sin_g - 2.0 * amount;
+    bool below = rest < 0.0 && sin_g >= 0.0; // the eye's horizon
+    float square = cos_g + (below ? 2.0 - 0.5 * PI : 0.5 * PI - 2.0) * sin_g;
+    float root = sqrt(max(sin_g * sin_g + square * rest, 0.0));
+    float c = sin_g < 0.0 ? (root - sin_g) / square : rest / max(sin_g + root, 1e-6);
+    c = clamp(c, lowest, 1.0);
+    float slope = max(cos_g * c + sin_g * sqrt(1.0 - c * c), 0.2); // 0 at the rim
+    return clamp(c + (value(measure(cos_g, sin_g, 1.0), c) - amount) / slope, lowest, 1.0);
+}
+
+// D up to where a sector begins, signed by its side. x is the way along the slice towards the plus side.
+vec2 directions_up_to(int sector, float cos_g, float sin_g, float total, float total_minus)
+{
+    float amount = total / SECTORS * float(sector) - total_minus;
+    float sign = amount < 0.0 ? -1.0 : 1.0;
+    float c = cosine_at(cos_g, sign * sin_g, -sign * sin_g, abs(amount));
+    return vec2(1.0, sign) * directions(cos_g, sign * sin_g, c);
+}
+
+// D of the hidden sectors: each run of them adds its end and takes off its beginning.
+vec2 directions_hidden(uint mask, float cos_g, float sin_g, float total, float total_minus)
+{
+    vec2 sum = vec2(0.0);
+    for (uint ends = mask ^ (mask << 1); ends != 0u; ends &= ends - 1u) {
+        uint lowest = ends & (~ends + 1u);
+        int sector = int(floatBitsToUint(float(lowest)) >> 23) - 127; // the exponent of a power of 2
+        vec2 up_to = directions_up_to(sector, cos_g, sin_g, total, total_minus);
+        sum += (mask & lowest) != 0u ? -up_to : up_to;
+    }
+    return sum;
+}
+
+vec3 hidden_vector = vec3(0.0); // view space, sum over the slices
+#endif
+
 // The occlusion that one slice sees; `angle`: of the slice in the picture, in half turns.
 float slice_occlusion(point p, float angle)
 {
@@ -285,19 +341,32 @@ float slice_occlusion(point p, float angle)
 
     uint mask = 0u;
     float veiled = total;
+#if BENT
+    vec2 veiled_directions = vec2(0.0);
+#endif
     UNROLL_IF_SHORT for (int i = 0; i < 2; ++i) {
         float sign = i == 0 ? 1.0 : -1.0; // the plus side, then the minus side
         side.uv_per_px = sign * way * gInvRenderTargetSize;
         side.y_per_px = sign * way * y_per_px;
         side.reach_px = mix(p.low, p.high, greaterThan(sign * way, vec2(0.0)));
-        side.tangent = sign * -sin_g / max(cos_g, 1e-3);
+        side.tangent = sign * -sin_g / max(cos_g, 1e-3) + LEAST_RISE;
         side.lowest = -sign * sin_g;
         side.sectors = measure(sign * cos_g, sin_g, scale);
         side.sectors.low.x += total_minus * scale + 0.5;
         float highest;
         mask |= hidden_sectors(p, side, highest);
         veiled -= value(measure(cos_g, sign * sin_g, 1.0), highest);
+#if BENT
+        veiled_directions += vec2(sign, 1.0) * (directions(cos_g, sign * sin_g, side.lowest) -
+                                                directions(cos_g, sign * sin_g, highest));
+#endif
     }
+#if BENT
+    // (8)
+    vec2 in_slice =
+        projected * mix(directions_hidden(mask, cos_g, sin_g, total, total_minus), veiled_directions, VEIL);
+    hidden_vector += in_slice.x * along + in_slice.y * p.up_view;
+#endif
     // (6)
     float hidden = total * float(count_bits(mask)) * (1.0 / SECTORS);
     return projected * mix(hidden, veiled, VEIL);
@@ -319,12 +388,14 @@ RESULT result()
     float distance = textureLod(u_distance_map, map_uv, 0.0).r;
     vec2 uv = (floor(pixel_center()) * float(gFactor) + 0.5) * gFullTexel;
     vec3 normal_view = normal_view_at_uv(uv);
-#if OUTPUT == OUTPUT_SUM
+#if OUTPUT == OUTPUT_SUM && BENT
+    RESULT open = OPEN;
+#elif OUTPUT == OUTPUT_SUM
     RESULT open = gAccumulation.xy;
 #else
     float linear = linear_from_distance(distance);
     uint code = normal_code(normal_view);
-    RESULT open = ambient(1.0, linear, code);
+    RESULT open = ambient(OPEN, linear, code);
 #endif
     // Sky has no surface, a point without a normal has no hemisphere, and beyond the fade nothing counts.
     if (distance >= gFadeFar.x || normal_view == vec3(0.0))
@@ -332,6 +403,9 @@ RESULT result()
     vec3 ray = vec3(uv * gRayDirection.xy + gRayDirection.zw, -1.0);
     float ray_length = length(ray);
     vec3 up = -ray / ray_length;
+#if BENT
+    vec3 stored_view = normal_view;
+#endif
     if (dot(normal_view, up) < 0.0) {
         vec2 lean = lean_of(normal_view, up);
         normal_view = seen_normal(normal_view, up, step_to(lean, map_uv, ray, distance),
@@ -360,9 +434,25 @@ RESULT result()
     // pow() is undefined below 0, which rounding can leave (as it can leave more than 1), and at 0 for a power so small that it
     // is flushed to 0.
     float share = max(1.0 - far_fade(distance) * occlusion, 1e-6);
-#if OUTPUT == OUTPUT_SUM
+#if BENT
+    vec3 hidden = far_fade(distance) * hidden_vector / float(SLICES);
+#if STEPS < 12
+    hidden *= (1.0 - pow(share, CALIBRATION)) / max(1.0 - share, 1e-4); // it grows as the occlusion does
+#endif
+    // It is taken off the stored normal later, which may be that of the other side.
+    hidden += (2.0 / 3.0) * (stored_view - normal_view);
+    hidden = clamp(hidden * HIDDEN_STEPS, -2047.0, 2047.0);
+#endif
+#if OUTPUT == OUTPUT_SUM && BENT
+    return vec4(min(pow(share, CALIBRATION), 1.0), hidden);
+#elif OUTPUT == OUTPUT_SUM
     return gAccumulation.xy * min(pow(share, CALIBRATION), 1.0);
 #else
-    return ambient(clamp(pow(share, CALIBRATION * gPower), 0.0, 1.0), linear, code);
+    float accessibility = clamp(pow(share, CALIBRATION * gPower), 0.0, 1.0);
+#if BENT
+    return ambient(vec4(accessibility, hidden), linear, code);
+#else
+    return ambient(accessibility, linear, code);
+#endif
 #endif
 }

@@ -7,7 +7,7 @@
 // out o_paired        paired value
 
 uniform sampler2D u_distance_map;
-out vec2 o_paired;
+out PAIRED o_paired;
 
 void main()
 {
@@ -21,5 +21,5 @@ void main()
     vec3 normal_view = normal_view_at_uv(uv);
     float distance = textureLod(u_distance_map, pixel_uv(), 0.0).r;
 #endif
-    o_paired = paired(1.0, linear_from_distance(distance), normal_code(normal_view));
+    o_paired = paired(OPEN, linear_from_distance(distance), normal_code(normal_view));
 }

@@ -10,25 +10,25 @@ uniform bool gHorizontalBlur;
 #endif
 #define RESULT AMBIENT
 
-vec2 paired_at(vec2 uv)
+PAIRED paired_at(vec2 uv)
 {
-    return textureLod(u_ambient_map, uv, 0.0).rg;
+    return PAIRED(textureLod(u_ambient_map, uv, 0.0));
 }
 
 RESULT result()
 {
     vec2 uv = pixel_uv();
-    vec2 center = paired_at(uv);
+    PAIRED center = paired_at(uv);
 #if WIDE
     vec2 x = vec2(3.0 * gInvRenderTargetSize.x, 0.0);
     vec2 y = vec2(0.0, 3.0 * gInvRenderTargetSize.y);
-    float accessibility =
+    CONTENTS contents =
         blurred_wide(paired_at(uv - x), paired_at(uv - y), center, paired_at(uv + y), paired_at(uv + x));
 #else
     vec2 way = gHorizontalBlur ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
     vec2 by = float(1 << STRIDE) * way * gInvRenderTargetSize;
-    float accessibility = blurred(paired_at(uv - 2.0 * by), paired_at(uv - by), center, paired_at(uv + by),
-                                  paired_at(uv + 2.0 * by), way);
+    CONTENTS contents = blurred(paired_at(uv - 2.0 * by), paired_at(uv - by), center, paired_at(uv + by),
+                                paired_at(uv + 2.0 * by), way);
 #endif
-    return ambient(accessibility, center.y, normal_code(center));
+    return ambient(contents, center.y, normal_code(center));
 }

@@ -3,6 +3,7 @@
 // planar_blur.frag and upsample.frag one after the other, without a map in between.
 // in  u_ambient_map  paired values; fetched
 // out u_target       UPSAMPLE 1: accessibility at full size; else by OUTPUT: accessibility or the paired value
+// out u_bent_target  UPSAMPLE 1, BENT 1 or OUTPUT_BENT: bent normal and accessibility
 // ROUNDS: how many rounds, 0 to 2. WIDE 1: the first of them is not the first of the blur.
 //
 // Invocations lie along a row of the tile, one for each texel and for each that the blur reads around it, so that no address
@@ -11,6 +12,9 @@
 layout(local_size_x = GROUP_X, local_size_y = GROUP_Y) in;
 uniform sampler2D u_ambient_map;
 writeonly uniform image2D u_target;
+#if UPSAMPLE && BENT || OUTPUT == OUTPUT_BENT
+writeonly uniform image2D u_bent_target;
+#endif
 
 #if UPSAMPLE
 const int FACTOR = 2; // pixels of the target per texel
@@ -32,8 +36,8 @@ const int MADE_Y = GROUP_ROWS - 2 * HALO - FACTOR + 1;
 // ends are for what the ends of rows read beyond.
 const int FIRST = LATER_REACH;
 const int SECOND = FIRST + WIDTH * GROUP_ROWS;
-shared vec2 tiles[SECOND + WIDTH * GROUP_ROWS + LATER_REACH];
-shared bool is_shaded; // something occludes a texel of the tile
+shared PAIRED tiles[SECOND + WIDTH * GROUP_ROWS + LATER_REACH];
+shared bool any_shaded; // something occludes a texel of the tile
 
 // The steps of the blur: the first round takes one along x and one along y, a later round a single one.
 const int ALONG_X = 0;
@@ -57,7 +61,7 @@ const int LAST_TO = SECOND;
 // Where the map begins and ends, in texels of the tile.
 ivec2 low, high;
 
-float blurred_at(int at, int kind)
+CONTENTS blurred_at(int at, int kind)
 {
     if (kind == AROUND)
         return blurred_wide(tiles[at - 3], tiles[at - 3 * WIDTH], tiles[at], tiles[at + 3 * WIDTH], tiles[at + 3]);
@@ -77,7 +81,7 @@ void blur_tile(int from, int to, int but, int kind)
 {
     for (int row = but + int(gl_LocalInvocationID.y); row < GROUP_ROWS - but; row += GROUP_Y) {
         int at = place(from, row);
-        vec2 center = tiles[at];
+        PAIRED center = tiles[at];
         tiles[to + row * WIDTH + int(gl_LocalInvocationID.x)] =
             paired(blurred_at(at, kind), center.y, normal_code(center));
     }
@@ -85,10 +89,16 @@ void blur_tile(int from, int to, int but, int kind)
 }
 
 #if UPSAMPLE
-void store(ivec2 pixel, float accessibility)
+void store(ivec2 pixel, CONTENTS contents)
 {
-    if (all(lessThan(pixel, gRegion.zw)))
-        imageStore(u_target, pixel + gRegion.xy, vec4(accessibility));
+    if (any(greaterThanEqual(pixel, gRegion.zw)))
+        return;
+#if BENT
+    imageStore(u_target, pixel + gRegion.xy, contents.xxxx);
+    imageStore(u_bent_target, pixel + gRegion.xy, vec4(normalize(contents.yzw), contents.x));
+#else
+    imageStore(u_target, pixel + gRegion.xy, vec4(contents));
+#endif
 }
 
 // The four pixels that the texel is the lower left of, from the tile that begins at `from`.
@@ -97,25 +107,35 @@ void write(int from, int row, ivec2 texel)
     int at = from + row * WIDTH + int(gl_LocalInvocationID.x);
     ivec2 pixel = 2 * texel;
     vec2 full_uv = (vec2(pixel + gRegion.xy) + 0.5 + gOrigin) * gFullTexel;
-    vec4 block = upsampled_block(tiles[at], tiles[at + 1], tiles[at + WIDTH], tiles[at + WIDTH + 1], full_uv);
-    store(pixel, block.x);
-    store(pixel + ivec2(1, 0), block.y);
-    store(pixel + ivec2(0, 1), block.z);
-    store(pixel + ivec2(1, 1), block.w);
+    block four = upsampled_block(tiles[at], tiles[at + 1], tiles[at + WIDTH], tiles[at + WIDTH + 1], full_uv);
+    store(pixel, four.lower_left);
+    store(pixel + ivec2(1, 0), four.lower_right);
+    store(pixel + ivec2(0, 1), four.upper_left);
+    store(pixel + ivec2(1, 1), four.upper_right);
 }
 #else
 // The last step: a tile of paired values would round its accessibility.
 void write(int from, int row, ivec2 texel)
 {
     int at = place(from, row);
-    vec2 center = tiles[at];
-    float accessibility = is_shaded ? blurred_at(at, LAST_STEP) : 1.0;
+    PAIRED center = tiles[at];
+    CONTENTS contents = any_shaded ? blurred_at(at, LAST_STEP) : OPEN;
     if (any(greaterThanEqual(texel, gRegion.zw)))
         return;
 #if OUTPUT == OUTPUT_PAIRED
-    imageStore(u_target, texel + gRegion.xy, vec4(paired(accessibility, center.y, normal_code(center)), 0.0, 1.0));
+    PAIRED value = paired(contents, center.y, normal_code(center));
+#if BENT
+    imageStore(u_target, texel + gRegion.xy, value);
 #else
-    imageStore(u_target, texel + gRegion.xy, vec4(accessibility));
+    imageStore(u_target, texel + gRegion.xy, vec4(value, 0.0, 1.0));
+#endif
+#elif OUTPUT == OUTPUT_BENT
+    vec2 full_uv = ((vec2(texel + gRegion.xy) + gOrigin) * float(gFactor) + 0.5) * gFullTexel;
+    vec4 value = delivered(contents, center.y == linear_from_distance(FAR_AWAY), normal_view_at_uv(full_uv));
+    imageStore(u_target, texel + gRegion.xy, value.xxxx);
+    imageStore(u_bent_target, texel + gRegion.xy, vec4(normalize(value.yzw), value.x));
+#else
+    imageStore(u_target, texel + gRegion.xy, vec4(contents));
 #endif
 }
 #endif
@@ -128,18 +148,18 @@ void main()
     low = -corner;
     high = low + ivec2(gEstimateSize) - 1;
     if (gl_LocalInvocationIndex == 0u)
-        is_shaded = false;
+        any_shaded = false;
     barrier();
     for (int row = int(gl_LocalInvocationID.y); row < GROUP_ROWS; row += GROUP_Y) {
-        vec2 texel = texelFetch(u_ambient_map, corner + clamp(ivec2(column, row), low, high), 0).rg;
+        PAIRED texel = PAIRED(texelFetch(u_ambient_map, corner + clamp(ivec2(column, row), low, high), 0));
         tiles[FIRST + row * WIDTH + column] = texel;
-        if (texel.x < 1.0)
-            is_shaded = true;
+        if (is_shaded(texel))
+            any_shaded = true;
     }
     barrier();
     int from = FIRST;
     // Where nothing occludes, the blur changes nothing.
-    if (is_shaded) {
+    if (any_shaded) {
 #if WIDE && ROUNDS == 2
         blur_tile(FIRST, SECOND, FIRST_REACH, AROUND);
 #elif !WIDE && ROUNDS > 0

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The difference between the two replicates of the accumulated mean, at one pixel of each cell of the picture.
-// in  u_ambient_map   sums of the linear accessibility of two replicates; point sampled
+// in  u_ambient_map   sums of the linear accessibility of two replicates; point sampled. BENT 1: of the first in red
+// in  u_other_map     BENT 1: of the second in red
 // in  u_distance_map  view distance, full size; point sampled
 // out o_difference    squared difference of the two means, and 1 where there is a surface
 
 uniform sampler2D u_ambient_map;
 uniform sampler2D u_distance_map;
+#if BENT
+uniform sampler2D u_other_map;
+#endif
 out vec2 o_difference;
 
 // A place in the cell, 0 to 1, that differs from cell to cell (PCG2D of M. Jarzynski and M. Olano, 2020).
@@ -28,7 +32,12 @@ void main()
     vec2 texel = min(floor(gProbe.xy + (cell + place(uvec2(cell))) * gProbe.zw), size - 1.0);
     vec2 uv = (texel + 0.5) / size;
     // The bases of pow() are above 0, since each estimate is.
-    vec2 means = textureLod(u_ambient_map, uv, 0.0).rg / gAccumulation.zw;
+#if BENT
+    vec2 sums = vec2(textureLod(u_ambient_map, uv, 0.0).r, textureLod(u_other_map, uv, 0.0).r);
+#else
+    vec2 sums = textureLod(u_ambient_map, uv, 0.0).rg;
+#endif
+    vec2 means = sums / gAccumulation.zw;
     float difference = pow(means.x, gPower) - pow(means.y, gPower);
     bool surface = textureLod(u_distance_map, uv, 0.0).r < FAR_AWAY;
     o_difference = surface ? vec2(difference * difference, 1.0) : vec2(0.0);

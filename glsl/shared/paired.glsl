@@ -1,9 +1,21 @@
 // SPDX-License-Identifier: MIT
 // The paired value of a pixel, which the passes after the estimate read: accessibility, whose ten lowest bits hold the
-// normal, and the linear quantity of distance. OUTPUT: whether a pass writes it or accessibility alone.
+// normal, and the linear quantity of distance. BENT 1: two more channels hold the hidden vector (shared/bent.glsl): x, and y
+// and z rounded, as one whole number. OUTPUT: whether a pass writes the paired value, accessibility alone, or that and the
+// bent normal.
 //
 // The normal is kept in Lambert's azimuthal equal-area projection, where the distance of two normals is about their chord.
 // The projection has no image for the direction straight away from the eye, which no visible surface has.
+
+#if BENT
+#define PAIRED vec4
+#define CONTENTS vec4 // what is averaged: accessibility, and the hidden vector
+const CONTENTS OPEN = vec4(1.0, 0.0, 0.0, 0.0);
+#else
+#define PAIRED vec2
+#define CONTENTS float
+const CONTENTS OPEN = 1.0;
+#endif
 
 // A normal of any length, projected, in units of NORMAL_STEP. The bounds prevent a division by 0 for one of length 0.
 vec2 projected_normal(vec3 normal)
@@ -19,7 +31,7 @@ uint normal_code(vec3 normal_view)
     return code.x << 5 | code.y;
 }
 
-uint normal_code(vec2 paired)
+uint normal_code(PAIRED paired)
 {
     return floatBitsToUint(paired.x) & 1023u;
 }
@@ -30,7 +42,7 @@ vec2 projected_normal(uint code)
     return vec2(ivec2(code >> 5, code & 31u)) - 15.0;
 }
 
-float accessibility_of(vec2 paired)
+float accessibility_of(PAIRED paired)
 {
     return uintBitsToFloat(floatBitsToUint(paired.x) & ~1023u);
 }
@@ -40,7 +52,7 @@ float accessibility_of(vec2 paired)
 // RAYS: the value comes from the host's rays. It may be missing, which any negative number means.
 #define MISSING (-1.0)
 
-vec2 paired(float accessibility, float linear, uint code)
+vec2 paired_accessibility(float accessibility, float linear, uint code)
 {
 #if RAYS
     if (accessibility < 0.0)
@@ -49,6 +61,64 @@ vec2 paired(float accessibility, float linear, uint code)
     uint bits = floatBitsToUint(max(accessibility, 2e-6)) + 512u;
     return vec2(uintBitsToFloat((bits & ~1023u) | code), linear);
 }
+
+#if BENT
+PAIRED paired(CONTENTS contents, float linear, uint code)
+{
+    vec2 yz = roundEven(contents.zw);
+    return vec4(paired_accessibility(contents.x, linear, code), contents.y, 4096.0 * yz.x + yz.y);
+}
+
+CONTENTS contents_of(PAIRED paired)
+{
+    float y = roundEven(paired.w * (1.0 / 4096.0));
+    return vec4(accessibility_of(paired), paired.z, y, paired.w - 4096.0 * y);
+}
+
+// Whether both have the same contents, so that averaging them changes nothing.
+bool is_same(PAIRED a, PAIRED b)
+{
+    return a.xzw == b.xzw;
+}
+
+// Whether something may occlude the pixel.
+bool is_shaded(PAIRED paired)
+{
+    return paired.x < 1.0 || paired.zw != vec2(0.0);
+}
+
+// The weighted sum of the contents of four pixels.
+CONTENTS weighted(vec4 weights, PAIRED a, PAIRED b, PAIRED c, PAIRED d)
+{
+    return weights.x * contents_of(a) + weights.y * contents_of(b) + weights.z * contents_of(c) +
+           weights.w * contents_of(d);
+}
+#else
+PAIRED paired(CONTENTS contents, float linear, uint code)
+{
+    return paired_accessibility(contents, linear, code);
+}
+
+CONTENTS contents_of(PAIRED paired)
+{
+    return accessibility_of(paired);
+}
+
+bool is_same(PAIRED a, PAIRED b)
+{
+    return a.x == b.x;
+}
+
+bool is_shaded(PAIRED paired)
+{
+    return paired.x < 1.0; // the bits of the normal only add to 1
+}
+
+CONTENTS weighted(vec4 weights, PAIRED a, PAIRED b, PAIRED c, PAIRED d)
+{
+    return dot(weights, vec4(accessibility_of(a), accessibility_of(b), accessibility_of(c), accessibility_of(d)));
+}
+#endif
 
 // RAYS 2: the last pass that may find no value. Pixels that no ray tells anything about count as open. The power waits until
 // here, because it would change what a blur averages.
@@ -62,14 +132,25 @@ float finished(float accessibility)
 }
 
 #if OUTPUT == OUTPUT_PAIRED
-#define AMBIENT vec2
-vec2 ambient(float accessibility, float linear, uint code)
+#define AMBIENT PAIRED
+AMBIENT ambient(CONTENTS contents, float linear, uint code)
 {
-    return paired(finished(accessibility), linear, code);
+#if BENT
+    return paired(contents, linear, code);
+#else
+    return paired(finished(contents), linear, code);
+#endif
+}
+#elif OUTPUT == OUTPUT_BENT
+#define AMBIENT vec4
+AMBIENT ambient(CONTENTS contents, float linear, uint code)
+{
+    vec2 full_uv = (floor(pixel_center()) * float(gFactor) + 0.5) * gFullTexel;
+    return delivered(contents, linear == linear_from_distance(FAR_AWAY), normal_view_at_uv(full_uv));
 }
 #else
 #define AMBIENT float
-float ambient(float accessibility, float linear, uint code)
+AMBIENT ambient(float accessibility, float linear, uint code)
 {
     return finished(accessibility);
 }

@@ -15,6 +15,7 @@ float line_tolerance(float linear)
     return max(BLUR_TOLERANCE * radius_in_linear(linear), linear_step(linear));
 }
 
+#if !BENT
 // Of the pixel's own value and four others. RAYS 1: of those that are not missing; missing where all are. Later rounds for
 // rays alone (STRIDE above 0, CORRECTS 0) count values less the more they differ: the first has left little noise, so a
 // difference is a shadow's edge.
@@ -34,14 +35,15 @@ float weighted_mean(float own, float weight, vec4 others, vec4 weights)
     return (weight * own + dot(weights, others)) / (weight + dot(weights, vec4(1.0)));
 #endif
 }
+#endif
 
-// Accessibility of a pixel from the paired values of itself and of the two on each side along `way`.
-float blurred(vec2 before_2, vec2 before, vec2 center, vec2 after, vec2 after_2, vec2 way)
+// Contents of a pixel from the paired values of itself and of the two on each side along `way`.
+CONTENTS blurred(PAIRED before_2, PAIRED before, PAIRED center, PAIRED after, PAIRED after_2, vec2 way)
 {
 #if BRANCHES
     // Most pixels are surrounded by equal ones, which nothing occludes.
-    if (before_2.x == center.x && before.x == center.x && after.x == center.x && after_2.x == center.x)
-        return accessibility_of(center);
+    if (is_same(before_2, center) && is_same(before, center) && is_same(after, center) && is_same(after_2, center))
+        return contents_of(center);
 #endif
     float tolerance = line_tolerance(center.y);
     bool on_line = abs(before.y - 2.0 * center.y + after.y) < tolerance;
@@ -63,6 +65,14 @@ float blurred(vec2 before_2, vec2 before, vec2 center, vec2 after, vec2 after_2,
         weights.yz = vec2(joins.y && abs(before.y - center.y) < near ? 1.0 : 0.0,
                           joins.z && abs(after.y - center.y) < near ? 1.0 : 0.0);
     }
+#if BENT
+    // What is left without any tap keeps its noise, which shows where it is dark among bright neighbours.
+    float least =
+        weights.y + weights.z == 0.0 ? min(accessibility_of(before), accessibility_of(after)) - BLUR_ALONE : 0.0;
+    CONTENTS mean = (contents_of(center) + weighted(weights, before_2, before, after, after_2)) /
+                    (1.0 + dot(weights, vec4(1.0)));
+    return vec4(max(mean.x, least), mean.yzw);
+#else
     vec4 taps = vec4(accessibility_of(before_2), accessibility_of(before), accessibility_of(after),
                      accessibility_of(after_2));
     float own = accessibility_of(center);
@@ -74,14 +84,15 @@ float blurred(vec2 before_2, vec2 before, vec2 center, vec2 after, vec2 after_2,
         return mean;
 #endif
     return max(mean, least);
+#endif
 }
 
 // The same for a later round, from itself and the four at three pixels from it.
-float blurred_wide(vec2 left, vec2 below, vec2 center, vec2 above, vec2 right)
+CONTENTS blurred_wide(PAIRED left, PAIRED below, PAIRED center, PAIRED above, PAIRED right)
 {
 #if BRANCHES
-    if (left.x == center.x && below.x == center.x && above.x == center.x && right.x == center.x)
-        return accessibility_of(center);
+    if (is_same(left, center) && is_same(below, center) && is_same(above, center) && is_same(right, center))
+        return contents_of(center);
 #endif
     float tolerance = line_tolerance(center.y);
     float hollow = BLUR_HOLLOW * radius_in_linear(center.y);
@@ -99,6 +110,11 @@ float blurred_wide(vec2 left, vec2 below, vec2 center, vec2 above, vec2 right)
         joins.w = joins.w && !turns_away(projected_normal(codes.w) - own, vec2(1.0, 0.0));
     }
     vec4 weights = mix(vec4(0.0), vec4(0.1875), joins);
+#if BENT
+    CONTENTS sum = 0.25 * contents_of(center) + weighted(weights, left, below, above, right);
+    return sum / (0.25 + dot(weights, vec4(1.0)));
+#else
     vec4 taps = vec4(accessibility_of(left), accessibility_of(below), accessibility_of(above), accessibility_of(right));
     return weighted_mean(accessibility_of(center), 0.25, taps, weights);
+#endif
 }

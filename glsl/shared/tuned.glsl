@@ -20,6 +20,10 @@
 #define CALIBRATION_8 1.05    // the same for 8 samples
 #define CALIBRATION_12 1.0    // the same for 12 and 16 samples
 
+// Not searched: what rises over the tangent plane by less than this slope does not occlude, since normals are no better. It
+// would hide at most 1e-4 of a cosine-weighted hemisphere.
+#define LEAST_RISE 0.01
+
 // The planar blur (shared/planar_blur.glsl).
 #define BLUR_TOLERANCE 0.02   // how far off a line may be
 #define BLUR_NEAR 0.1         // how far off a neighbour may be of a pixel that has no other

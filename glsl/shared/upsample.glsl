@@ -11,7 +11,7 @@ const float AROUND_CREASE = 1e16;
 #if NORMALS == NORMALS_REBUILT
 // How far above the pixel the line through the corner that is `way` pixels from it and what lies as far beyond passes: above 0
 // where the surface turns away from the eye in between.
-float fall(float own, vec2 corner, vec2 full_uv, vec2 way)
+float fall(float own, PAIRED corner, vec2 full_uv, vec2 way)
 {
     float beyond = depth_component(textureLod(u_depth_map, full_uv + 2.0 * way * gFullTexel, 0.0));
     float off = 2.0 * corner.y - linear_from_depth(beyond) - own;
@@ -19,17 +19,35 @@ float fall(float own, vec2 corner, vec2 full_uv, vec2 way)
 }
 #endif
 
-// Accessibility at a full-size uv, whose coordinates are `odd` (1) where they lie midway between a and d of the paired
-// map: b differs from a in x alone, c in y; where a coordinate is even, the two are the same.
-float upsampled(vec2 a, vec2 b, vec2 c, vec2 d, vec2 odd, vec2 full_uv)
+#if BENT && NORMALS == NORMALS_REBUILT
+// The normal of the corner that is `way` pixels from a full-size one.
+vec3 corner_normal(vec2 full_uv, vec2 way)
+{
+    vec2 texel = floor(0.5 * (full_uv / gFullTexel + way));
+    return normal_view_from_stored(textureLod(u_normal_map, (texel + 0.5) * gInvRenderTargetSize, 0.0).xyz);
+}
+
+vec3 mean_normal(vec4 weights, vec2 odd, vec2 full_uv)
+{
+    vec3 sum = weights.x * corner_normal(full_uv, -odd) + weights.y * corner_normal(full_uv, vec2(odd.x, -odd.y)) +
+               weights.z * corner_normal(full_uv, vec2(-odd.x, odd.y)) + weights.w * corner_normal(full_uv, odd);
+    return sum * inversesqrt(max(dot(sum, sum), 1e-10));
+}
+#endif
+
+// Accessibility at a full-size uv, with BENT 1 what shared/bent.glsl delivers. Coordinates are `odd` (1) where they lie midway
+// between a and d of the paired map: b differs from a in x alone, c in y; where a coordinate is even, the two are the same.
+CONTENTS upsampled(PAIRED a, PAIRED b, PAIRED c, PAIRED d, vec2 odd, vec2 full_uv)
 {
     float depth = depth_component(textureLod(u_depth_map, full_uv, 0.0));
     float own = linear_from_depth(depth);
-    vec4 values = vec4(accessibility_of(a), accessibility_of(b), accessibility_of(c), accessibility_of(d));
     vec4 apart = vec4(a.y, b.y, c.y, d.y) - own;
     vec4 off = abs(apart);
     float tolerance = max(UPSAMPLE_TOLERANCE * radius_in_linear(own), 0.5 * linear_step(own));
     uvec4 codes = uvec4(normal_code(a), normal_code(b), normal_code(c), normal_code(d));
+#if BENT && NORMALS != NORMALS_REBUILT
+    vec3 stored = textureLod(u_normal_map, full_uv, 0.0).xyz;
+#endif
     // Most pixels have neighbours that all face the same way, which spares a GPU this.
     if (any(notEqual(codes.xxx, codes.yzw))) {
 #if NORMALS == NORMALS_REBUILT
@@ -39,7 +57,10 @@ float upsampled(vec2 a, vec2 b, vec2 c, vec2 d, vec2 odd, vec2 full_uv)
         float least = min(min(size.x, size.y), min(size.z, size.w));
         bvec4 turned = greaterThan(falls, vec4(UPSAMPLE_FALL * least + tolerance));
 #else
-        vec2 projected = projected_normal(decoded_normal(textureLod(u_normal_map, full_uv, 0.0).xyz));
+#if !BENT
+        vec3 stored = textureLod(u_normal_map, full_uv, 0.0).xyz;
+#endif
+        vec2 projected = projected_normal(decoded_normal(stored));
         bvec4 turned = bvec4(turns_away(projected_normal(codes.x) - projected, -odd),
                              turns_away(projected_normal(codes.y) - projected, vec2(odd.x, -odd.y)),
                              turns_away(projected_normal(codes.z) - projected, vec2(-odd.x, odd.y)),
@@ -52,22 +73,38 @@ float upsampled(vec2 a, vec2 b, vec2 c, vec2 d, vec2 odd, vec2 full_uv)
     // The nearest neighbour always counts.
     near = max(near, min(min(off.x, off.y), min(off.z, off.w)));
     vec4 weights = vec4(lessThanEqual(off, vec4(near)));
-    return is_sky(depth) ? 1.0 : dot(weights, values) / dot(weights, vec4(1.0));
+    CONTENTS mean = weighted(weights, a, b, c, d) / dot(weights, vec4(1.0));
+#if BENT && NORMALS == NORMALS_REBUILT
+    return delivered(mean, is_sky(depth), mean_normal(weights, odd, full_uv));
+#elif BENT
+    return delivered(mean, is_sky(depth), normal_view_from_stored(stored));
+#else
+    return is_sky(depth) ? 1.0 : mean;
+#endif
 }
 
-// Accessibility of the four full-size pixels that texel a is the lower left of: lower left, at full_uv, which is its own,
-// lower right, upper left and upper right.
-vec4 upsampled_block(vec2 a, vec2 b, vec2 c, vec2 d, vec2 full_uv)
+// The four full-size pixels that texel a is the lower left of.
+struct block {
+    CONTENTS lower_left, lower_right, upper_left, upper_right;
+};
+
+// `full_uv`: of the lower left one, which is the texel's own.
+block upsampled_block(PAIRED a, PAIRED b, PAIRED c, PAIRED d, vec2 full_uv)
 {
-#if BRANCHES
+#if BRANCHES && !BENT
     // Where nothing occludes any of them, neither depth nor normals matter. The bits of the normal only add to 1.
     if (min(min(a.x, b.x), min(c.x, d.x)) >= 1.0)
-        return vec4(1.0);
+        return block(1.0, 1.0, 1.0, 1.0);
 #endif
     vec2 full_next = full_uv + gFullTexel;
     bool sky = is_sky(depth_component(textureLod(u_depth_map, full_uv, 0.0)));
-    return vec4(sky ? 1.0 : accessibility_of(a),
-                upsampled(a, b, a, b, vec2(1.0, 0.0), vec2(full_next.x, full_uv.y)),
-                upsampled(a, a, c, c, vec2(0.0, 1.0), vec2(full_uv.x, full_next.y)),
-                upsampled(a, b, c, d, vec2(1.0), full_next));
+#if BENT
+    CONTENTS own = delivered(contents_of(a), sky, normal_view_at_uv(full_uv));
+#else
+    CONTENTS own = sky ? 1.0 : contents_of(a);
+#endif
+    return block(own,
+                 upsampled(a, b, a, b, vec2(1.0, 0.0), vec2(full_next.x, full_uv.y)),
+                 upsampled(a, a, c, c, vec2(0.0, 1.0), vec2(full_uv.x, full_next.y)),
+                 upsampled(a, b, c, d, vec2(1.0), full_next));
 }

@@ -19,6 +19,7 @@
 #define OUTPUT_ACCESSIBILITY 0
 #define OUTPUT_PAIRED 1 // shared/paired.glsl
 #define OUTPUT_SUM 2    // linear accessibility, to be added to the sum of its replicate
+#define OUTPUT_BENT 3   // accessibility, and into a second target the bent normal with accessibility
 
 // The taps of blur.frag.
 #define FILTER_GAUSSIAN 0

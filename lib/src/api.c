@@ -123,6 +123,7 @@ static void run_schedule(glssao_effect *effect, const call *c, const glssao__sch
     last->result = schedule->result;
     last->other = schedule->other;
     last->has_tiles = schedule->has_tiles;
+    last->has_bent = c->settings->bent_normals;
     last->margin = c->frame->margin;
     memcpy(last->viewport, c->frame->viewport, sizeof last->viewport);
     last->depth_texture =

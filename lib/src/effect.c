@@ -159,6 +159,7 @@ glssao_result glssao_resize(glssao_effect *effect, int width, int height)
     effect->last.result = MAP_AMBIENT_0;
     effect->last.other = MAP_AMBIENT_1;
     effect->last.has_tiles = false;
+    effect->last.has_bent = false;
     effect->last.margin = 0;
     memset(effect->last.viewport, 0, sizeof effect->last.viewport);
     return GLSSAO_OK;
@@ -185,6 +186,9 @@ uint32_t glssao_map(const glssao_effect *effect, glssao_map_id id, int *out_widt
             break;
         case GLSSAO_MAP_TILES:
             map = effect->last.has_tiles ? MAP_TILE_RINGS : MAP_NONE;
+            break;
+        case GLSSAO_MAP_BENT_NORMAL:
+            map = effect->last.has_bent ? MAP_BENT : MAP_NONE;
             break;
         case GLSSAO_MAP_RANDOM_VECTOR:
             texture = effect->resources.random_vector_map;

@@ -16,7 +16,7 @@
 typedef struct glssao__last_frame {
     uint64_t number; /* of frames that succeeded; 0: none yet */
     enum glssao__map result, other;
-    bool has_tiles;
+    bool has_tiles, has_bent;
     int margin;
     int viewport[4];       /* the frame's */
     gl_uint depth_texture; /* the host's, as last handed over */

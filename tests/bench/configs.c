@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const technique_names[BENCH_TECHNIQUES] = {"classic", "hemisphere", "horizon", "rays"};
+static const char *const technique_names[] = {"classic", "hemisphere", "horizon", "rays"};
 static const char *const blur_names[] = {[GLSSAO_BLUR_NONE] = "none",
                                          [GLSSAO_BLUR_GAUSSIAN] = "gaussian",
                                          [GLSSAO_BLUR_BILATERAL] = "bilateral",
@@ -117,6 +117,33 @@ static int add_rays(const options *o, bench_config *out, int count)
     return count;
 }
 
+/* A few rays that the host traces: alone, and as corrections. */
+static int add_traced(const options *o, bench_config *out, int count)
+{
+    static const struct {
+        glssao_technique technique;
+        glssao_quality level;
+        int rays; /* 0: as many as suit the level */
+    } rows[] = {{GLSSAO_RAYS, GLSSAO_LOW, 0},     {GLSSAO_RAYS, GLSSAO_MEDIUM, 0},  {GLSSAO_RAYS, GLSSAO_HIGH, 0},
+                {GLSSAO_RAYS, GLSSAO_ULTRA, 0},   {GLSSAO_HORIZON, GLSSAO_LOW, 2},  {GLSSAO_HORIZON, GLSSAO_MEDIUM, 2},
+                {GLSSAO_HORIZON, GLSSAO_HIGH, 2}, {GLSSAO_HORIZON, GLSSAO_HIGH, 4}, {GLSSAO_HORIZON, GLSSAO_ULTRA, 1},
+                {GLSSAO_HORIZON, GLSSAO_ULTRA, 2}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0] && count < BENCH_CONFIGS_MAX; i++) {
+        const char *name = technique_names[rows[i].technique], *level = words_at(QUALITY_WORDS, rows[i].level).text;
+        bench_config c = {.kind = BENCH_TRACED,
+                          .level = rows[i].rays == 0,
+                          .settings = glssao_default_settings(rows[i].technique, rows[i].level)};
+        c.rays = rows[i].rays ? rows[i].rays : c.settings.sample_count;
+        if (rows[i].rays)
+            snprintf(c.id, sizeof c.id, "%s-%.8s-with-%d-rays", name, level, c.rays);
+        else
+            snprintf(c.id, sizeof c.id, "%s-%.8s", name, level);
+        if (options_match(o->only, c.id))
+            out[count++] = c;
+    }
+    return count;
+}
+
 static int add_peers(const options *o, bench_config *out, int count)
 {
     for (int i = 0; o->peers && i < peers_count(o->peer_grid) && count < BENCH_CONFIGS_MAX; i++) {
@@ -153,7 +180,7 @@ int bench_configs_list(const options *o, const glssao_effect *effect, bench_conf
             }
         }
     }
-    return add_peers(o, out, add_rays(o, out, count));
+    return add_peers(o, out, add_traced(o, out, add_rays(o, out, count)));
 }
 
 const char *bench_technique_name(glssao_technique technique)

@@ -10,21 +10,22 @@
 
 #include <glssao/glssao.h>
 
-enum { BENCH_CONFIGS_MAX = 160, BENCH_TECHNIQUES = GLSSAO_RAYS + 1 };
+enum { BENCH_CONFIGS_MAX = 160, BENCH_TECHNIQUES = GLSSAO_HORIZON + 1 /* of screen space */ };
 
-typedef enum bench_kind { BENCH_EFFECT = 0, BENCH_RAYS, BENCH_PEER } bench_kind;
+typedef enum bench_kind { BENCH_EFFECT = 0, BENCH_RAYS, BENCH_PEER, BENCH_TRACED } bench_kind;
 
 /* What the host hands over: depth and normals; depth alone; or both with a margin and a second layer,
  * bench_view.beyond. */
 typedef enum bench_inputs { INPUTS_NORMALS = 0, INPUTS_DEPTH, INPUTS_BEYOND } bench_inputs;
 
 typedef struct bench_config {
-    char id[48]; /* stable: technique-level, or technique-level-change; rays-N; the peer's name */
+    char id[48]; /* stable: technique-level, or technique-level-change; rays-N; the peer's name; rays-level, or
+                    technique-level-with-N-rays */
     bench_kind kind;
     bench_inputs inputs;
     bool level;               /* a quality level as it comes */
-    glssao_settings settings; /* BENCH_EFFECT; lengths as glssao_default_settings gives them */
-    int rays;                 /* BENCH_RAYS: a pixel */
+    glssao_settings settings; /* BENCH_EFFECT, BENCH_TRACED; lengths as glssao_default_settings gives them */
+    int rays;                 /* BENCH_RAYS: a pixel; BENCH_TRACED: a pixel of the estimate */
     int peer;                 /* BENCH_PEER: its number */
 } bench_config;
 

@@ -40,7 +40,7 @@ void map_reader_destroy(map_reader *m)
 
 void effects_destroy(effects *e)
 {
-    for (int t = 0; t < BENCH_TECHNIQUES; t++) {
+    for (int t = 0; t <= GLSSAO_RAYS; t++) {
         for (int i = 0; i < 4; i++) {
             glssao_destroy(e->of[t][i / 2][i % 2]);
             e->of[t][i / 2][i % 2] = NULL;
@@ -83,7 +83,8 @@ bool effects_run(effects *e, map_reader *m, const effect_job *job, float *out, c
     if (!effect)
         return false;
     const glssao_settings scaled = bench_scale_settings(job->settings, job->radius);
-    const glssao_frame frame = gbuffer_frame(job->gbuffer, job->depth_alone);
+    glssao_frame frame = gbuffer_frame(job->gbuffer, job->depth_alone);
+    frame.rays_texture = job->rays_texture;
     glssao_restart_accumulation(effect);
     const glssao_result result =
         job->accumulates ? glssao_accumulate(effect, &frame, &scaled) : glssao_compute(effect, &frame, &scaled);

@@ -27,8 +27,8 @@ typedef struct effects {
     uint32_t seed;
     glssao_path path;
     bool no_timers;
-    glssao_load_fn load;                       /* NULL: context_load */
-    glssao_effect *of[BENCH_TECHNIQUES][2][2]; /* technique, half size, with a margin; made when first asked for */
+    glssao_load_fn load;                      /* NULL: context_load */
+    glssao_effect *of[GLSSAO_RAYS + 1][2][2]; /* technique, half size, with a margin; made when first asked for */
 } effects;
 
 void effects_destroy(effects *e);
@@ -38,7 +38,8 @@ typedef struct effect_job {
     const gbuffer *gbuffer;
     const glssao_settings *settings; /* lengths as in bench_config; they are scaled to `radius` */
     float radius;
-    bool depth_alone; /* no normals are handed over */
+    uint32_t rays_texture; /* 0: none */
+    bool depth_alone;      /* no normals are handed over */
     bool accumulates; /* the first estimate of glssao_accumulate, whose noise follows the seed; horizon, full size */
 } effect_job;
 

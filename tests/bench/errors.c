@@ -7,6 +7,7 @@
 
 #include "peers.h"
 #include "progress.h"
+#include "traced.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -61,6 +62,23 @@ static bool run_peer(const results *r, const bench_config *c, int view, float *o
     return ran;
 }
 
+static bool run_traced(const results *r, const bench_config *c, int view, effects *e, map_reader *m, float *out,
+                       char *error, size_t error_size)
+{
+    const bench_view *v = &r->views[view];
+    const options *o = r->options;
+    host_rays t;
+    bool ran = traced_open(&t, &r->scenes[view], o->size[0], o->size[1], error, error_size) &&
+               traced_run(&t, &v->gbuffer, c, v->radius, o->seed, error, error_size);
+    if (ran) {
+        const effect_job job = {
+            .gbuffer = &v->gbuffer, .settings = &c->settings, .radius = v->radius, .rays_texture = t.rays.texture};
+        ran = effects_run(e, m, &job, out, error, error_size);
+    }
+    traced_close(&t);
+    return ran;
+}
+
 bool errors_run(const results *r, const bench_config *c, int view, bool plain, effects *e, map_reader *m, float *out,
                 char *error, size_t error_size)
 {
@@ -70,6 +88,8 @@ bool errors_run(const results *r, const bench_config *c, int view, bool plain, e
         return run_rays(r, c, view, out, error, error_size);
     if (c->kind == BENCH_PEER)
         return run_peer(r, c, view, out, error, error_size);
+    if (c->kind == BENCH_TRACED)
+        return run_traced(r, c, view, e, m, out, error, error_size);
     if (plain)
         settings.power = 1;
     const effect_job job = {.gbuffer = c->inputs == INPUTS_BEYOND ? &v->beyond : &v->gbuffer,

@@ -22,7 +22,7 @@ static void add_time(table *t, const timing *time)
 static void add_config(table *t, const bench_config *c)
 {
     static const char *const inputs[] = {"normals", "depth", "beyond"};
-    const bool effect = c->kind == BENCH_EFFECT;
+    const bool effect = c->kind == BENCH_EFFECT || c->kind == BENCH_TRACED;
     table_text(t, c->id);
     table_text(t, effect ? bench_technique_name(c->settings.technique) : c->kind == BENCH_RAYS ? "rays" : "peer");
     table_text(t, c->level ? "1" : "0");

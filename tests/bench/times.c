@@ -8,6 +8,7 @@
 #include "peers.h"
 #include "progress.h"
 #include "statistics.h"
+#include "traced.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -127,6 +128,47 @@ static bool time_rays(results *r, const scene *s, const scene_view *view, float 
     return true;
 }
 
+/* Whole frames with a few rays: read-back, tracing and upload included, the acceleration structure not. */
+static bool time_traced(results *r, effects *e, const gbuffer *g, float radius, int of_view, char *error,
+                        size_t error_size)
+{
+    const int frames = r->options->frames;
+    double *values = calloc((size_t)frames * ROWS, sizeof *values);
+    host_rays t = {.scene = NULL};
+    bool timed = values != NULL;
+    for (int i = 0; timed && i < r->config_count; i++) {
+        const bench_config *c = &r->configs[i].config;
+        if (c->kind != BENCH_TRACED)
+            continue;
+        const glssao_settings scaled = bench_scale_settings(&c->settings, radius);
+        glssao_effect *effect = effects_get(e, g, &c->settings, error, error_size);
+        timed = effect && (t.embree || traced_open(&t, &r->scenes[of_view], e->width, e->height, error, error_size));
+        for (int k = 0; timed && k < frames * ROWS; k++)
+            values[k] = NAN;
+        for (int f = -WARM_UP_FRAMES; timed && f < frames; f++) {
+            gl.Finish();
+            const double wall = clock_wall_ms(), cpu = clock_cpu_ms();
+            timed = traced_run(&t, g, c, radius, r->options->seed, error, error_size);
+            glssao_frame frame = gbuffer_frame(g, false);
+            frame.rays_texture = t.rays.texture;
+            timed = timed && glssao_compute(effect, &frame, &scaled) == GLSSAO_OK;
+            gl.Finish();
+            if (f >= 0) {
+                values[f] = clock_wall_ms() - wall;
+                values[frames + f] = clock_cpu_ms() - cpu;
+            }
+        }
+        if (timed)
+            r->configs[i].views[of_view].time = summarise(values, frames);
+    }
+    if (t.embree)
+        fprintf(stderr, "%s: acceleration structure built in %.1f ms of processor time\n", r->scenes[of_view].name,
+                t.build_ms);
+    traced_close(&t);
+    free(values);
+    return timed;
+}
+
 /* What a host with depth and normals pays for a peer: its passes, drawn from a recording. */
 static bool time_peers(results *r, const gbuffer *g, float radius, int of_view, char *error, size_t error_size)
 {
@@ -182,6 +224,7 @@ bool times_measure(results *r, effects *e, int of_view, char *error, size_t erro
                        gbuffer_draw(&g[1], s, &view, gbuffer_margin(e->width), error, error_size) &&
                        take_turns(r, e, &plain, g, radius, values, error, error_size) &&
                        time_rays(r, s, &view, radius, of_view, error, error_size) &&
+                       time_traced(r, e, &g[0], radius, of_view, error, error_size) &&
                        (!r->peers || time_peers(r, &g[0], radius, of_view, error, error_size));
     effects_destroy(&plain);
     for (int i = 0; timed && i < r->config_count; i++) {

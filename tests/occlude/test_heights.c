@@ -31,7 +31,9 @@ static void test_cliff_of_a_height_map_agrees_with_traced_rays(void **state)
 {
     (void)state;
     float out[COUNT];
-    assert_true(worst_at_cliff(6.0f, false, out) > 0.04); /* a slab of guessed thickness lets light through below */
+    /* A cliff of four radii: a slab of guessed thickness lets light through below. */
+    assert_true(worst_at_cliff(1.5f, false, out) > 0.15);
+    assert_true(worst_at_cliff(1.5f, true, out) < 0.07);
     assert_true(worst_at_cliff(6.0f, true, out) < 0.025);
     for (int x = 0; x < WIDTH / 2 - 1; ++x)
         assert_true(out[HEIGHT / 2 * WIDTH + x] > 0.995f); /* the top */

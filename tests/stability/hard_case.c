@@ -54,6 +54,32 @@ static void check_rebuilt_normals(fixture *f, const hard_case *c, const subject 
     free(normals);
 }
 
+/* The same frame with bent normals: they are sound, and accessibility is what it is without them. */
+static void check_bent(fixture *f, const hard_case *c, const subject *s, const glssao_frame *frame,
+                       const configuration *one, const picture *without)
+{
+    glssao_settings settings = one->settings;
+    settings.bent_normals = true;
+    picture p = subject_shade(f, s->width, s->height, frame, &settings);
+    int width, height;
+    const uint32_t map = glssao_map(f->effect, GLSSAO_MAP_BENT_NORMAL, &width, &height);
+    assert_true(width == p.width && height == p.height);
+    const bool is_alike = width == without->width; /* where nothing can be occluded, no pass ran, upsampling neither */
+    float *bent = fixture_read_texture(map, width, height, 4);
+    for (int i = 0; i < width * height; ++i) {
+        const float *b = bent + 4 * i;
+        const double length =
+            sqrt((double)b[0] * (double)b[0] + (double)b[1] * (double)b[1] + (double)b[2] * (double)b[2]);
+        const double apart = is_alike ? fabs((double)p.values[i] - (double)without->values[i]) : 0.0;
+        if (!(fabs(length - 1.0) < 2e-3 && fabs((double)b[3] - (double)p.values[i]) < 1e-3 &&
+              apart < 2e-3)) /* or NaN */
+            fail_msg("%s, %s, pixel %d: a bent normal of length %g, alpha %g; accessibility %g, %g apart", c->name,
+                     one->name, i, length, (double)b[3], (double)p.values[i], apart);
+    }
+    free(bent);
+    free(p.values);
+}
+
 static void check(fixture *f, const hard_case *c, const subject *s, normal_store normal, int number, bool is_first)
 {
     const double distance = or_default(c->distance, 3.0);
@@ -72,6 +98,8 @@ static void check(fixture *f, const hard_case *c, const subject *s, normal_store
                  subject_normal_name(normal), least, wanted);
     if (is_first && frame.normal_texture == 0)
         check_rebuilt_normals(f, c, s);
+    if (one.settings.technique == GLSSAO_HORIZON && number % 3 == 0) /* at full and at half size */
+        check_bent(f, c, s, &frame, &one, &p);
     free(p.values);
     subject_frame_free(&frame);
 }

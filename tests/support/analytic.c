@@ -174,8 +174,8 @@ static bool blocked(const analytic_shape *shapes, int shape_count, const double 
     return false;
 }
 
-double analytic_accessibility(const analytic_shape *shapes, int shape_count, const double point[3],
-                              const double normal[3], double radius, int rays)
+double analytic_open(const analytic_shape *shapes, int shape_count, const double point[3], const double normal[3],
+                     double radius, int rays, double out_mean[3])
 {
     const double two_pi = 6.28318530717958647692, golden = 0.61803398874989484820;
     /* Any vector across the normal. */
@@ -186,14 +186,28 @@ double analytic_accessibility(const analytic_shape *shapes, int shape_count, con
     for (int i = 0; i < 3; ++i)
         v[i] = normal[(i + 1) % 3] * u[(i + 2) % 3] - normal[(i + 2) % 3] * u[(i + 1) % 3];
     int open = 0;
+    double sum[3] = {0.0, 0.0, 0.0};
     for (int k = 0; k < rays; ++k) {
         const double square = (k + 0.5) / rays, angle = two_pi * (golden * k - floor(golden * k)), r = sqrt(square);
         double d[3];
         for (int i = 0; i < 3; ++i)
             d[i] = r * cos(angle) * u[i] + r * sin(angle) * v[i] + sqrt(1.0 - square) * normal[i];
-        open += !blocked(shapes, shape_count, point, d, radius);
+        if (blocked(shapes, shape_count, point, d, radius))
+            continue;
+        open += 1;
+        for (int i = 0; i < 3; ++i)
+            sum[i] += d[i];
     }
+    for (int i = 0; i < 3; ++i)
+        out_mean[i] = sum[i] / rays;
     return (double)open / rays;
+}
+
+double analytic_accessibility(const analytic_shape *shapes, int shape_count, const double point[3],
+                              const double normal[3], double radius, int rays)
+{
+    double mean[3];
+    return analytic_open(shapes, shape_count, point, normal, radius, rays, mean);
 }
 
 void analytic_room(analytic_shape shapes[ANALYTIC_ROOM_SHAPES], double scale)

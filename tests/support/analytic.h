@@ -49,6 +49,10 @@ void analytic_render_distance(const analytic_view *view, const analytic_shape *s
 double analytic_accessibility(const analytic_shape *shapes, int shape_count, const double point[3],
                               const double normal[3], double radius, int rays);
 
+/* The same, and the sum of the directions of the rays that hit nothing, over the number of all rays. */
+double analytic_open(const analytic_shape *shapes, int shape_count, const double point[3], const double normal[3],
+                     double radius, int rays, double out_mean[3]);
+
 /* A floor, a wall, two spheres and two boxes, 3 to 9 units away. `scale` multiplies all lengths. */
 enum { ANALYTIC_ROOM_SHAPES = 6 };
 void analytic_room(analytic_shape shapes[ANALYTIC_ROOM_SHAPES], double scale);

@@ -77,6 +77,7 @@ bool horizon_variant(const glssao_effect *effect, horizon_input *out)
         .width = RUN_WIDTH,
         .veil = variant.values[MACRO_LAYERS] ? VEIL_TWO_LAYERS : VEIL_ONE_LAYER,
         .veil_width = VEIL_WIDTH,
+        .rise = LEAST_RISE,
         .veil_reach = VEIL_REACH,
         .veil_far = VEIL_FAR,
         .plan_width = PLAN_WIDTH,

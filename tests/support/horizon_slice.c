@@ -95,9 +95,10 @@ static void add_sample(const point *p, const slice *s, const side *d, const cand
     rounded least = multiply(fifth, square_root(add(squares[0], squares[1])));
     least.e += 4.0 * ROUNDING * least.v;
     const interval beyond = bounds(subtract(at->x, least));
-    /* The tangent plane, raised by a step of the depth format. */
+    /* The tangent plane, tilted up a little and raised by a step of the depth format. */
     rounded tangent = divide(s->sin_g, at_least(s->cos_g, 1e-3));
     tangent.v *= d->minus ? 1.0 : -1.0;
+    tangent = add(tangent, once_rounded(c->rise));
     const interval above = bounds(subtract(at->y, add(multiply(tangent, at->x), p->y_step)));
     if (beyond.high <= 0.0 || above.high <= 0.0 || x.low >= 1.0 + 4.0 * ROUNDING)
         return; /* on the point, across the slice or on its other side; too low; outside the sphere */

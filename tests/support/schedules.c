@@ -48,14 +48,19 @@ static void visit_inputs(visitor *v, glssao__request *q, glssao_frame *frame)
             }
 }
 
-/* On a GPU by compute and by fragment shaders, and on a software rasteriser with tiles. */
-static void visit_capabilities(visitor *v, glssao__request *q, glssao_frame *frame)
+/* Without bent normals and with them, on a GPU by compute and by fragment shaders, and on a software rasteriser with
+ * tiles. */
+static void visit_capabilities(visitor *v, glssao__request *q, glssao_frame *frame, glssao_settings *settings)
 {
-    for (int can = 0; can < 3; ++can) {
-        q->can.path = can == 0 ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT;
-        q->can.is_software = can == 2;
-        visit_inputs(v, q, frame);
-    }
+    const int both = settings->technique == GLSSAO_HORIZON && frame->rays_texture == 0 ? 2 : 1;
+    for (int bent = 0; bent < both; ++bent)
+        for (int can = 0; can < 3; ++can) {
+            settings->bent_normals = bent;
+            q->can.path = can == 0 ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT;
+            q->can.is_software = can == 2;
+            visit_inputs(v, q, frame);
+        }
+    settings->bent_normals = false;
 }
 
 int schedules_visit(void (*function)(const glssao__request *request, const glssao__schedule *schedule, void *user),
@@ -79,7 +84,7 @@ int schedules_visit(void (*function)(const glssao__request *request, const glssa
                     frame.margin = rounds == 2 ? 16 : 0;
                     frame.rays_texture = technique == GLSSAO_RAYS || rounds == 3 ? RAYS_NAME : 0;
                     if (technique != GLSSAO_RAYS || blur == GLSSAO_BLUR_NONE || blur == GLSSAO_BLUR_PLANAR)
-                        visit_capabilities(&v, &q, &frame);
+                        visit_capabilities(&v, &q, &frame, &settings);
                 }
     frame.margin = 0;
     frame.rays_texture = 0;
@@ -90,7 +95,7 @@ int schedules_visit(void (*function)(const glssao__request *request, const glssa
             if (accumulates)
                 settings = glssao__schedule_accumulated(&settings);
             q.estimates = accumulates ? 2 : 0;
-            visit_capabilities(&v, &q, &frame);
+            visit_capabilities(&v, &q, &frame, &settings);
         }
     return v.count;
 }

@@ -7,8 +7,8 @@
 
 #include "frame/schedule.h"
 
-/* Calls `visit` with a schedule for each combination of techniques, samples, sizes, blurs, rounds, encodings, layers,
- * margins, accumulation and capabilities that can change a step's program. Returns how many. */
+/* Calls `visit` with a schedule for each combination of techniques, samples, sizes, blurs, rounds, bent normals,
+ * encodings, layers, margins, accumulation and capabilities that can change a step's program. Returns how many. */
 int schedules_visit(void (*visit)(const glssao__request *request, const glssao__schedule *schedule, void *user),
                     void *user);
 

@@ -189,7 +189,8 @@ static void viewport_and_size_of_the_host_are_followed(void **state)
         for (int k = 0; k < W * H; ++k) {
             const int x = k % W - p[0], y = k / W - p[1];
             const bool inside = x >= 0 && y >= 0 && x < p[2] && y < p[3];
-            assert_float_equal(got[k], inside ? access[y * w + x] : 0.0f, 0.003f);
+            const float wanted = inside ? access[y * w + x] : 0.0f;
+            assert_float_equal(got[k], wanted, 0.003f);
         }
         free(access);
         free(got);
@@ -292,7 +293,8 @@ static void framebuffers_that_hold_no_depth_are_named(void **state)
 
 /* ---- drivers and hosts ---- */
 
-static enum { REFUSES_NOTHING, REFUSES_BLITS, REFUSES_ALL } driver;
+enum { REFUSES_NOTHING, REFUSES_BLITS, REFUSES_ALL };
+static int driver;
 static PFNGLBLITFRAMEBUFFERPROC real_blit;
 static PFNGLCOPYTEXSUBIMAGE2DPROC real_copy;
 static int blits, copies, errors_asked;
@@ -388,6 +390,8 @@ static void drivers_that_refuse_the_blit_copy_texels(void **state)
 /* An error that the host had is there afterwards; later copies don't ask for errors. */
 static void errors_of_the_host_stay(void **state)
 {
+    if (GLSSAO_CHECK_GL)
+        skip(); /* such builds ask for errors after every pass and take the host's */
     fixture *f = *state;
     glssao_effect *effect = effect_of_a_driver(f, false);
     const glssao_settings settings = make_settings();

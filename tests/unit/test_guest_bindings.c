@@ -70,9 +70,9 @@ static GLuint bound_on(GLuint unit)
 }
 
 /* Binds every map of the effect, one a unit; a map that is not there leaves its unit empty. */
-static void bind_maps(const guest *g, GLuint out_names[GLSSAO_MAP_TILES + 1])
+static void bind_maps(const guest *g, GLuint out_names[GLSSAO_MAP_BENT_NORMAL + 1])
 {
-    for (GLuint id = 0; id <= GLSSAO_MAP_TILES; ++id) {
+    for (GLuint id = 0; id <= GLSSAO_MAP_BENT_NORMAL; ++id) {
         out_names[id] = glssao_map(g->effect, (glssao_map_id)id, NULL, NULL);
         gl.ActiveTexture(GL_TEXTURE0 + id);
         gl.BindTexture(GL_TEXTURE_2D, out_names[id]);
@@ -81,12 +81,12 @@ static void bind_maps(const guest *g, GLuint out_names[GLSSAO_MAP_TILES + 1])
 
 /* The map was kept, and is bound still; or it was deleted, which leaves the unit empty (OpenGL 3.3, section 3.8.1).
  * A name that GL made anew by binding it has no size. A name that now is another map of the effect is wrong, too. */
-static void check_maps(const guest *g, const GLuint names[GLSSAO_MAP_TILES + 1], const char *from, const char *to)
+static void check_maps(const guest *g, const GLuint names[GLSSAO_MAP_BENT_NORMAL + 1], const char *from, const char *to)
 {
     char what[128];
     snprintf(what, sizeof what, "from %s to %s with maps bound", from, to);
     guest_no_error(what);
-    for (GLuint id = 0; id <= GLSSAO_MAP_TILES; ++id) {
+    for (GLuint id = 0; id <= GLSSAO_MAP_BENT_NORMAL; ++id) {
         const GLuint bound = bound_on(id);
         if (bound == 0)
             continue;
@@ -95,7 +95,7 @@ static void check_maps(const guest *g, const GLuint names[GLSSAO_MAP_TILES + 1],
         if (bound != names[id] || width == 0)
             fail_msg("%s: map %u was texture %u, and its unit now holds texture %u of width %d", what, id, names[id],
                      bound, width);
-        for (GLuint other = 0; other <= GLSSAO_MAP_TILES; ++other)
+        for (GLuint other = 0; other <= GLSSAO_MAP_BENT_NORMAL; ++other)
             if (other != id && names[other] != bound &&
                 glssao_map(g->effect, (glssao_map_id)other, NULL, NULL) == bound)
                 fail_msg("%s: texture %u was map %u and is map %u now", what, bound, id, other);
@@ -107,13 +107,13 @@ static void maps_may_stay_bound_when_a_setting_changes(void **state)
     for (int from = 0; from < CHANGES; ++from) {
         guest g = guest_open(*state, GLSSAO_PATH_AUTO);
         for (int to = 0; to < CHANGES; ++to) {
-            GLuint names[GLSSAO_MAP_TILES + 1];
+            GLuint names[GLSSAO_MAP_BENT_NORMAL + 1];
             run_change(&g, &changes[from]);
             bind_maps(&g, names);
             run_change(&g, &changes[to]);
             check_maps(&g, names, changes[from].name, changes[to].name);
         }
-        GLuint names[GLSSAO_MAP_TILES + 1];
+        GLuint names[GLSSAO_MAP_BENT_NORMAL + 1];
         bind_maps(&g, names);
         assert_int_equal(glssao_resize(g.effect, GUEST_W / 2, GUEST_H), GLSSAO_OK);
         check_maps(&g, names, changes[from].name, "another size");

@@ -22,7 +22,7 @@ static void spell(const glssao__schedule *s, char *out, size_t size)
         const glssao__step *step = &s->steps[i];
         const size_t length = strlen(out);
         snprintf(out + length, size - length, "%s%s%s", i ? " " : "",
-                 step->kind == STEP_CLEAR_TO_ONE    ? "=1"
+                 step->kind == STEP_CLEAR_TO_OPEN   ? "=1"
                  : step->kind == STEP_CLEAR_TO_ZERO ? "=0"
                                                     : glssao__shader_name(step->shader),
                  step->kind == STEP_DISPATCH ? "!" : "");
@@ -160,6 +160,25 @@ static void estimates_are_added_and_averaged(void **state)
     assert_steps(&q, "distance! horizon probe resolve");
 }
 
+/* The steps of a frame with bent normals are those of one without. */
+static void bent_normals_add_no_step(void **state)
+{
+    (void)state;
+    for (int quality = 0; quality <= GLSSAO_ULTRA; ++quality)
+        for (int path = GLSSAO_PATH_FRAGMENT; path <= GLSSAO_PATH_COMPUTE; ++path) {
+            glssao_frame frame;
+            glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)quality);
+            glssao__request q = schedules_request(&frame, &s, 1280, 720);
+            glssao__schedule without;
+            char steps[1024];
+            q.can.path = (glssao_path)path;
+            glssao__schedule_make(&without, &q);
+            spell(&without, steps, sizeof steps);
+            s.bent_normals = true;
+            assert_steps(&q, steps);
+        }
+}
+
 static void rays_take_the_place_of_an_estimate(void **state)
 {
     (void)state;
@@ -269,7 +288,7 @@ static void check_rules(const glssao__request *q, const glssao__schedule *s, voi
     int calls[GLSSAO_PASS_COUNT] = {0};
     bool is_written[MAP_COUNT] = {false}, waits = false;
     (void)user;
-    is_written[MAP_SUM] = q->estimates > 1; /* by earlier calls */
+    is_written[MAP_SUM] = is_written[MAP_OTHER_SUM] = q->estimates > 1; /* by earlier calls */
     assert_true(s->count <= SCHEDULE_STEPS);
     for (int i = 0; i < s->count; ++i) {
         const glssao__step *step = &s->steps[i];
@@ -281,9 +300,9 @@ static void check_rules(const glssao__request *q, const glssao__schedule *s, voi
         assert_true(step->region.y + step->region.height <= target->height);
         for (int k = 0; k < step->read_count; ++k) {
             const enum glssao__map map = step->reads[k].map;
-            assert_true(map != MAP_NONE && map != step->target);        /* no feedback loop */
-            assert_true(map < MAP_FIRST_TARGET || s->maps[map].format); /* it exists */
-            assert_true(map < MAP_FIRST_TARGET || is_written[map]);     /* by this frame */
+            assert_true(map != MAP_NONE && map != step->target && map != step->second); /* no feedback loop */
+            assert_true(map < MAP_FIRST_TARGET || s->maps[map].format);                 /* it exists */
+            assert_true(map < MAP_FIRST_TARGET || is_written[map]);                     /* by this frame */
             for (int j = 0; j < k; ++j)
                 assert_true(step->reads[j].unit != step->reads[k].unit || step->reads[j].map == map);
         }
@@ -292,6 +311,12 @@ static void check_rules(const glssao__request *q, const glssao__schedule *s, voi
         assert_true(step->kind == STEP_DISPATCH || step->barrier != BARRIER_DISPATCH);
         waits = step->kind == STEP_DISPATCH;
         is_written[step->target] = true;
+        if (step->second != MAP_NONE) { /* a second target is of the first one's size, and for bent normals alone */
+            assert_true(q->settings->bent_normals && step->variant.values[MACRO_BENT]);
+            assert_true(s->maps[step->second].width == target->width && s->maps[step->second].height == target->height);
+            is_written[step->second] = true;
+        }
+        assert_true(q->settings->bent_normals || step->variant.values[MACRO_BENT] == 0);
         if (is_draw(step)) {
             calls[step->pass] += 1;
             assert_true(s->plan.passes[step->pass].run);
@@ -304,6 +329,9 @@ static void check_rules(const glssao__request *q, const glssao__schedule *s, voi
     }
     assert_int_equal(s->last_barrier == BARRIER_ALL, waits);
     assert_true(is_written[s->result]);
+    assert_int_equal(is_written[MAP_BENT], q->settings->bent_normals);
+    assert_int_equal(s->maps[MAP_BENT].format != 0, q->settings->bent_normals);
+    assert_true(q->settings->bent_normals || s->maps[MAP_PAIRED_0].format != GL_RGBA32F);
     for (int pass = 0; pass < GLSSAO_PASS_COUNT; ++pass) {
         assert_int_equal(s->plan.passes[pass].draw_calls, calls[pass]);
         assert_true(s->plan.passes[pass].run == (calls[pass] > 0));
@@ -377,6 +405,7 @@ int main(void)
         cmocka_unit_test(inputs_are_copied_first),
         cmocka_unit_test(rounds_share_dispatches_by_two),
         cmocka_unit_test(estimates_are_added_and_averaged),
+        cmocka_unit_test(bent_normals_add_no_step),
         cmocka_unit_test(rays_take_the_place_of_an_estimate),
         cmocka_unit_test(rounds_of_rays_widen),
         cmocka_unit_test(rays_correct_an_estimate),

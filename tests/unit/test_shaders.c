@@ -24,7 +24,7 @@ static void collect(const glssao__request *request, const glssao__schedule *sche
     (void)user;
     for (int i = 0; i < schedule->count; ++i) {
         const glssao__step *step = &schedule->steps[i];
-        bool known = step->kind == STEP_CLEAR_TO_ONE || step->kind == STEP_CLEAR_TO_ZERO;
+        bool known = step->kind == STEP_CLEAR_TO_OPEN || step->kind == STEP_CLEAR_TO_ZERO;
         for (int k = 0; k < program_count && !known; ++k)
             known = programs[k].shader == step->shader &&
                     memcmp(&programs[k].variant, &step->variant, sizeof step->variant) == 0;

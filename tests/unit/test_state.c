@@ -470,6 +470,12 @@ static float *walk(fixture *f, const inputs *in, const host *h, glssao_path path
     beyond.margin = 8;
     beyond.back_texture = beyond.second_texture = in->frame.depth_texture;
     CALL(glssao_compute(effect, &beyond, &horizon));
+    glssao_settings bent = horizon; /* a second draw buffer, or a second image */
+    bent.bent_normals = true;
+    CALL(glssao_compute(effect, &in->frame, &bent));
+    bent.upsample = true;
+    CALL(glssao_compute(effect, &in->frame, &bent));
+    CALL(glssao_accumulate(effect, &in->frame, &bent));
     CALL(glssao_accumulate(effect, &in->frame, &horizon));
     CALL(glssao_accumulate(effect, &in->frame, &horizon));
     gl.Finish();

@@ -164,6 +164,8 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     float fade_far_start, fade_far_end; /* scene units of view distance, 0 <= start <= end: occlusion is full up to start and
                                       fades to nothing at end. 0, 0: never */
     bool radius_in_pixels;         /* radius counts pixels of the full size, as wide as they are where the point lies */
+    bool bent_normals;             /* horizon: also write GLSSAO_MAP_BENT_NORMAL. Not with frame.rays_texture, whose rays tell
+                                      no directions */
 } glssao_settings;
 
 /* ---- frame: what the host hands over each time ---------------------------------------------------------- */
@@ -238,14 +240,19 @@ typedef enum glssao_map_id { /* textures to look at */
     GLSSAO_MAP_AMBIENT = 0,   /* the result: accessibility in red, R16; half size where it was estimated so and not upsampled */
     GLSSAO_MAP_AMBIENT_OTHER, /* the second of the two ping-pong maps, with what the blur last drew into it: accessibility in
                                  red, R16. After upsampling or the planar blur RG32F: green is the linear quantity of
-                                 distance (glsl/shared/inverse_depth.glsl), and red's ten lowest bits hold the normal */
+                                 distance (glsl/shared/inverse_depth.glsl), and red's ten lowest bits hold the normal. With bent
+                                 normals RGBA32F: their hidden vectors (glsl/shared/bent.glsl) in blue and alpha */
     GLSSAO_MAP_NORMAL,        /* the effect's own normal map, RGBA16F, full size */
     GLSSAO_MAP_RANDOM_VECTOR, /* RGBA8, 256 x 256 */
     GLSSAO_MAP_DEPTH,         /* the host's depth texture as last handed over; 0 before the first */
     GLSSAO_MAP_TILES,         /* R32F, one texel for each tile: its distance in tiles from the nearest one that was estimated,
                                  over 16; 0 for an estimated one. No texture where the last frame had no tiles */
-    GLSSAO_MAP_REBUILT_NORMAL /* normals that the last frame without a normal map rebuilt from depth: RG32F, octahedral, view
+    GLSSAO_MAP_REBUILT_NORMAL, /* normals that the last frame without a normal map rebuilt from depth: RG32F, octahedral, view
                                  space, at the estimate's size. No texture before one */
+    GLSSAO_MAP_BENT_NORMAL    /* with settings.bent_normals, else none: RGBA16F, of the result's size. rgb: view-space mean of
+                                 the directions that no occluder within the radius blocks, each weighted by its cosine
+                                 with the normal, unit length; nearly closed: towards the normal; sky: (0, 0, 1). Alpha:
+                                 the result. How to light with it: docs/integration.md */
 } glssao_map_id;
 
 /* The uniform block cbSsao, std140, with the D3D12 demo's members and names. Matrices are column-major. */

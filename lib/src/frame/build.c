@@ -100,7 +100,8 @@ void glssao__build_clear(glssao__builder *b, glssao_pass pass, enum glssao__map 
 /* The step covers only tiles that lie so far from one that needs an estimate, where tiles are sorted. */
 void glssao__build_tiles(const glssao__builder *b, glssao__step *step, int factor, int least, int most)
 {
-    if (!b->c.has_tiles)
+    const bool is_estimate = step->pass == GLSSAO_PASS_ESTIMATE && step->second == MAP_NONE;
+    if (!b->c.has_tiles || (b->c.bent && !is_estimate)) /* open tiles have bent normals too */
         return;
     step->tiles = (glssao__tile_range){factor * TILE_SIDE, least, most};
     glssao__build_point(step, UNIT_TILES, MAP_TILE_RINGS);
@@ -129,7 +130,11 @@ glssao__step *glssao__build_turn(glssao__builder *b, glssao_pass pass, enum glss
     } else {
         step->region = glssao__region_of(&b->c, pass);
     }
-    glssao__build_set(step, MACRO_OUTPUT, !is_result && b->c.paired ? OUTPUT_PAIRED : OUTPUT_ACCESSIBILITY);
+    glssao__build_set(step, MACRO_OUTPUT,
+                      is_result && b->c.bent      ? OUTPUT_BENT
+                      : !is_result && b->c.paired ? OUTPUT_PAIRED
+                                                  : OUTPUT_ACCESSIBILITY);
+    step->second = is_result && b->c.bent ? MAP_BENT : MAP_NONE;
     return step;
 }
 

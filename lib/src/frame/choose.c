@@ -46,6 +46,8 @@ static const char *nothing_to_occlude(const glssao_frame *frame, const glssao_se
         return "the host says that only sky is seen: no surface is occluded";
     if (frame->no_ambient_light)
         return "the host says that there is no ambient light: nothing to scale";
+    if (s->bent_normals) /* they matter even where no accessibility falls below 1 */
+        return NULL;
     if (s->radius <= 0.0f)
         return "radius is 0: no occluder is in reach";
     if (s->power <= 0.0f)
@@ -192,6 +194,7 @@ static void choose_inputs(glssao__choice *c, const glssao__request *q)
     c->inputs.values[MACRO_TURNED] = q->is_turned || (frame->normal_texture && frame->world_normals);
     c->inputs.values[MACRO_PERSPECTIVE] = !q->is_orthographic;
     c->inputs.values[MACRO_RADIUS_GROWS] = q->settings->radius_in_pixels && !q->is_orthographic;
+    c->inputs.values[MACRO_BENT] = c->bent;
     c->inputs.values[MACRO_BRANCHES] = !q->can.is_software; /* a software rasteriser takes both sides of a branch */
 }
 
@@ -230,6 +233,7 @@ void glssao__choose(glssao__choice *c, const glssao__request *q)
     c->accumulates = q->estimates > 0;
     c->is_horizon = settings->technique == GLSSAO_HORIZON;
     c->is_planar = settings->blur == GLSSAO_BLUR_PLANAR;
+    c->bent = settings->bent_normals;
     c->is_rays = settings->technique == GLSSAO_RAYS;
     c->corrects = !c->is_rays && !c->accumulates && q->frame->rays_texture != 0;
     const char *nothing = nothing_to_occlude(q->frame, settings);
@@ -243,6 +247,6 @@ void glssao__choose(glssao__choice *c, const glssao__request *q)
         choose_inputs(c, q);
         choose_reach(c, settings);
     }
-    c->paired = c->upsamples || c->corrects || (c->blurs && c->is_planar);
+    c->paired = c->upsamples || c->corrects || c->bent || (c->blurs && c->is_planar);
     c->result_apart = c->upsamples || c->margin > 0;
 }

@@ -19,6 +19,7 @@ typedef struct glssao__choice {
     bool compute;     /* passes that can be dispatched are */
     bool accumulates;
     bool is_horizon, is_planar;
+    bool bent;       /* bent normals come along */
     bool is_rays;    /* the estimate is the host's rays */
     bool corrects;   /* the host's rays correct another estimate */
     bool is_oblique; /* window depth becomes view distance in a copy */

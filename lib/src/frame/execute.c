@@ -23,6 +23,8 @@ glssao__state_need glssao__execute_need(const glssao__resources *resources, cons
             need.units |= 1u << step->reads[k].unit;
         if (step->kind == STEP_DISPATCH)
             need.parts |= STATE_IMAGE;
+        if (step->second != MAP_NONE)
+            need.parts |= STATE_SECOND;
         if (step->adds)
             need.parts |= STATE_BLEND;
         if (step->target == MAP_PROBE)
@@ -101,11 +103,14 @@ static void draw(const run *r, const glssao__step *step)
                          *tiles = &r->resources->targets[MAP_TILE_RINGS];
     const glssao__region *region = &step->region;
     const bool is_part = region->width != target->width || region->height != target->height;
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, target->framebuffer);
+    if (step->second != MAP_NONE)
+        glssao__resources_attach(r->resources, target->texture, r->resources->targets[step->second].texture);
+    else
+        gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, target->framebuffer);
     if (is_part)
         glssao__state_scissor(gl, (const gl_int[4]){region->x, region->y, region->width, region->height});
     if (step->adds)
-        glssao__state_blend(gl, GL_ONE, GL_ONE);
+        glssao__state_add(gl);
     if (step->tiles.side > 0) {
         gl->Enable(GL_PROGRAM_POINT_SIZE);
         set_viewport(gl, -step->origin[0], -step->origin[1], tiles->width * step->tiles.side,
@@ -120,6 +125,8 @@ static void draw(const run *r, const glssao__step *step)
         gl->Disablei(GL_BLEND, 0);
     if (is_part)
         glssao__state_scissor(gl, NULL);
+    if (step->second != MAP_NONE) /* an attached texture would outlive its deletion */
+        glssao__resources_attach(r->resources, 0, 0);
 }
 
 static void dispatch(const run *r, const glssao__step *step)
@@ -129,6 +136,10 @@ static void dispatch(const run *r, const glssao__step *step)
     int group[2];
     glssao__shader_group(step->shader, &step->variant, group);
     gl->BindImageTexture(0, target->texture, 0, 0, 0, GL_WRITE_ONLY, target->format);
+    if (step->second != MAP_NONE) {
+        const glssao__target *second = &r->resources->targets[step->second];
+        gl->BindImageTexture(SECOND_IMAGE_UNIT, second->texture, 0, 0, 0, GL_WRITE_ONLY, second->format);
+    }
     gl->DispatchCompute((gl_uint)((step->region.width + group[0] - 1) / group[0]),
                         (gl_uint)((step->region.height + group[1] - 1) / group[1]), 1);
 }
@@ -144,12 +155,16 @@ static void wait_for(const glssao__gl *gl, enum glssao__barrier barrier)
 
 static void run_step(run *r, const glssao__step *step)
 {
+    static const gl_float open[4] = {1.0f, 1.0f, 0.0f, 0.0f}; /* nothing is hidden (paired.glsl) */
     const glssao__gl *gl = r->resources->gl;
     wait_for(gl, step->barrier);
     switch (step->kind) {
-    case STEP_CLEAR_TO_ONE:
+    case STEP_CLEAR_TO_OPEN:
+        glssao__target_clear(gl, &r->resources->targets[step->target],
+                             step->target == MAP_BENT ? glssao__bent_of_sky : open);
+        break;
     case STEP_CLEAR_TO_ZERO:
-        glssao__target_clear_to(gl, &r->resources->targets[step->target], step->kind == STEP_CLEAR_TO_ONE);
+        glssao__target_clear_to(gl, &r->resources->targets[step->target], 0.0f);
         break;
     case STEP_DRAW:
         use(r, step);

@@ -4,6 +4,21 @@
  */
 #include "frame/filters.h"
 
+/* The step that delivers bent normals reads the surface's own. Others of its pass have no use for them. */
+static void read_normals_for_bent(const glssao__builder *b, glssao__step *step)
+{
+    if (step->second != MAP_NONE)
+        glssao__build_point(step, UNIT_NORMAL, b->c.normals);
+}
+
+static void set_normals_for_bent(glssao__step *step)
+{
+    if (step->second != MAP_NONE)
+        return;
+    glssao__build_set(step, MACRO_NORMALS, 0);
+    glssao__build_set(step, MACRO_TURNED, 0);
+}
+
 /* The Gaussian, bilateral and box blurs: two directions a round. */
 static void add_separable_blur(glssao__builder *b)
 {
@@ -18,12 +33,13 @@ static void add_separable_blur(glssao__builder *b)
         glssao__build_point(step, UNIT_AMBIENT, glssao__build_turn_map(b, i - 1));
         if (bilateral)
             glssao__build_surfaces(b, step);
+        else
+            read_normals_for_bent(b, step);
         step->is_horizontal = i % 2 == 1;
         glssao__build_set(step, MACRO_FILTER, filters[b->settings->blur]);
         glssao__build_finish(b, step);
-        if (!bilateral) { /* it reads neither normals nor depth */
-            glssao__build_set(step, MACRO_NORMALS, 0);
-            glssao__build_set(step, MACRO_TURNED, 0);
+        if (!bilateral) { /* it reads no depth, and normals for bent ones only */
+            set_normals_for_bent(step);
             glssao__build_set(step, MACRO_DEPTH, 0);
         }
         /* The vertical direction reads a tile farther than it draws. */
@@ -39,9 +55,11 @@ static void add_planar_draws(glssao__builder *b)
         glssao__step *step =
             glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_PLANAR_BLUR, i, i == count && !glssao__build_has_more(b));
         glssao__build_point(step, UNIT_AMBIENT, glssao__build_turn_map(b, i - 1));
+        read_normals_for_bent(b, step);
         step->is_horizontal = i % 2 == 1;
         glssao__build_set(step, MACRO_WIDE, i > 2);
         glssao__build_finish(b, step);
+        set_normals_for_bent(step);
         glssao__build_tiles(b, step, 1, 0, b->c.tile_rings + i % 2);
     }
 }
@@ -55,6 +73,7 @@ static void set_rays_blur(const glssao__builder *b, glssao__step *step, int i, e
     glssao__build_set(step, MACRO_RAYS, 1);
     glssao__build_set(step, MACRO_CORRECTS, b->c.corrects);
     glssao__build_finish(b, step);
+    set_normals_for_bent(step);
 }
 
 /* The blur of rays alone: two directions a round, farther apart in each. */
@@ -87,10 +106,10 @@ static void add_planar_dispatches(glssao__builder *b)
         glssao__step *step = glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_PLANAR_TILE, i,
                                                 done + now == rounds && !glssao__build_has_more(b));
         glssao__build_point(step, UNIT_AMBIENT, glssao__build_turn_map(b, i - 1));
+        read_normals_for_bent(b, step);
         set_tile(b, step, now, done == 0);
-        glssao__build_set(step, MACRO_NORMALS, 0); /* only upsampling reads normals and depth */
-        glssao__build_set(step, MACRO_TURNED, 0);
-        glssao__build_set(step, MACRO_DEPTH, 0);
+        set_normals_for_bent(step);
+        glssao__build_set(step, MACRO_DEPTH, 0); /* only upsampling reads it */
         done += now;
     }
 }
@@ -157,19 +176,28 @@ void glssao__add_upsample(glssao__builder *b)
     const bool compute = b->c.plan.passes[GLSSAO_PASS_UPSAMPLE].compute;
     if (!compute)
         glssao__build_map(b, MAP_BLOCKS, "block", GL_RGBA16, b->c.estimate);
+    if (!compute && b->c.bent)
+        glssao__build_map(b, MAP_BENT_BLOCKS, "bent normal block", GL_RGBA32F, b->c.estimate);
     glssao__step *step = glssao__build_step(b, GLSSAO_PASS_UPSAMPLE, compute ? SHADER_PLANAR_TILE : SHADER_UPSAMPLE,
                                             compute ? MAP_RESULT : MAP_BLOCKS);
-    if (b->c.normals != MAP_REBUILT) /* these have the estimate's size */
+    if (b->c.normals != MAP_REBUILT || b->c.bent) /* rebuilt ones have the estimate's size, and tell no creases */
         glssao__build_point(step, UNIT_NORMAL, b->c.normals);
     glssao__build_point(step, UNIT_DEPTH, b->c.depth);
     glssao__build_point(step, UNIT_AMBIENT, from);
     glssao__build_set(step, MACRO_UPSAMPLE, 1);
     set_tile(b, step, b->c.inner_rounds, !b->c.blurs);
+    if (b->c.bent)
+        step->second = compute ? MAP_BENT : MAP_BENT_BLOCKS;
     if (!compute) {
         step->region = glssao__region_inner(b->c.estimate, b->c.margin / 2);
         glssao__build_tiles(b, step, 1, 0, b->c.tile_rings);
         step = glssao__build_step(b, GLSSAO_PASS_UPSAMPLE, SHADER_SPREAD, MAP_RESULT);
         glssao__build_point(step, UNIT_AMBIENT, MAP_BLOCKS);
+        if (b->c.bent) {
+            glssao__build_point(step, UNIT_BACK, MAP_BENT_BLOCKS);
+            glssao__build_set(step, MACRO_BENT, 1);
+            step->second = MAP_BENT;
+        }
         glssao__build_tiles(b, step, 2, 0, b->c.tile_rings);
     }
     step->origin[0] = b->s->delivered.x;

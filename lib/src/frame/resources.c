@@ -21,6 +21,7 @@ static const struct glssao__sampler_name sampler_names[] = {
     {"u_normal_map", UNIT_NORMAL},   {"u_depth_map", UNIT_DEPTH},       {"u_random_vector_map", UNIT_RANDOM_VECTOR},
     {"u_ambient_map", UNIT_AMBIENT}, {"u_distance_map", UNIT_DISTANCE}, {"u_back_map", UNIT_BACK},
     {"u_second_map", UNIT_SECOND},   {"u_input_map", UNIT_DEPTH},       {"u_tile_map", UNIT_TILES},
+    {"u_bent_map", UNIT_BACK},       {"u_other_map", UNIT_BACK},        {"u_bent_target", SECOND_IMAGE_UNIT},
     {"u_rays_map", UNIT_RAYS},       {"u_strength_map", UNIT_DEPTH},    {"u_albedo_map", UNIT_NORMAL}, /* apply.c */
 };
 
@@ -89,29 +90,71 @@ glssao_result glssao__resources_prepare_apply(glssao__resources *r, const glssao
 
 /* ---- maps ---- */
 
+const gl_float glssao__bent_of_sky[4] = {0.0f, 0.0f, 1.0f, 1.0f};
+
 /* What a map holds before anything is drawn into it. */
 static void clear_new(const glssao__resources *r, enum glssao__map map, glssao__target *target)
 {
     if (map == MAP_NORMAL)
         glssao__target_clear(r->gl, target, (const gl_float[4]){0.0f, 0.0f, 1.0f, 0.0f});
+    else if (map == MAP_BENT)
+        glssao__target_clear(r->gl, target, glssao__bent_of_sky);
     else if (map == MAP_AMBIENT_0 || map == MAP_AMBIENT_1 || map == MAP_RESULT)
         glssao__target_clear_to(r->gl, target, 1.0f);
 }
 
-/* Makes the maps that differ from what is asked for, all or none. */
-static glssao_result fit_maps(glssao__resources *r, const glssao__target_spec specs[MAP_COUNT])
+static gl_uint newest(const glssao__resources *r, const glssao__target made[MAP_COUNT], enum glssao__map map)
+{
+    return made[map].texture ? made[map].texture : r->targets[map].texture;
+}
+
+void glssao__resources_attach(const glssao__resources *r, gl_uint first, gl_uint second)
+{
+    const gl_uint textures[2] = {first, second};
+    r->gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, r->pair_framebuffer);
+    for (int i = 0; i < 2; ++i)
+        r->gl->FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + (gl_enum)i, GL_TEXTURE_2D, textures[i],
+                                    0);
+}
+
+/* Makes the framebuffer of steps with two targets. Drivers may refuse formats of different sizes side by side. */
+static glssao_result make_pair(glssao__resources *r, gl_uint first, gl_uint second)
+{
+    static const gl_enum buffers[2] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT0 + 1};
+    r->gl->GenFramebuffers(1, &r->pair_framebuffer);
+    glssao__resources_attach(r, first, second);
+    r->gl->DrawBuffers(2, buffers);
+    const gl_enum status = r->gl->CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
+    glssao__resources_attach(r, 0, 0);
+    if (status == GL_FRAMEBUFFER_COMPLETE)
+        return GLSSAO_OK;
+    glssao__log_write(r->log, GLSSAO_LOG_ERROR,
+                      "the driver rejects a framebuffer of accessibility and bent normals: 0x%04X", status);
+    r->gl->DeleteFramebuffers(1, &r->pair_framebuffer);
+    r->pair_framebuffer = 0;
+    return GLSSAO_FRAMEBUFFER_ERROR;
+}
+
+/* Makes the maps that differ from what is asked for, and the framebuffer of `pair`, a step with two targets or NULL;
+ * all or nothing. */
+static glssao_result fit_maps(glssao__resources *r, const glssao__target_spec specs[MAP_COUNT],
+                              const glssao__step *pair)
 {
     glssao__target made[MAP_COUNT] = {{0}};
-    for (int i = MAP_FIRST_TARGET; i < MAP_COUNT; ++i) {
+    glssao_result result = GLSSAO_OK;
+    for (int i = MAP_FIRST_TARGET; i < MAP_COUNT && result == GLSSAO_OK; ++i) {
         if (specs[i].format == 0 || glssao__target_fits(&r->targets[i], &specs[i]))
             continue;
-        const glssao_result result = glssao__target_make(r->gl, r->log, &specs[i], &made[i]);
-        if (result != GLSSAO_OK) {
-            for (int k = MAP_FIRST_TARGET; k < i; ++k)
-                glssao__target_delete(r->gl, &made[k]);
-            return result;
-        }
-        clear_new(r, (enum glssao__map)i, &made[i]);
+        result = glssao__target_make(r->gl, r->log, &specs[i], &made[i]);
+        if (result == GLSSAO_OK)
+            clear_new(r, (enum glssao__map)i, &made[i]);
+    }
+    if (result == GLSSAO_OK && pair && !r->pair_framebuffer)
+        result = make_pair(r, newest(r, made, pair->target), newest(r, made, pair->second));
+    if (result != GLSSAO_OK) {
+        for (int i = MAP_FIRST_TARGET; i < MAP_COUNT; ++i)
+            glssao__target_delete(r->gl, &made[i]);
+        return result;
     }
     for (int i = MAP_FIRST_TARGET; i < MAP_COUNT; ++i)
         if (made[i].texture) {
@@ -135,7 +178,7 @@ glssao_result glssao__resources_resize(glssao__resources *r, const int size[2])
         [MAP_AMBIENT_0] = {"ambient", GL_R16, half[0], half[1]},
         [MAP_AMBIENT_1] = {"ambient", GL_R16, half[0], half[1]},
     };
-    const glssao_result result = fit_maps(r, specs);
+    const glssao_result result = fit_maps(r, specs, NULL);
     for (int i = MAP_FIRST_TARGET; i < MAP_COUNT && result == GLSSAO_OK; ++i)
         if (specs[i].format == 0) { /* made again when next needed */
             r->retired[i] = r->targets[i];
@@ -146,6 +189,7 @@ glssao_result glssao__resources_resize(glssao__resources *r, const int size[2])
 
 glssao_result glssao__resources_prepare(glssao__resources *r, const glssao__schedule *schedule)
 {
+    const glssao__step *pair = NULL;
     for (int i = 0; i < schedule->count; ++i) {
         const glssao__step *step = &schedule->steps[i];
         if (step->kind != STEP_DRAW && step->kind != STEP_DISPATCH)
@@ -153,8 +197,10 @@ glssao_result glssao__resources_prepare(glssao__resources *r, const glssao__sche
         const glssao_result result = prepare_program(r, step->shader, &step->variant);
         if (result != GLSSAO_OK)
             return result;
+        if (step->kind == STEP_DRAW && step->second != MAP_NONE)
+            pair = step;
     }
-    return fit_maps(r, schedule->maps);
+    return fit_maps(r, schedule->maps, pair);
 }
 
 /* ---- all of them ---- */
@@ -205,6 +251,7 @@ void glssao__resources_destroy(glssao__resources *r)
     r->gl->DeleteSamplers(SAMPLER_COUNT, r->samplers);
     r->gl->DeleteVertexArrays(1, &r->vertex_array);
     r->gl->DeleteBuffers(BLOCK_COUNT, r->uniform_buffers);
+    r->gl->DeleteFramebuffers(1, &r->pair_framebuffer);
     glssao__timers_destroy(&r->timers, r->gl);
     glssao__programs_destroy(&r->programs, r->gl);
 }

@@ -11,6 +11,7 @@
 #include "gpu/timers.h"
 
 /* The plain uniforms of all programs, as glssao__program.locations has them. */
+enum { SECOND_IMAGE_UNIT = 1 }; /* of a dispatch's second target; the first one's is 0 */
 enum { UNIFORM_HORIZONTAL, UNIFORM_ORIGIN, UNIFORM_TILE_RANGE, UNIFORM_REGION, UNIFORM_SHADE, UNIFORM_PICTURE };
 
 typedef struct glssao__resources {
@@ -20,6 +21,7 @@ typedef struct glssao__resources {
     glssao__target targets[MAP_COUNT]; /* from MAP_FIRST_TARGET on */
     glssao__target retired[MAP_COUNT]; /* replaced during a call; deleted by glssao__resources_collect */
     gl_uint random_vector_map, vertex_array;
+    gl_uint pair_framebuffer; /* of steps with two targets; 0: not needed yet */
     gl_uint samplers[SAMPLER_COUNT], uniform_buffers[BLOCK_COUNT];
     glssao__timers timers;
 } glssao__resources;
@@ -37,6 +39,12 @@ glssao_result glssao__resources_resize(glssao__resources *r, const int size[2]);
 glssao_result glssao__resources_prepare(glssao__resources *r, const glssao__schedule *schedule);
 /* Compiles a program of glssao_apply. */
 glssao_result glssao__resources_prepare_apply(glssao__resources *r, const glssao__variant *variant);
+
+/* Binds the framebuffer of steps with two targets, with these textures attached; 0: none. */
+void glssao__resources_attach(const glssao__resources *r, gl_uint first, gl_uint second);
+
+/* What the map of bent normals holds where there is no surface: the direction to the eye, open. */
+extern const gl_float glssao__bent_of_sky[4];
 
 /* A program that was prepared. */
 const glssao__program *glssao__resources_program(const glssao__resources *r, enum glssao__shader shader,

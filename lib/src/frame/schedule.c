@@ -80,12 +80,12 @@ static void add_tiles(glssao__builder *b)
     /* What no later pass draws is 1. */
     for (int i = 0; i < 2; ++i) {
         if (b->c.paired)
-            glssao__build_clear(b, GLSSAO_PASS_TILES, (enum glssao__map)(MAP_PAIRED_0 + i), STEP_CLEAR_TO_ONE);
+            glssao__build_clear(b, GLSSAO_PASS_TILES, (enum glssao__map)(MAP_PAIRED_0 + i), STEP_CLEAR_TO_OPEN);
         if (!b->c.paired || !b->c.result_apart)
-            glssao__build_clear(b, GLSSAO_PASS_TILES, (enum glssao__map)(MAP_AMBIENT_0 + i), STEP_CLEAR_TO_ONE);
+            glssao__build_clear(b, GLSSAO_PASS_TILES, (enum glssao__map)(MAP_AMBIENT_0 + i), STEP_CLEAR_TO_OPEN);
     }
     if (b->c.result_apart)
-        glssao__build_clear(b, GLSSAO_PASS_TILES, MAP_RESULT, STEP_CLEAR_TO_ONE);
+        glssao__build_clear(b, GLSSAO_PASS_TILES, MAP_RESULT, STEP_CLEAR_TO_OPEN);
 }
 
 static void set_estimate(const glssao__builder *b, glssao__step *step)
@@ -113,7 +113,8 @@ static void add_estimate(glssao__builder *b)
                                                   [GLSSAO_RAYS] = SHADER_RAYS};
     const enum glssao__shader shader = shaders[b->settings->technique];
     if (b->c.accumulates) {
-        glssao__step *step = glssao__build_step(b, GLSSAO_PASS_ESTIMATE, shader, MAP_SUM);
+        const bool is_other = b->c.bent && b->estimates % 2 == 0; /* the replicates take turns (accumulate.c) */
+        glssao__step *step = glssao__build_step(b, GLSSAO_PASS_ESTIMATE, shader, is_other ? MAP_OTHER_SUM : MAP_SUM);
         step->region = glssao__region_of(&b->c, GLSSAO_PASS_ESTIMATE);
         step->adds = true;
         glssao__build_set(step, MACRO_OUTPUT, OUTPUT_SUM);
@@ -135,7 +136,14 @@ static void add_estimate(glssao__builder *b)
     glssao__build_surfaces(b, step);
     glssao__build_set(step, MACRO_FROM_DEPTH, !b->c.is_horizon);
     glssao__build_finish(b, step);
-    glssao__build_tiles(b, step, 1, 1, b->c.tile_rings + 2);
+    glssao__build_tiles(b, step, 1, 1, b->c.bent ? MOST_RINGS : b->c.tile_rings + 2);
+}
+
+static void read_sums(const glssao__builder *b, glssao__step *step)
+{
+    glssao__build_point(step, UNIT_AMBIENT, MAP_SUM);
+    if (b->c.bent)
+        glssao__build_point(step, UNIT_BACK, MAP_OTHER_SUM);
 }
 
 static void add_resolve(glssao__builder *b)
@@ -144,12 +152,13 @@ static void add_resolve(glssao__builder *b)
     glssao__build_map(b, MAP_PROBE, "probe", GL_RG32F, probe_size);
     if (b->estimates > 1) { /* a single one has no error to probe */
         glssao__step *step = glssao__build_step(b, GLSSAO_PASS_RESOLVE, SHADER_PROBE, MAP_PROBE);
-        glssao__build_point(step, UNIT_AMBIENT, MAP_SUM);
+        read_sums(b, step);
         glssao__build_point(step, UNIT_DISTANCE, MAP_DISTANCE);
+        glssao__build_set(step, MACRO_BENT, b->c.bent);
     }
     glssao__step *step = glssao__build_turn(b, GLSSAO_PASS_RESOLVE, SHADER_RESOLVE, 0, !b->c.blurs);
     glssao__build_surfaces(b, step);
-    glssao__build_point(step, UNIT_AMBIENT, MAP_SUM);
+    read_sums(b, step);
     glssao__build_finish(b, step);
 }
 
@@ -197,13 +206,18 @@ static void set_results(glssao__builder *b)
     for (int i = 0; i < 2; ++i) {
         glssao__build_map(b, (enum glssao__map)(MAP_AMBIENT_0 + i), "ambient", GL_R16, c->estimate);
         if (c->paired)
-            glssao__build_map(b, (enum glssao__map)(MAP_PAIRED_0 + i), "paired ambient", GL_RG32F, c->estimate);
+            glssao__build_map(b, (enum glssao__map)(MAP_PAIRED_0 + i), "paired ambient",
+                              c->bent ? GL_RGBA32F : GL_RG32F, c->estimate);
     }
+    const int delivered[2] = {b->s->delivered.width, b->s->delivered.height};
     if (c->result_apart)
-        glssao__build_map(b, MAP_RESULT, "result", GL_R16,
-                          (const int[2]){b->s->delivered.width, b->s->delivered.height});
+        glssao__build_map(b, MAP_RESULT, "result", GL_R16, delivered);
+    if (c->bent)
+        glssao__build_map(b, MAP_BENT, "bent normal", GL_RGBA16F, delivered);
     if (c->accumulates)
-        glssao__build_map(b, MAP_SUM, "accumulation", GL_RG32F, c->size);
+        glssao__build_map(b, MAP_SUM, "accumulation", c->bent ? GL_RGBA32F : GL_RG32F, c->size);
+    if (c->accumulates && c->bent)
+        glssao__build_map(b, MAP_OTHER_SUM, "accumulation", GL_RGBA32F, c->size);
     b->s->result = c->result_apart ? MAP_RESULT : MAP_AMBIENT_0;
     b->s->other = glssao__build_turn_map(b, 1);
 }
@@ -212,9 +226,11 @@ static void set_results(glssao__builder *b)
 static void add_open_result(glssao__builder *b)
 {
     for (int i = 0; i < 2; ++i)
-        glssao__build_clear(b, GLSSAO_PASS_ESTIMATE, (enum glssao__map)(MAP_AMBIENT_0 + i), STEP_CLEAR_TO_ONE);
+        glssao__build_clear(b, GLSSAO_PASS_ESTIMATE, (enum glssao__map)(MAP_AMBIENT_0 + i), STEP_CLEAR_TO_OPEN);
     if (b->c.result_apart)
-        glssao__build_clear(b, GLSSAO_PASS_ESTIMATE, MAP_RESULT, STEP_CLEAR_TO_ONE);
+        glssao__build_clear(b, GLSSAO_PASS_ESTIMATE, MAP_RESULT, STEP_CLEAR_TO_OPEN);
+    if (b->c.bent)
+        glssao__build_clear(b, GLSSAO_PASS_ESTIMATE, MAP_BENT, STEP_CLEAR_TO_OPEN);
 }
 
 void glssao__schedule_make(glssao__schedule *out, const glssao__request *q)
@@ -246,6 +262,8 @@ void glssao__schedule_make(glssao__schedule *out, const glssao__request *q)
     }
     if (q->estimates == 1)
         glssao__build_clear(&b, GLSSAO_PASS_ESTIMATE, MAP_SUM, STEP_CLEAR_TO_ZERO);
+    if (q->estimates == 1 && b.c.bent)
+        glssao__build_clear(&b, GLSSAO_PASS_ESTIMATE, MAP_OTHER_SUM, STEP_CLEAR_TO_ZERO);
     for (int pass = 0; pass < GLSSAO_PASS_COUNT; ++pass)
         if (b.c.plan.passes[pass].run && parts[pass])
             parts[pass](&b);

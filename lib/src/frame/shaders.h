@@ -45,7 +45,8 @@ enum glssao__shader {
     X(PERSPECTIVE, 1)     /* the projection is known not to be orthographic */                                         \
     X(BRANCHES, 1)        /* branches that spare a GPU work are taken */                                               \
     X(LOOPS, 1)           /* loops marked UNROLL_IF_SHORT stay loops, which keeps a GPU's program small */             \
-    X(OUTPUT, 2)          /* accessibility, paired value, sum of estimates */                                          \
+    X(OUTPUT, 3)          /* accessibility, paired value, sum of estimates, with bent normal */                        \
+    X(BENT, 1)            /* hidden vectors go along with accessibility */                                             \
     X(SLICES, 2)          /* horizon: slices of a pixel */                                                             \
     X(STEPS, 16)          /* horizon: samples on each side of a slice */                                               \
     X(LAYERS, 1)          /* horizon: there is a second layer */                                                       \

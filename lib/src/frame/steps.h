@@ -51,17 +51,21 @@ enum glssao__map {
     MAP_PAIRED_1,
     MAP_RAYS_0, /* differences between rays and estimate (rays.frag) */
     MAP_RAYS_1,
-    MAP_BLOCKS, /* blocks of four pixels (upsample.frag) */
-    MAP_RESULT, /* the result, where it has another size than the estimate */
-    MAP_SUM,    /* sums of accumulated estimates, one channel for each of two replicates */
-    MAP_PROBE,  /* samples of their difference */
+    MAP_BLOCKS,      /* blocks of four pixels (upsample.frag) */
+    MAP_RESULT,      /* the result, where it has another size than the estimate */
+    MAP_BENT,        /* bent normals and accessibility */
+    MAP_BENT_BLOCKS, /* packed bent normals of such blocks (upsample.frag) */
+    MAP_SUM,         /* sums of accumulated estimates, one channel for each of two replicates */
+    MAP_OTHER_SUM,   /* with bent normals each replicate has a map of its own, which sums hidden vectors too */
+    MAP_PROBE,       /* samples of their difference */
     MAP_COUNT,
     MAP_FIRST_TARGET = MAP_DEPTH_COPY
 };
 
 enum {
     PROBE_SIZE = 128,
-    TILE_SIDE = 16, /* pixels of the estimate: a software rasteriser draws smaller tiles at a loss */
+    TILE_SIDE = 16,  /* pixels of the estimate: a software rasteriser draws smaller tiles at a loss */
+    MOST_RINGS = 16, /* the greatest distance in tiles that tile_rings.frag tells */
     SCHEDULE_STEPS = 64,
     STEP_READS = 6
 };
@@ -70,7 +74,7 @@ typedef struct glssao__region { /* pixels of a map */
     int x, y, width, height;
 } glssao__region;
 
-enum glssao__step_kind { STEP_DRAW, STEP_DISPATCH, STEP_CLEAR_TO_ONE, STEP_CLEAR_TO_ZERO };
+enum glssao__step_kind { STEP_DRAW, STEP_DISPATCH, STEP_CLEAR_TO_OPEN, STEP_CLEAR_TO_ZERO };
 
 /* What a step waits for. */
 enum glssao__barrier {
@@ -97,8 +101,9 @@ typedef struct glssao__step {
     } reads[STEP_READS];
     int read_count;
     enum glssao__map target;
-    glssao__region region; /* of the target that is drawn */
-    int origin[2];         /* where in the maps that are read the target's lower left corner lies, pixels */
+    enum glssao__map second; /* target of the shader's second output; MAP_NONE: it has one output */
+    glssao__region region;   /* of the target that is drawn */
+    int origin[2];           /* where in the maps that are read the target's lower left corner lies, pixels */
     glssao__tile_range tiles;
     bool is_horizontal;           /* of the two directions of a blur */
     bool adds;                    /* to what the target holds */

@@ -104,6 +104,9 @@ void glssao__uniforms_init(glssao__uniforms *u, uint32_t seed)
     init_rotations(&u->hemisphere, seed);
 }
 
+/* Bent normals are made at radius 0 too (scene units): samples then reach no other pixel. */
+static const float LEAST_RADIUS = 1e-12f;
+
 /* The radius in scene units, or where it counts pixels in perspective, at a view distance of 1. Pixels that are no
  * squares count as squares of the same area. */
 static double radius_of(const glssao__uniforms_source *source)
@@ -111,9 +114,10 @@ static double radius_of(const glssao__uniforms_source *source)
     const glssao_settings *s = source->settings;
     const glssao__projection *p = source->projection;
     const float *side = p->is_orthographic ? p->ray_origin : p->ray_direction;
-    if (!s->radius_in_pixels)
-        return (double)s->radius;
-    return (double)s->radius * sqrt(fabs((double)side[0] / source->size[0] * (double)side[1] / source->size[1]));
+    double radius = (double)s->radius;
+    if (s->radius_in_pixels)
+        radius *= sqrt(fabs((double)side[0] / source->size[0] * (double)side[1] / source->size[1]));
+    return s->bent_normals && radius <= 0.0 ? (double)LEAST_RADIUS : radius;
 }
 
 static void fill_ssao(glssao_constants *c, const glssao__uniforms_source *source)

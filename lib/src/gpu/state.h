@@ -27,7 +27,8 @@ enum {
     STATE_IMAGE = 64,        /* image unit 0, which compute shaders write through */
     STATE_READ = 128,        /* the read framebuffer */
     STATE_MULTISAMPLE = 256, /* the multisample texture of one unit */
-    STATE_BLEND_COLOR = 512  /* the constant that blend functions may name */
+    STATE_BLEND_COLOR = 512, /* the constant that blend functions may name */
+    STATE_SECOND = 1024 /* of a second target: mask and blend switch of draw buffer 1, with STATE_IMAGE image unit 1 */
 };
 
 typedef struct glssao__state_need {
@@ -44,7 +45,7 @@ typedef struct glssao__state {
     gl_int program, vertex_array, draw_framebuffer, read_framebuffer, active_texture;
     gl_float viewport[4];
     gl_int textures[STATE_UNITS], samplers[STATE_UNITS], multisample_texture;
-    gl_int image[6]; /* name, level, layered, layer, access, format */
+    gl_int images[2][6]; /* name, level, layered, layer, access, format */
     gl_int uniform_buffer;
     struct {
         gl_int buffer;
@@ -59,7 +60,7 @@ typedef struct glssao__state {
     gl_boolean color_masks[STATE_DRAW_BUFFERS][4];
     gl_int blend_function[4], blend_equation[2];
     gl_float blend_color[4];
-    gl_boolean blend, scissor;
+    gl_boolean blend[2], scissor;
     gl_int scissor_box[4];
     gl_boolean toggles[STATE_TOGGLES];
 } glssao__state;
@@ -78,6 +79,7 @@ bool glssao__state_was_on(const glssao__state *state, gl_enum toggle);
 
 /* For draws between save and restore, where the part is saved. */
 void glssao__state_blend(const glssao__gl *gl, gl_enum source, gl_enum destination); /* colour; alpha stays */
+void glssao__state_add(const glssao__gl *gl);                                        /* all channels */
 void glssao__state_scissor(const glssao__gl *gl, const gl_int box[4]);               /* NULL: off */
 void glssao__state_viewport(const glssao__gl *gl, const gl_float viewport[4]);
 

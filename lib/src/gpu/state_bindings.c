@@ -64,16 +64,25 @@ static void restore_textures(const glssao__gl *gl, const glssao__state *s)
 static const gl_enum image_names[6] = {GL_IMAGE_BINDING_NAME,  GL_IMAGE_BINDING_LEVEL,  GL_IMAGE_BINDING_LAYERED,
                                        GL_IMAGE_BINDING_LAYER, GL_IMAGE_BINDING_ACCESS, GL_IMAGE_BINDING_FORMAT};
 
-static void save_image(const glssao__gl *gl, glssao__state *s)
+static gl_uint image_count(const glssao__state *s)
 {
-    for (int i = 0; i < 6; ++i)
-        gl->GetIntegeri_v(image_names[i], 0, &s->image[i]);
+    return s->need.parts & STATE_SECOND ? 2 : 1;
 }
 
-static void restore_image(const glssao__gl *gl, const glssao__state *s)
+static void save_images(const glssao__gl *gl, glssao__state *s)
 {
-    const gl_int *image = s->image;
-    gl->BindImageTexture(0, (gl_uint)image[0], image[1], image[2] != 0, image[3], (gl_enum)image[4], (gl_enum)image[5]);
+    for (gl_uint unit = 0; unit < image_count(s); ++unit)
+        for (int i = 0; i < 6; ++i)
+            gl->GetIntegeri_v(image_names[i], unit, &s->images[unit][i]);
+}
+
+static void restore_images(const glssao__gl *gl, const glssao__state *s)
+{
+    for (gl_uint unit = 0; unit < image_count(s); ++unit) {
+        const gl_int *image = s->images[unit];
+        gl->BindImageTexture(unit, (gl_uint)image[0], image[1], image[2] != 0, image[3], (gl_enum)image[4],
+                             (gl_enum)image[5]);
+    }
 }
 
 static void save_uniforms(const glssao__gl *gl, glssao__state *s)
@@ -158,7 +167,7 @@ const glssao__state_piece glssao__state_bindings[] = {
     {STATE_DRAW, save_targets, NULL, restore_targets},
     {STATE_READ, save_read, NULL, restore_read},
     {0, save_textures, NULL, restore_textures},
-    {STATE_IMAGE, save_image, NULL, restore_image},
+    {STATE_IMAGE, save_images, NULL, restore_images},
     {STATE_UNIFORMS, save_uniforms, NULL, restore_uniforms},
     {STATE_TRANSFER, save_transfers, set_transfers, restore_transfers},
     {0, NULL, NULL, NULL},

@@ -227,12 +227,18 @@ static void restore_depth_mask(const glssao__gl *gl, const glssao__state *s)
     gl->DepthMask(s->depth_mask);
 }
 
-/* Our own framebuffers have one colour attachment. One of the host's may have several, of which the shader writes the
- * first: the others are masked, since they would be undefined. */
+/* Colour attachments of our own framebuffers. */
+static gl_uint own_count(const glssao__state *s)
+{
+    return s->need.parts & STATE_SECOND ? 2 : 1;
+}
+
+/* A framebuffer of the host may have several attachments, of which the shader writes the first: the others are masked,
+ * since they would be undefined. */
 static gl_uint mask_count(const glssao__gl *gl, const glssao__state *s)
 {
     if (!(s->need.parts & STATE_ALL_MASKS))
-        return 1;
+        return own_count(s);
     return gl->max_draw_buffers < STATE_DRAW_BUFFERS ? (gl_uint)gl->max_draw_buffers : STATE_DRAW_BUFFERS;
 }
 
@@ -251,40 +257,45 @@ static void save_color_masks(const glssao__gl *gl, glssao__state *s)
 static void set_color_masks(const glssao__gl *gl, const glssao__state *s)
 {
     for (gl_uint i = 0; i < mask_count(gl, s); ++i)
-        if (!has_mask(s, i, i == 0))
-            gl->ColorMaski(i, i == 0, i == 0, i == 0, i == 0);
+        if (!has_mask(s, i, i < own_count(s))) {
+            const gl_boolean on = i < own_count(s);
+            gl->ColorMaski(i, on, on, on, on);
+        }
 }
 
 static void restore_color_masks(const glssao__gl *gl, const glssao__state *s)
 {
     for (gl_uint i = 0; i < mask_count(gl, s); ++i)
-        if (!has_mask(s, i, i == 0))
+        if (!has_mask(s, i, i < own_count(s)))
             gl->ColorMaski(i, s->color_masks[i][0], s->color_masks[i][1], s->color_masks[i][2], s->color_masks[i][3]);
 }
 
-static void put_blend_switch(const glssao__gl *gl, bool on)
+static void put_blend_switch(const glssao__gl *gl, gl_uint i, bool on)
 {
     if (on)
-        gl->Enablei(GL_BLEND, 0);
+        gl->Enablei(GL_BLEND, i);
     else
-        gl->Disablei(GL_BLEND, 0);
+        gl->Disablei(GL_BLEND, i);
 }
 
-static void save_blend_switch(const glssao__gl *gl, glssao__state *s)
+static void save_blend_switches(const glssao__gl *gl, glssao__state *s)
 {
-    s->blend = gl->IsEnabledi(GL_BLEND, 0);
+    for (gl_uint i = 0; i < own_count(s); ++i)
+        s->blend[i] = gl->IsEnabledi(GL_BLEND, i);
 }
 
-static void set_blend_switch(const glssao__gl *gl, const glssao__state *s)
+static void set_blend_switches(const glssao__gl *gl, const glssao__state *s)
 {
-    if (s->blend || !s->is_saved)
-        put_blend_switch(gl, false);
+    for (gl_uint i = 0; i < own_count(s); ++i)
+        if (s->blend[i] || !s->is_saved)
+            put_blend_switch(gl, i, false);
 }
 
-static void restore_blend_switch(const glssao__gl *gl, const glssao__state *s)
+static void restore_blend_switches(const glssao__gl *gl, const glssao__state *s)
 {
-    if (s->blend || (s->need.parts & STATE_BLEND))
-        put_blend_switch(gl, s->blend);
+    for (gl_uint i = 0; i < own_count(s); ++i)
+        if (s->blend[i] || (i == 0 && (s->need.parts & STATE_BLEND)))
+            put_blend_switch(gl, i, s->blend[i]);
 }
 
 static const gl_enum blend_names[4] = {GL_BLEND_SRC_RGB, GL_BLEND_DST_RGB, GL_BLEND_SRC_ALPHA, GL_BLEND_DST_ALPHA};
@@ -322,7 +333,13 @@ void glssao__state_blend(const glssao__gl *gl, gl_enum source, gl_enum destinati
 {
     put_blend(gl, (const gl_int[4]){(gl_int)source, (gl_int)destination, GL_ZERO, GL_ONE},
               (const gl_int[2]){GL_FUNC_ADD, GL_FUNC_ADD});
-    put_blend_switch(gl, true);
+    put_blend_switch(gl, 0, true);
+}
+
+void glssao__state_add(const glssao__gl *gl)
+{
+    put_blend(gl, (const gl_int[4]){GL_ONE, GL_ONE, GL_ONE, GL_ONE}, (const gl_int[2]){GL_FUNC_ADD, GL_FUNC_ADD});
+    put_blend_switch(gl, 0, true);
 }
 
 static void restore_blend(const glssao__gl *gl, const glssao__state *s)
@@ -345,7 +362,7 @@ const glssao__state_piece glssao__state_switches[] = {
     {STATE_DRAW, save_clip_control, set_clip_control, restore_clip_control},
     {STATE_DRAW, save_clamp, set_clamp, restore_clamp},
     {STATE_DRAW, save_color_masks, set_color_masks, restore_color_masks},
-    {STATE_DRAW, save_blend_switch, set_blend_switch, restore_blend_switch},
+    {STATE_DRAW, save_blend_switches, set_blend_switches, restore_blend_switches},
     {STATE_DRAW, save_scissor, set_scissor, restore_scissor},
     {STATE_DRAW, save_toggles, set_toggles, restore_toggles},
     {STATE_DEPTH_MASK, save_depth_mask, set_depth_mask, restore_depth_mask},

@@ -64,6 +64,8 @@ bool glssao__check_settings(const glssao_settings *settings, const glssao__log *
     int n = settings->sample_count;
     if (settings->technique == GLSSAO_HORIZON && n != 12 && n != 16 && n != 24 && n != 32 && n != 48 && n != 64)
         return refuse(log, "settings.sample_count", n, "horizon takes 12, 16, 24, 32, 48 or 64");
+    if (settings->bent_normals && settings->technique != GLSSAO_HORIZON)
+        return refuse(log, "settings.bent_normals", 1, "only the horizon technique knows directions");
     if ((unsigned)settings->tiles > GLSSAO_TILES_ON)
         return refuse(log, "settings.tiles", settings->tiles, "unknown");
     if (settings->thickness > 0.0f && settings->thickness < 1e-3f) {
@@ -169,6 +171,9 @@ bool glssao__check_frame(const glssao_frame *frame, const glssao_settings *setti
                       "no texture, but the other layer has one");
     if (settings->technique == GLSSAO_RAYS && frame->rays_texture == 0)
         return refuse(log, "frame.rays_texture", 0, "no texture, and the rays technique has no estimate of its own");
+    if (settings->bent_normals && frame->rays_texture != 0)
+        return refuse(log, "settings.bent_normals", 1,
+                      "frame.rays_texture, which knows no directions, can't correct them");
     return check_margin(frame, size, log) && check_viewport(frame, size, log) && check_logarithm(frame, log) &&
            check_view(frame, log) && glssao__projection_analyse(frame, log, out_projection);
 }

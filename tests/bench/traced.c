@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+#include "traced.h"
+
+#include "clock.h"
+
+bool traced_open(host_rays *t, const bench_scene *b, int width, int height, char *error, size_t error_size)
+{
+    scene_view view;
+    float radius;
+    *t = (host_rays){.scene = bench_scene_open(b, width, height, &view, &radius, error, error_size)};
+    const double start = clock_cpu_ms();
+    t->embree = t->scene ? trace_scene_create(t->scene, error, error_size) : NULL;
+    t->build_ms = clock_cpu_ms() - start;
+    return t->embree && map_reader_create(&t->draws, 16, 16, error, error_size);
+}
+
+void traced_close(host_rays *t)
+{
+    rays_close(&t->rays);
+    map_reader_destroy(&t->draws);
+    trace_scene_destroy(t->embree);
+    scene_destroy(t->scene);
+    *t = (host_rays){0};
+}
+
+bool traced_run(host_rays *t, const gbuffer *g, const bench_config *c, float radius, uint32_t seed, char *error,
+                size_t error_size)
+{
+    const rays_job job = {.renderer = t->draws.renderer,
+                          .depth = g->depth,
+                          .normals = g->normals,
+                          .view = &g->view,
+                          .margin = g->margin,
+                          .step = c->settings.half_resolution ? 2 : 1,
+                          .options = {.radius = radius, .samples = c->rays, .seed = seed}};
+    return rays_trace(&t->rays, t->embree, &job, &(failure){.text = error, .size = error_size});
+}
