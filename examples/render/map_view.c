@@ -56,13 +56,16 @@ void map_view_draw(pipeline *p, const scene_view *view, options_map map, scene_r
     case OPTIONS_MAP_TILES:
         texture = glssao_map(p->effect, GLSSAO_MAP_TILES, NULL, NULL);
         break;
+    case OPTIONS_MAP_BENT:
+        texture = glssao_map(p->effect, GLSSAO_MAP_BENT_NORMAL, NULL, NULL);
+        break;
     case OPTIONS_MAP_SHADOW:
         texture = scene_shadow_map(p->renderer, NULL);
         break;
     }
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     if (texture) {
-        const bool signed_values = map == OPTIONS_MAP_NORMALS;
+        const bool signed_values = map == OPTIONS_MAP_NORMALS || map == OPTIONS_MAP_BENT;
         const bool tiles = map == OPTIONS_MAP_TILES;
         scene_draw_map_in(p->renderer, texture, place, map == OPTIONS_MAP_AO || map == OPTIONS_MAP_SHADOW || tiles,
                           signed_values ? 0.5f

@@ -65,7 +65,7 @@ typedef enum options_program { OPTIONS_RENDER, OPTIONS_JOB, OPTIONS_VIEWER } opt
 /* A value of options.technique after those of glssao_technique. */
 enum { OPTIONS_RAYTRACE = GLSSAO_RAYS + 1 };
 
-#define OPTIONS_MAP_WORDS "none|ao|normals|depth|random|shadow|tiles"
+#define OPTIONS_MAP_WORDS "none|ao|normals|depth|random|shadow|tiles|bent"
 /* Values of options.debug_map. The shadow map exists only if the scene has one. */
 typedef enum options_map {
     OPTIONS_MAP_NONE = 0,
@@ -74,7 +74,8 @@ typedef enum options_map {
     OPTIONS_MAP_DEPTH,
     OPTIONS_MAP_RANDOM,
     OPTIONS_MAP_SHADOW,
-    OPTIONS_MAP_TILES
+    OPTIONS_MAP_TILES,
+    OPTIONS_MAP_BENT
 } options_map;
 
 /* Parses --background. False for the sky (also for NULL); otherwise true, with a linear colour and its alpha, which is

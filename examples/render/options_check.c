@@ -108,6 +108,13 @@ static bool check_picture(const options *o, options_program program, failure *wh
     return true;
 }
 
+static bool asks_for_bent_normals(const options *o)
+{
+    glssao_settings settings = {.bent_normals = false};
+    return o->technique == GLSSAO_HORIZON && o->set && setting_apply(o->set, &settings, &(failure){0}) &&
+           settings.bent_normals;
+}
+
 /* Options that need or cannot be used together. */
 static bool check_together(const options *o, bool is_viewer, failure *why)
 {
@@ -164,9 +171,13 @@ static bool check_together(const options *o, bool is_viewer, failure *why)
         return fault_set(why, "--no-ao and --ao %s cannot be used together", o->ao);
     if (o->no_shadows && (o->shadow_size || o->debug_map == OPTIONS_MAP_SHADOW))
         return fault_set(why, "--no-shadows cannot be used with --shadow-size or --debug-map shadow");
-    if ((o->debug_map == OPTIONS_MAP_AO || o->debug_map == OPTIONS_MAP_TILES) && o->no_ao)
+    const bool is_of_occlusion =
+        o->debug_map == OPTIONS_MAP_AO || o->debug_map == OPTIONS_MAP_TILES || o->debug_map == OPTIONS_MAP_BENT;
+    if (is_of_occlusion && o->no_ao)
         return fault_set(why, "--no-ao and --debug-map %s cannot be used together",
-                         o->debug_map == OPTIONS_MAP_AO ? "ao" : "tiles");
+                         words_at(OPTIONS_MAP_WORDS, o->debug_map).text);
+    if (o->debug_map == OPTIONS_MAP_BENT && !is_viewer && !asks_for_bent_normals(o))
+        return fault_set(why, "--debug-map bent: needs -t horizon and --set bent-normals=on");
     if (o->debug_map && !o->output && !is_viewer)
         return fault_set(why, "--debug-map: needs a picture, -o FILE");
     if (o->frames && o->bench)

@@ -254,6 +254,7 @@ glssao_frame pipeline_frame(const pipeline *p, const scene_view *view)
                           .normal_texture = glssao_map(p->effect, GLSSAO_MAP_NORMAL, NULL, NULL),
                           .rays_texture = p->wants.rays ? p->rays.texture : 0};
     memcpy(frame.projection, view->clip_from_view, sizeof frame.projection);
+    memcpy(frame.view, view->view_from_world, sizeof frame.view);
     const scene_seen seen = scene_find_seen(p->renderer, view);
     frame.only_sky = seen.opaque == 0;
     /* The picture uses accessibility only for ambient light. A map that is written is always made. */

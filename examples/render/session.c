@@ -54,7 +54,8 @@ static pipeline_wants choose_wants(const session *s)
     wants.maps = o->ao || o->normals || o->depth || o->debug_map;
     wants.samples = choose_samples(s);
     wants.ao = !o->no_ao && (wants.picture || o->ao);
-    wants.ao_map = o->ao || o->debug_map == OPTIONS_MAP_AO || o->debug_map == OPTIONS_MAP_TILES;
+    wants.ao_map = o->ao || o->debug_map == OPTIONS_MAP_AO || o->debug_map == OPTIONS_MAP_TILES ||
+                   o->debug_map == OPTIONS_MAP_BENT;
     wants.traced = wants.ao && o->technique == OPTIONS_RAYTRACE;
     wants.rays = wants.ao && (o->rays || o->technique == GLSSAO_RAYS);
     wants.normal_map = o->normals || o->debug_map == OPTIONS_MAP_NORMALS;

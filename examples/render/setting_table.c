@@ -52,6 +52,10 @@ const setting setting_table[] = {
      TILES_WORDS, ALL},
     {"no-angle-weight", "", "for teaching: count occluders at any angle", SETTING_SWITCH, AT(no_angle_weight), 0, 1,
      false, NULL, CLASSIC},
+    {"history", "frames", "reuse earlier frames: at most so many count in a pixel's mean; 0: none", SETTING_WHOLE,
+     AT(history), 0, 63, false, NULL, ALL},
+    {"noise-index", "", "another pattern of noise for each number", SETTING_WHOLE, AT(noise_index), 0, 1e6f, false,
+     NULL, ALL},
     {"bent-normals", "", "also make the directions in which surfaces are open", SETTING_SWITCH, AT(bent_normals), 0, 1,
      false, NULL, HORIZON},
 };

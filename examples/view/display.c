@@ -142,7 +142,7 @@ static bool draw_off(viewer *v)
     bool done = true;
     if (!v->off_color)
         v->off_color = make_target(GL_SRGB8_ALPHA8, v->width, v->height, p->depth, &v->off_framebuffer);
-    if (corner == OPTIONS_MAP_AO || corner == OPTIONS_MAP_TILES)
+    if (corner == OPTIONS_MAP_AO || corner == OPTIONS_MAP_TILES || corner == OPTIONS_MAP_BENT)
         p->debug_map = OPTIONS_MAP_NONE;
     if (averages(v)) {
         stopwatch times = {.finish = false};

@@ -138,7 +138,7 @@ static void add_occlusion(line *l, const viewer *v)
 static void add_debug_map(line *l, const viewer *v)
 {
     const int map = v->options.debug_map;
-    const bool is_of_occlusion = map == OPTIONS_MAP_AO || map == OPTIONS_MAP_TILES;
+    const bool is_of_occlusion = map == OPTIONS_MAP_AO || map == OPTIONS_MAP_TILES || map == OPTIONS_MAP_BENT;
     if (map && !(is_of_occlusion && v->mode == MODE_OFF) && !(map == OPTIONS_MAP_SHADOW && v->options.no_shadows))
         add(l, " --debug-map %s", words_at(OPTIONS_MAP_WORDS, map).text);
 }

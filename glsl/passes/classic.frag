@@ -37,7 +37,11 @@ void main()
     vec3 position_view = position_view_from_uv(uv_from_texel(texel), distance);
     normal_view = seen_normal_at(texel, position_view, normal_view);
     // Not normalised, as in the reference; a vector of length 0 leaves every offset as it is.
-    vec3 random_vector = 2.0 * texture(u_random_vector_map, 4.0 * pixel_uv()).rgb - 1.0;
+    vec2 random_uv = 4.0 * pixel_uv();
+#if VARIES
+    random_uv += gNoise;
+#endif
+    vec3 random_vector = 2.0 * texture(u_random_vector_map, random_uv).rgb - 1.0;
 
     // Nearer than this, the depth format and its filter can't tell an occluder from the point's own surface.
     float least = gSurfaceEpsilon + depth_step(distance) + filter_error(uv_from_texel(texel), distance, normal_view);

@@ -26,7 +26,11 @@ float distance_at(sampler2D map, vec2 uv)
 
 RESULT result()
 {
-    vec2 uv = (floor(target_center()) * float(gFactor) + 0.5) * gFullTexel;
+#if DENSE
+    vec2 uv = target_center() * gFullTexel;
+#else
+    vec2 uv = (full_texel(floor(target_center())) + 0.5) * gFullTexel;
+#endif
     float depth = depth_component(textureLod(u_depth_map, uv, 0.0));
     float distance = is_sky(depth) ? FAR_AWAY : distance_from_depth(depth);
 #if LAYERS

@@ -9,7 +9,7 @@
 // out result          by OUTPUT: accessibility, the paired value, or linear accessibility for the sum of its replicate; with
 //                     BENT 1 the latter two with the hidden vector
 // SLICES slices of STEPS samples on each side. LOOPS 1: the loops over slices and sides are not written out, and a side
-// without an occluder is left early.
+// without an occluder is left early. VARIES 1: the noise is shifted by gNoise.
 //
 // Coordinates in a slice, in units of the radius: x is the distance from the point along the slice, outwards on either side;
 // y is the height towards the eye. Angles are measured from y. tuned.glsl has the tuned constants. In each slice:
@@ -247,6 +247,8 @@ vec2 tile_noise()
 #if OUTPUT == OUTPUT_SUM
     // The second replicate has the tile turned over, so that the two differ by another offset in each pixel of the tile.
     noise = fract((gAccumulation.x > 0.0 ? noise : noise.yx) + gNoise);
+#elif VARIES
+    noise = fract(noise + gNoise);
 #endif
     return noise;
 }
@@ -346,7 +348,7 @@ float slice_occlusion(point p, float angle)
 #endif
     UNROLL_IF_SHORT for (int i = 0; i < 2; ++i) {
         float sign = i == 0 ? 1.0 : -1.0; // the plus side, then the minus side
-        side.uv_per_px = sign * way * gInvRenderTargetSize;
+        side.uv_per_px = sign * way * gMapTexel;
         side.y_per_px = sign * way * y_per_px;
         side.reach_px = mix(p.low, p.high, greaterThan(sign * way, vec2(0.0)));
         side.tangent = sign * -sin_g / max(cos_g, 1e-3) + LEAST_RISE;
@@ -376,7 +378,7 @@ float slice_occlusion(point p, float angle)
 // nothing is known.
 vec3 step_to(vec2 offset, vec2 map_uv, vec3 ray, float distance)
 {
-    vec2 uv = map_uv + offset * gInvRenderTargetSize;
+    vec2 uv = map_uv + offset * gMapTexel;
     float there = uv == clamp(uv, 0.0, 1.0) ? textureLod(u_distance_map, uv, 0.0).r : FAR_AWAY;
     vec2 across = offset * gPixel.xy * (orthographic() ? 1.0 : there);
     return vec3(across, 0.0) + ray * (there - distance);
@@ -384,9 +386,15 @@ vec3 step_to(vec2 offset, vec2 map_uv, vec3 ray, float distance)
 
 RESULT result()
 {
+    vec2 uv = (full_texel(floor(pixel_center())) + 0.5) * gFullTexel;
+#if DENSE
+    vec2 map_uv = uv;
+    vec2 center = full_texel(floor(pixel_center())) + 0.5;
+#else
     vec2 map_uv = pixel_uv();
+    vec2 center = pixel_center();
+#endif
     float distance = textureLod(u_distance_map, map_uv, 0.0).r;
-    vec2 uv = (floor(pixel_center()) * float(gFactor) + 0.5) * gFullTexel;
     vec3 normal_view = normal_view_at_uv(uv);
 #if OUTPUT == OUTPUT_SUM && BENT
     RESULT open = OPEN;
@@ -414,8 +422,8 @@ RESULT result()
     vec2 noise = tile_noise();
     point p;
     p.uv = map_uv;
-    p.low = pixel_center() - 0.5;
-    p.high = gEstimateSize - 0.5 - pixel_center();
+    p.low = center - 0.5;
+    p.high = gMapSize - 0.5 - center;
     p.distance = distance;
     p.scale = orthographic() ? 1.0 : distance;
     p.per_scale = STEP / p.scale;

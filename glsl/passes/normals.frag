@@ -77,7 +77,11 @@ vec2 octahedral(vec3 normal)
 
 RESULT result()
 {
-    vec2 uv = (floor(target_center()) * float(gFactor) + 0.5) * gFullTexel;
+#if DENSE
+    vec2 uv = target_center() * gFullTexel;
+#else
+    vec2 uv = (full_texel(floor(target_center())) + 0.5) * gFullTexel;
+#endif
     float stored = stored_at(uv);
     float own = flat_depth(stored);
     float linear = linear_from_depth(stored);

@@ -17,7 +17,7 @@ void main()
     float depth = fetched_depth(texel);
     float distance = is_sky(depth) ? FAR_AWAY : distance_from_depth(depth);
 #else
-    vec2 uv = (floor(pixel_center()) * float(gFactor) + 0.5) * gFullTexel;
+    vec2 uv = (full_texel(floor(pixel_center())) + 0.5) * gFullTexel;
     vec3 normal_view = normal_view_at_uv(uv);
     float distance = textureLod(u_distance_map, pixel_uv(), 0.0).r;
 #endif

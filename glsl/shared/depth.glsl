@@ -66,7 +66,21 @@ bool is_sky(float depth)
 // full size uv is a centre already. The texel may lie outside the map where uv does.
 ivec2 texel_from_uv(vec2 uv)
 {
-    return ivec2(floor(uv * vec2(textureSize(u_depth_map, 0)) - 0.25));
+    ivec2 texel = ivec2(floor(uv * vec2(textureSize(u_depth_map, 0)) - 0.25));
+#if VARIES
+    texel = min(texel + ivec2(gPick), textureSize(u_depth_map, 0) - 1);
+#endif
+    return texel;
+}
+
+// The same for a texel of the ambient map.
+vec2 full_texel(vec2 texel)
+{
+#if VARIES
+    return min(texel * float(gFactor) + gPick, round(1.0 / gFullTexel) - 1.0);
+#else
+    return texel * float(gFactor);
+#endif
 }
 
 vec2 uv_from_texel(ivec2 texel)

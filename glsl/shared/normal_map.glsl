@@ -33,10 +33,10 @@ vec3 normal_view_from_stored(vec3 stored)
     return normal * inversesqrt(length_squared);
 }
 
-// At a full-size texel, which rebuilt normals stand for by twos.
+// At a full-size texel, which rebuilt normals stand for by twos unless they are DENSE.
 vec3 normal_view_from_map(ivec2 texel)
 {
-#if NORMALS == NORMALS_REBUILT
+#if NORMALS == NORMALS_REBUILT && !DENSE
     texel >>= gFactor - 1;
 #endif
     return normal_view_from_stored(texelFetch(u_normal_map, texel, 0).xyz);

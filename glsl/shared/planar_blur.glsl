@@ -7,7 +7,8 @@
 //
 // After the first round the only noise left is that of twice the tile's period. Later rounds remove it in one pass each: a
 // quarter of the pixel and 3/16 of each of the four at three pixels from it, where they lie on a line or in a hollow. In a
-// hollow both sides darken, and the rest of the noise would show along it.
+// hollow both sides darken, and the rest of the noise would show along it. What is left of the noise is less than the share of
+// one sample, so no round changes a pixel by more: larger differences are shade.
 // BRANCHES 1: a branch that all pixels of a warp take alike spares work.
 
 float line_tolerance(float linear)
@@ -110,11 +111,21 @@ CONTENTS blurred_wide(PAIRED left, PAIRED below, PAIRED center, PAIRED above, PA
         joins.w = joins.w && !turns_away(projected_normal(codes.w) - own, vec2(1.0, 0.0));
     }
     vec4 weights = mix(vec4(0.0), vec4(0.1875), joins);
+    float own = accessibility_of(center);
+    float most = 1.0 / float(gSampleCount);
 #if BENT
     CONTENTS sum = 0.25 * contents_of(center) + weighted(weights, left, below, above, right);
-    return sum / (0.25 + dot(weights, vec4(1.0)));
+    CONTENTS mean = sum / (0.25 + dot(weights, vec4(1.0)));
+    // Two slices leave little noise in directions, and in a crease they differ more than by noise.
+    vec3 direction = gSampleCount > 16 ? contents_of(center).yzw : mean.yzw;
+    return vec4(clamp(mean.x, own - most, own + most), direction);
 #else
     vec4 taps = vec4(accessibility_of(left), accessibility_of(below), accessibility_of(above), accessibility_of(right));
-    return weighted_mean(accessibility_of(center), 0.25, taps, weights);
+    float mean = weighted_mean(own, 0.25, taps, weights);
+#if RAYS
+    return mean;
+#else
+    return clamp(mean, own - most, own + most);
+#endif
 #endif
 }

@@ -35,11 +35,10 @@ vec3 mean_normal(vec4 weights, vec2 odd, vec2 full_uv)
 }
 #endif
 
-// Accessibility at a full-size uv, with BENT 1 what shared/bent.glsl delivers. Coordinates are `odd` (1) where they lie midway
-// between a and d of the paired map: b differs from a in x alone, c in y; where a coordinate is even, the two are the same.
-CONTENTS upsampled(PAIRED a, PAIRED b, PAIRED c, PAIRED d, vec2 odd, vec2 full_uv)
+// How much each of four neighbours counts at a full-size uv, whose coordinates are `odd` (1) where they lie midway between a
+// and d of the paired map: b differs from a in x alone, c in y; where a coordinate is even, the two are the same.
+vec4 upsample_weights(PAIRED a, PAIRED b, PAIRED c, PAIRED d, vec2 odd, vec2 full_uv, float depth)
 {
-    float depth = depth_component(textureLod(u_depth_map, full_uv, 0.0));
     float own = linear_from_depth(depth);
     vec4 apart = vec4(a.y, b.y, c.y, d.y) - own;
     vec4 off = abs(apart);
@@ -72,12 +71,19 @@ CONTENTS upsampled(PAIRED a, PAIRED b, PAIRED c, PAIRED d, vec2 odd, vec2 full_u
     float near = on_plane ? 0.5 * AROUND_CREASE : UPSAMPLE_NEAR * radius_in_linear(own);
     // The nearest neighbour always counts.
     near = max(near, min(min(off.x, off.y), min(off.z, off.w)));
-    vec4 weights = vec4(lessThanEqual(off, vec4(near)));
+    return vec4(lessThanEqual(off, vec4(near)));
+}
+
+// Accessibility there, with BENT 1 what shared/bent.glsl delivers.
+CONTENTS upsampled(PAIRED a, PAIRED b, PAIRED c, PAIRED d, vec2 odd, vec2 full_uv)
+{
+    float depth = depth_component(textureLod(u_depth_map, full_uv, 0.0));
+    vec4 weights = upsample_weights(a, b, c, d, odd, full_uv, depth);
     CONTENTS mean = weighted(weights, a, b, c, d) / dot(weights, vec4(1.0));
 #if BENT && NORMALS == NORMALS_REBUILT
     return delivered(mean, is_sky(depth), mean_normal(weights, odd, full_uv));
 #elif BENT
-    return delivered(mean, is_sky(depth), normal_view_from_stored(stored));
+    return delivered(mean, is_sky(depth), normal_view_from_stored(textureLod(u_normal_map, full_uv, 0.0).xyz));
 #else
     return is_sky(depth) ? 1.0 : mean;
 #endif

@@ -31,7 +31,7 @@ vec2 uv_at(vec2 texel)
 #if FROM_DEPTH
     return (texel + 0.5) / vec2(map_size());
 #else
-    return (texel * float(gFactor) + 0.5) / vec2(textureSize(u_depth_map, 0));
+    return (full_texel(texel) + 0.5) / vec2(textureSize(u_depth_map, 0));
 #endif
 }
 
@@ -66,7 +66,7 @@ vec3 normal_at(ivec2 texel)
 #if FROM_DEPTH
     return normal_view_from_map(texel);
 #else
-    return normal_view_from_map(texel * gFactor);
+    return normal_view_from_map(ivec2(full_texel(vec2(texel))));
 #endif
 }
 

@@ -45,6 +45,7 @@ static glssao__request request_of(const glssao_effect *effect, const glssao_fram
                              .settings = settings,
                              .size = {effect->size[0], effect->size[1]},
                              .estimates = estimates,
+                             .frames = glssao__history_frames(&effect->history, frame, settings, projection),
                              .is_orthographic = projection->is_orthographic,
                              .is_oblique = projection->is_oblique,
                              .is_turned = projection->is_turned,
@@ -87,7 +88,7 @@ typedef struct call {
     const char *function;
     const glssao_frame *frame;
     const glssao_settings *settings;
-    int estimates; /* as in glssao__request */
+    int estimates, frames; /* as in glssao__request */
     bool only_prepares;
     glssao__projection projection;
 } call;
@@ -105,8 +106,10 @@ static void run_schedule(glssao_effect *effect, const call *c, const glssao__sch
         .precision = host->precision,
         .size = {effect->size[0], effect->size[1]},
         .estimate_size = {schedule->estimate_size[0], schedule->estimate_size[1]},
+        .map_factor = schedule->map_factor,
         .tile_rings = schedule->tile_rings,
         .seed = effect->seed,
+        .noise_index = c->settings->noise_index + (uint32_t)c->frames,
     };
     const bool is_sampled = schedule->plan.passes[GLSSAO_PASS_ESTIMATE].run;
     glssao__uniforms_fill(&effect->uniforms, &source);
@@ -116,8 +119,12 @@ static void run_schedule(glssao_effect *effect, const call *c, const glssao__sch
                                 (const int[4]){delivered->x, delivered->y, delivered->width, delivered->height},
                                 &effect->uniforms.frame);
     } else {
+        glssao__history_fill(&effect->history, &source, c->frames, &effect->uniforms.frame);
         glssao__accumulate_stop(accumulation, &effect->gl);
     }
+    glssao__history_keep(&effect->history, &source, c->frames, delivered);
+    if (!is_sampled) /* no pass drew a history */
+        effect->history.frames = 0;
     glssao__last_frame *last = &effect->last;
     last->number += 1;
     last->result = schedule->result;
@@ -150,8 +157,8 @@ static glssao_result run_guarded(glssao_effect *effect, const call *c, const gls
     glssao__host_inputs host;
     glssao__state state;
     glssao__state_save(gl, &need, effect->host_restores_state, &state);
-    glssao_result result =
-        glssao__host_textures_check(gl, &effect->log, c->frame, effect->size, UNIT_DEPTH, known, &host);
+    glssao_result result = glssao__host_textures_check(gl, &effect->log, c->frame, effect->size, UNIT_DEPTH,
+                                                       schedule->host_names, known, &host);
     if (result == GLSSAO_OK) {
         result = glssao__resources_prepare(&effect->resources, schedule);
         if (result == GLSSAO_OK && !c->only_prepares)
@@ -173,6 +180,7 @@ static glssao_result run_call(glssao_effect *effect, call *c)
     warn_of_projection(effect, c->frame, c->projection.doubt);
     glssao_result result = glssao__effect_check_state(effect, c->function);
     glssao__schedule schedule;
+    c->frames = glssao__history_frames(&effect->history, c->frame, c->settings, &c->projection);
     for (bool again = result == GLSSAO_OK; again;) {
         const glssao__request request = request_of(effect, c->frame, c->settings, c->estimates, &c->projection);
         glssao__schedule_make(&schedule, &request);

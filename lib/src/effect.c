@@ -155,6 +155,7 @@ glssao_result glssao_resize(glssao_effect *effect, int width, int height)
     glssao__accumulate_stop(&effect->accumulation, &effect->gl);
     memcpy(effect->size, size, sizeof effect->size);
     effect->known = (glssao__host_textures){0};
+    effect->history.frames = 0;
     effect->normals.known_depth = 0;
     effect->last.result = MAP_AMBIENT_0;
     effect->last.other = MAP_AMBIENT_1;

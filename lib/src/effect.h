@@ -7,6 +7,7 @@
 
 #include "accumulate.h"
 #include "frame/execute.h"
+#include "history.h"
 #include "input/depth_copy.h"
 #include "input/host_textures.h"
 #include "log.h"
@@ -35,6 +36,7 @@ struct glssao_effect {
     glssao__uniforms uniforms;
     glssao__host_textures known; /* with host_restores_state */
     glssao__accumulation accumulation;
+    glssao__history history;
     glssao__normals normals;
     glssao__depth_copy depth_copy;
     glssao__last_frame last;

@@ -27,8 +27,8 @@ static glssao_settings horizon_settings(glssao_settings s, glssao_quality qualit
     s.half_resolution = quality != GLSSAO_ULTRA;
     s.upsample = quality != GLSSAO_LOW;
     s.blur = GLSSAO_BLUR_PLANAR;
-    /* The noise of a single slice has an 8x8 tile, twice the size that one round smooths. */
-    s.blur_rounds = quality <= GLSSAO_MEDIUM ? 2 : 1;
+    /* One round smooths a 4x4 tile of noise. The second is for the 8x8 tile of a single slice, and for what is left. */
+    s.blur_rounds = 2;
     return s;
 }
 

@@ -68,7 +68,7 @@ glssao_effect *effects_get(effects *e, const gbuffer *g, const glssao_settings *
     return *slot;
 }
 
-static void read_map(const glssao_effect *effect, const map_reader *m, float *out)
+void map_reader_read(const map_reader *m, const glssao_effect *effect, float *out)
 {
     gl.BindFramebuffer(GL_FRAMEBUFFER, m->framebuffer);
     gl.Viewport(0, 0, m->width, m->height);
@@ -89,7 +89,7 @@ bool effects_run(effects *e, map_reader *m, const effect_job *job, float *out, c
     const glssao_result result =
         job->accumulates ? glssao_accumulate(effect, &frame, &scaled) : glssao_compute(effect, &frame, &scaled);
     if (result == GLSSAO_OK)
-        read_map(effect, m, out);
+        map_reader_read(m, effect, out);
     else
         snprintf(error, error_size, "%s: %s", job->accumulates ? "glssao_accumulate" : "glssao_compute",
                  glssao_result_string(result));

@@ -20,6 +20,8 @@ typedef struct map_reader {
 
 bool map_reader_create(map_reader *m, int width, int height, char *error, size_t error_size);
 void map_reader_destroy(map_reader *m);
+/* Reads the effect's result, stretched to the reader's size. */
+void map_reader_read(const map_reader *m, const glssao_effect *effect, float *out);
 
 typedef struct effects {
     context *context;

@@ -90,8 +90,10 @@ glssao_frame gbuffer_frame(const gbuffer *g, bool depth_alone)
                           .margin = g->margin,
                           .back_texture = g->layers[0],
                           .second_texture = g->layers[1]};
-    for (int i = 0; i < 16; i++)
+    for (int i = 0; i < 16; i++) {
         frame.projection[i] = g->view.clip_from_view[i];
+        frame.view[i] = g->view.view_from_world[i];
+    }
     return frame;
 }
 

@@ -43,31 +43,48 @@ static void reproject(const sequence_frame *before, const sequence_frame *now, i
     *out_distance = -old[2];
 }
 
-void sequence_compare(frame_change *c, const sequence_frame *before, const sequence_frame *now)
+/* Interpolates the result of `before` at the point that pixel x, y of `now` shows; false where it was not seen. */
+static bool find_before(const sequence_frame *before, const sequence_frame *now, int x, int y, double *out_value)
 {
     const int width = before->view.width, height = before->view.height;
+    double at[2], distance, value = 0;
+    reproject(before, now, x, y, at, &distance);
+    if (!(distance > 0 && at[0] >= 0 && at[1] >= 0 && at[0] < width - 1 && at[1] < height - 1))
+        return false;
+    const int left = (int)at[0], below = (int)at[1];
+    for (int k = 0; k < 4; k++) {
+        const size_t n = (size_t)(below + k / 2) * (size_t)width + (size_t)(left + k % 2);
+        const double wx = at[0] - left, wy = at[1] - below;
+        const double weight = (k % 2 ? wx : 1 - wx) * (k / 2 ? wy : 1 - wy);
+        if (weight >= 1e-6 && !(fabs((double)before->distance[n] - distance) < tolerance * distance))
+            return false;
+        value += before->result ? weight * (double)before->result[n] : 0;
+    }
+    *out_value = value;
+    return true;
+}
+
+void sequence_compare(frame_change *c, const sequence_frame *before, const sequence_frame *now)
+{
     for (int y = 0; y < now->view.height; y++) {
         for (int x = 0; x < now->view.width; x++) {
             const size_t i = (size_t)y * (size_t)now->view.width + (size_t)x;
-            double at[2], distance, value = 0;
-            if (!(now->distance[i] > 0))
-                continue;
-            reproject(before, now, x, y, at, &distance);
-            if (!(distance > 0 && at[0] >= 0 && at[1] >= 0 && at[0] < width - 1 && at[1] < height - 1))
-                continue;
-            const int left = (int)at[0], below = (int)at[1];
-            bool same = true;
-            for (int k = 0; k < 4 && same; k++) {
-                const size_t n = (size_t)(below + k / 2) * (size_t)width + (size_t)(left + k % 2);
-                const double wx = at[0] - left, wy = at[1] - below;
-                const double weight = (k % 2 ? wx : 1 - wx) * (k / 2 ? wy : 1 - wy);
-                same = weight < 1e-6 || fabs((double)before->distance[n] - distance) < tolerance * distance;
-                value += weight * (double)before->result[n];
-            }
-            if (!same)
+            double value;
+            if (!(now->distance[i] > 0) || !find_before(before, now, x, y, &value))
                 continue;
             c->sum2 += ((double)now->result[i] - value) * ((double)now->result[i] - value);
             c->pixels++;
+        }
+    }
+}
+
+void sequence_find_new(const sequence_frame *before, const sequence_frame *now, unsigned char *out_new)
+{
+    for (int y = 0; y < now->view.height; y++) {
+        for (int x = 0; x < now->view.width; x++) {
+            const size_t i = (size_t)y * (size_t)now->view.width + (size_t)x;
+            double value;
+            out_new[i] = now->distance[i] > 0 && !find_before(before, now, x, y, &value);
         }
     }
 }

@@ -28,4 +28,7 @@ typedef struct frame_change {
  * within 1 % of the distance that it had there. The view is a perspective one. */
 void sequence_compare(frame_change *c, const sequence_frame *before, const sequence_frame *now);
 
+/* Sets a 1 for each pixel of `now` that shows a point that was not seen in `before`, by the same measure, else a 0. */
+void sequence_find_new(const sequence_frame *before, const sequence_frame *now, unsigned char *out_new);
+
 #endif

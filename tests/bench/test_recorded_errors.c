@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_recorded_errors FILE.tsv [SCENES] [--record]: RMSE of each horizon level, as shipped, against ray-traced truth
- * on small pictures of a few scenes, compared with the figures recorded in the file. Worse by more than the tolerance
- * fails; much better fails too, and asks for a new record, so that the gain is held. --record writes the file instead.
- * Scenes that are not there (SCENES is the folder of the glTF ones) are left out with a message, and can't be recorded.
+ * test_recorded_errors FILE.tsv [SCENES] [--record]: RMSE, grain and specks (structure.h) of each horizon level, as
+ * shipped, against ray-traced truth on small pictures of a few scenes, compared with the figures recorded in the file.
+ * Worse by more than the tolerance fails; much better fails too, and asks for a new record, so that the gain is held.
+ * --record writes the file instead. Scenes that are not there (SCENES is the folder of the glTF ones) are left out with
+ * a message, and can't be recorded.
  */
 #include "effects.h"
 #include "views.h"
@@ -18,14 +19,18 @@
 enum { WIDTH = 240, HEIGHT = 135, RAYS = 64, LEVELS = GLSSAO_ULTRA + 1, ERROR_LENGTH = 1024, MAX_ROWS = 64 };
 
 /* Larger than the rounding of other drivers and compilers, smaller than the effect of a change to the shader. */
-static const double WORSE = 0.01, BETTER = 0.03, FLOOR = 0.0002;
+static const double WORSE = 0.01, BETTER = 0.03;
+
+typedef enum measure_kind { RMSE, GRAIN, SPECKS, MEASURES } measure_kind;
+static const char *const measure_names[] = {"rmse", "grain", "specks"};
+static const double floors[] = {0.0002, 0.00004, 3.0};
 
 /* Words of their names; "cornell" stands for cornell-box too. */
 static const char picked[] = "columns,cornell,steps,plane,zdm2,garage,cycloidal,dutch,hermes,ivy,truck-town";
 
 typedef struct row {
     char scene[64];
-    double rmse[LEVELS];
+    double of[MEASURES][LEVELS];
 } row;
 
 typedef struct record {
@@ -40,14 +45,16 @@ static bool read_record(const char *path, record *r)
         perror(path);
         return false;
     }
-    char line[256];
+    char line[512];
     bool good = true;
     while (good && fgets(line, sizeof line, f)) {
         if (line[0] == '#')
             continue;
         row *at = &r->rows[r->count];
-        good = r->count < MAX_ROWS && sscanf(line, "%63s %lf %lf %lf %lf", at->scene, &at->rmse[0], &at->rmse[1],
-                                             &at->rmse[2], &at->rmse[3]) == 1 + LEVELS;
+        int length = 0, figure = 0;
+        good = r->count < MAX_ROWS && sscanf(line, "%63s%n", at->scene, &length) == 1;
+        for (int more, from = length; good && figure < MEASURES * LEVELS; figure++, from += more)
+            good = sscanf(line + from, "%lf%n", &at->of[figure / LEVELS][figure % LEVELS], &more) == 1;
         r->count += good;
     }
     fclose(f);
@@ -63,15 +70,16 @@ static bool write_record(const char *path, const record *r)
         perror(path);
         return false;
     }
-    fprintf(f,
-            "# SPDX-License-Identifier: MIT\n"
-            "# RMSE of horizon against %d rays a pixel at %dx%d; written by `test_recorded_errors --record`.\n"
-            "# scene\tlow\tmedium\thigh\tultra\n",
-            RAYS, WIDTH, HEIGHT);
+    fprintf(
+        f,
+        "# SPDX-License-Identifier: MIT\n"
+        "# Errors of horizon against %d rays a pixel at %dx%d; written by `test_recorded_errors --record`.\n"
+        "# scene\trmse: low\tmedium\thigh\tultra\tgrain: low\tmedium\thigh\tultra\tspecks: low\tmedium\thigh\tultra\n",
+        RAYS, WIDTH, HEIGHT);
     for (int i = 0; i < r->count; i++) {
         fprintf(f, "%s", r->rows[i].scene);
-        for (int level = 0; level < LEVELS; level++)
-            fprintf(f, "\t%.5f", r->rows[i].rmse[level]);
+        for (int k = 0; k < MEASURES * LEVELS; k++)
+            fprintf(f, k / LEVELS == SPECKS ? "\t%.0f" : "\t%.5f", r->rows[i].of[k / LEVELS][k % LEVELS]);
         fputc('\n', f);
     }
     const bool written = fclose(f) == 0;
@@ -80,7 +88,7 @@ static bool write_record(const char *path, const record *r)
     return written;
 }
 
-static bool measure_view(effects *e, map_reader *m, const bench_view *v, float *picture, row *out, char *error)
+static bool measure_view(effects *e, map_reader *m, bench_view *v, float *picture, row *out, char *error)
 {
     memcpy(out->scene, v->name, sizeof out->scene);
     for (int level = 0; level < LEVELS; level++) {
@@ -91,7 +99,9 @@ static bool measure_view(effects *e, map_reader *m, const bench_view *v, float *
         const error_measure found = measure_error(picture, v->truth.accessibility, v->classes, (size_t)WIDTH * HEIGHT);
         if (found.nonfinite_share > 0)
             return false;
-        out->rmse[level] = found.rmse;
+        out->of[RMSE][level] = found.rmse;
+        out->of[GRAIN][level] = grain_measure(&v->grain, picture);
+        out->of[SPECKS][level] = count_specks(picture, v->truth.accessibility, v->classes, WIDTH, HEIGHT);
     }
     return true;
 }
@@ -140,10 +150,12 @@ static int compare(const record *recorded, const record *now)
             off++;
             continue;
         }
-        for (int level = 0; level < LEVELS; level++) {
-            const double least = was->rmse[level] * (1 - BETTER) - FLOOR, most = was->rmse[level] * (1 + WORSE) + FLOOR;
-            const bool worse = !(is->rmse[level] <= most), better = is->rmse[level] < least;
-            printf("%-18s %-6s %.5f, recorded %.5f%s\n", is->scene, names[level], is->rmse[level], was->rmse[level],
+        for (int k = 0; k < MEASURES * LEVELS; k++) {
+            const double before = was->of[k / LEVELS][k % LEVELS], value = is->of[k / LEVELS][k % LEVELS];
+            const double floor = floors[k / LEVELS];
+            const bool worse = !(value <= before * (1 + WORSE) + floor), better = value < before * (1 - BETTER) - floor;
+            printf("%-18s %-6s %-6s %.5f, recorded %.5f%s\n", is->scene, names[k % LEVELS], measure_names[k / LEVELS],
+                   value, before,
                    worse    ? ": WORSE"
                    : better ? ": BETTER, record anew with --record"
                             : "");

@@ -131,7 +131,7 @@ static const struct row {
 } rows[] = {
     {"horizon low", GLSSAO_HORIZON, GLSSAO_LOW, NULL, {"DEB", 5, 4, 3}, {"DEB", 3, 3, 3}},
     {"horizon medium", GLSSAO_HORIZON, GLSSAO_MEDIUM, NULL, {"DEBU", 7, 6, 5}, {"DEU", 3, 3, 4}},
-    {"horizon ultra", GLSSAO_HORIZON, GLSSAO_ULTRA, NULL, {"DEB", 4, 4, 5}, {"DEB", 3, 3, 5}},
+    {"horizon ultra", GLSSAO_HORIZON, GLSSAO_ULTRA, NULL, {"DEB", 5, 4, 5}, {"DEB", 3, 3, 5}},
     {"classic", GLSSAO_CLASSIC, GLSSAO_HIGH, NULL, {"EB", 7, 2, 0}, {NULL, 0, 0, 0}},
     {"hemisphere", GLSSAO_HEMISPHERE, GLSSAO_HIGH, NULL, {"EB", 3, 2, 2}, {NULL, 0, 0, 0}},
     {"normals rebuilt", GLSSAO_HORIZON, GLSSAO_MEDIUM, rebuild_normals, {"NDEBU", 8, 7, 6}, {"NDEU", 4, 4, 5}},

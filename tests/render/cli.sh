@@ -159,6 +159,7 @@ size="-s 65x37"
     want 2 "--no-shadows cannot be used" --no-shadows --shadow-size 64 -o b.png
     want 2 "--debug-map" --debug-map ao --no-ao -o b.png
     want 2 "--debug-map" --debug-map ao --ao b.png
+    want 2 "bent-normals=on" --debug-map bent -o b.png
     want 2 '"stencil"' --debug-map stencil -o b.png
 
     # A picture of the surroundings, of one colour: it lights the scene, without the built-in sun.

@@ -101,6 +101,29 @@ static void spoil(uint64_t *s, float *values, size_t count, bool to_one)
     }
 }
 
+/* Frames from random places, each with what the last one left: whatever the views say, the pictures are sound. */
+static void random_walk(fixture *f, uint64_t *s, const glssao_frame *start, const glssao_settings *settings, int width,
+                        int height, double scale, uint64_t seed)
+{
+    glssao_frame frame = *start;
+    glssao_settings with_history = *settings;
+    with_history.history = 1 + below(s, 63);
+    for (int i = 0; i < 4; ++i) {
+        const double angle = between(s, 0.0, below(s, 2) ? 0.1 : 6.28), far = magnitude(s, 1e-3, 1e3) * scale;
+        memset(frame.view, 0, sizeof frame.view);
+        frame.view[0] = frame.view[10] = (float)cos(angle);
+        frame.view[8] = (float)sin(angle);
+        frame.view[2] = -frame.view[8];
+        frame.view[5] = frame.view[15] = 1.0f;
+        for (int k = 0; k < 3; ++k)
+            frame.view[12 + k] = (float)between(s, -far, far);
+        picture p = subject_shade(f, width, height, &frame, &with_history);
+        if (!picture_is_sound(&p))
+            fail_msg("seed %llu, frame %d: not sound", (unsigned long long)seed, i);
+        free(p.values);
+    }
+}
+
 static void random_case(fixture *f, uint64_t seed)
 {
     uint64_t s = seed * UINT64_C(0xD1342543DE82EF95), alike = seed / ALIKE;
@@ -131,6 +154,8 @@ static void random_case(fixture *f, uint64_t seed)
         fail_msg("seed %llu: two runs differ", (unsigned long long)seed);
     free(first.values);
     free(again.values);
+    if (below(&s, 3) == 0)
+        random_walk(f, &s, &frame, &settings, width, height, scale, seed);
     subject_frame_free(&frame);
     subject_free(&seen);
 }

@@ -188,24 +188,31 @@ void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic
 
 enum { ON_ROW, ON_COLUMN, JOINS_AROUND, WIDE_TESTS = JOINS_AROUND + 4 };
 
-/* The fifth is the pixel's own; opposite pairs are 0 and 1, 2 and 3. */
+/* The fifth tap is the pixel's own; opposite pairs are 0 and 1, 2 and 3. */
+typedef struct cross {
+    texel taps[5];
+    double most; /* change */
+} cross;
+
 static double blurred_wide(const truth *t, const void *user)
 {
-    const texel *taps = user;
+    const cross *c = user;
+    const texel *taps = c->taps;
     double sum = taps[4].value / 4.0, total = 1.0 / 4.0;
     for (int i = 0; i < 4; ++i)
         if (t[i < 2 ? ON_ROW : ON_COLUMN] && t[JOINS_AROUND + i]) {
             sum += 3.0 / 16.0 * taps[i].value;
             total += 3.0 / 16.0;
         }
-    return sum / total;
+    return fmin(fmax(sum / total, taps[4].value - c->most), taps[4].value + c->most);
 }
 
 void wide_blur_model(const paired_map *map, bool orthographic, const pass_constants *constants, int x, int y,
                      double *out_low, double *out_high)
 {
     static const int ways[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
-    texel taps[5];
+    cross c = {.most = constants->most};
+    texel *taps = c.taps;
     taps[4] = texel_at(map, x, y);
     const double tolerance = fmax(in_linear(constants->tolerance, taps[4].linear, orthographic),
                                   step_in_linear(1.0, taps[4].linear, orthographic, constants));
@@ -217,13 +224,14 @@ void wide_blur_model(const paired_map *map, bool orthographic, const pass_consta
     }
     for (int i = 0; i < 2; ++i) {
         /* Towards the eye, distance falls and its inverse grows. */
-        const double a = taps[2 * i].linear, b = taps[4].linear, c = taps[2 * i + 1].linear;
-        const bool hollow = orthographic ? a + c < 2.0 * b : a + c > 2.0 * b;
-        tests[ON_ROW + i] = on_line(a, b, c, hollow ? in_linear(constants->hollow, b, orthographic) : tolerance);
+        const double before = taps[2 * i].linear, b = taps[4].linear, after = taps[2 * i + 1].linear;
+        const bool hollow = orthographic ? before + after < 2.0 * b : before + after > 2.0 * b;
+        tests[ON_ROW + i] =
+            on_line(before, b, after, hollow ? in_linear(constants->hollow, b, orthographic) : tolerance);
     }
     *out_low = HUGE_VAL;
     *out_high = -HUGE_VAL;
-    each_outcome(tests, WIDE_TESTS, blurred_wide, taps, out_low, out_high);
+    each_outcome(tests, WIDE_TESTS, blurred_wide, &c, out_low, out_high);
 }
 
 /* Joins 0 to 3, near 4 to 7, on the plane of all four 8; the rest: whether each may be the nearest. */

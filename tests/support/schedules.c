@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "schedules.h"
 
-enum { DEPTH_NAME = 1, NORMAL_NAME, BACK_NAME, SECOND_NAME, RAYS_NAME };
+enum { DEPTH_NAME = 1, NORMAL_NAME, BACK_NAME, SECOND_NAME, MOTION_NAME, RAYS_NAME };
 
 glssao__request schedules_request(glssao_frame *frame, glssao_settings *settings, int width, int height)
 {
@@ -52,7 +52,8 @@ static void visit_inputs(visitor *v, glssao__request *q, glssao_frame *frame)
  * tiles. */
 static void visit_capabilities(visitor *v, glssao__request *q, glssao_frame *frame, glssao_settings *settings)
 {
-    const int both = settings->technique == GLSSAO_HORIZON && frame->rays_texture == 0 ? 2 : 1;
+    const bool can_bend = settings->technique == GLSSAO_HORIZON && frame->rays_texture == 0 && settings->history == 0;
+    const int both = can_bend ? 2 : 1;
     for (int bent = 0; bent < both; ++bent)
         for (int can = 0; can < 3; ++can) {
             settings->bent_normals = bent;
@@ -85,6 +86,16 @@ int schedules_visit(void (*function)(const glssao__request *request, const glssa
                     frame.rays_texture = technique == GLSSAO_RAYS || rounds == 3 ? RAYS_NAME : 0;
                     if (technique != GLSSAO_RAYS || blur == GLSSAO_BLUR_NONE || blur == GLSSAO_BLUR_PLANAR)
                         visit_capabilities(&v, &q, &frame, &settings);
+                    frame.rays_texture = 0;
+                    if (technique == GLSSAO_RAYS || rounds < 1 || rounds > 2) /* rays have no history */
+                        continue;
+                    settings.noise_index = 3;
+                    settings.history = size < 2 ? 16 : 0;
+                    frame.motion_texture = rounds == 1 ? MOTION_NAME : 0;
+                    q.frames = rounds;
+                    visit_capabilities(&v, &q, &frame, &settings);
+                    frame.motion_texture = 0;
+                    q.frames = 0;
                 }
     frame.margin = 0;
     frame.rays_texture = 0;

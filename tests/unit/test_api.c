@@ -239,6 +239,8 @@ static void compute_refuses_bad_settings(void **state)
     REFUSED(sample_count, 15);
     REFUSED(blur_rounds, -1);
     REFUSED(blur_rounds, 17);
+    REFUSED(history, -1);
+    REFUSED(history, 64);
     REFUSED(blur_sigma, 0.0f);
     REFUSED(blur_sigma, 3.0f);
     REFUSED(blur_normal_threshold, 1.5f);

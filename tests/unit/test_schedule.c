@@ -50,11 +50,11 @@ static void levels_have_their_steps(void **state)
     s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_ULTRA);
     assert_steps(&q, "distance! horizon! planar-tile!");
     q.can.path = GLSSAO_PATH_FRAGMENT;
-    assert_steps(&q, "distance horizon planar-blur planar-blur");
+    assert_steps(&q, "distance horizon planar-blur planar-blur planar-blur");
     s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
-    assert_steps(&q, "distance horizon planar-blur planar-blur upsample spread");
+    assert_steps(&q, "distance horizon planar-blur planar-blur planar-blur upsample spread");
     frame.normal_texture = 0;
-    assert_steps(&q, "normals distance horizon planar-blur planar-blur upsample spread");
+    assert_steps(&q, "normals distance horizon planar-blur planar-blur planar-blur upsample spread");
     s = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_MEDIUM);
     assert_steps(&q, "normals classic blur blur blur blur");
     s = glssao_default_settings(GLSSAO_HEMISPHERE, GLSSAO_HIGH);
@@ -68,9 +68,9 @@ static void tiles_add_their_steps(void **state)
     glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     glssao__request q = schedules_request(&frame, &s, 1280, 720);
     q.can.is_software = true;
-    assert_steps(&q,
-                 "distance tile-rows tile-bounds tile-class tile-rings =1 =1 =1 horizon open planar-blur planar-blur "
-                 "upsample spread");
+    assert_steps(&q, "distance tile-rows tile-bounds tile-class tile-rings =1 =1 =1 horizon open planar-blur "
+                     "planar-blur planar-blur "
+                     "upsample spread");
     s = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_LOW);
     assert_steps(&q, "tile-rows tile-bounds tile-class tile-rings =1 =1 classic blur blur");
     q.size[0] = 160; /* too few tiles to pay */
@@ -93,13 +93,22 @@ static void rare_settings_cost_nothing_unused(void **state)
         s.fade_far_end = s.radius_in_pixels ? 9.0f : 0.0f;
         glssao__schedule schedule;
         glssao__schedule_make(&schedule, &q);
-        int growing = 0;
+        const bool grows = (i & 6) == 2;
         for (int k = 0; k < schedule.count; ++k) {
             const uint8_t *values = schedule.steps[k].variant.values;
             assert_true(!values[MACRO_TURNED] && !values[MACRO_OBLIQUE]);
-            growing += values[MACRO_RADIUS_GROWS];
+            switch (schedule.steps[k].shader) {
+            case SHADER_DISTANCE:
+            case SHADER_HORIZON:
+            case SHADER_PLANAR_BLUR:
+            case SHADER_PLANAR_TILE:
+            case SHADER_UPSAMPLE:
+                assert_true(values[MACRO_RADIUS_GROWS] == grows);
+                break;
+            default:
+                assert_false(values[MACRO_RADIUS_GROWS]);
+            }
         }
-        assert_true((growing > 0) == ((i & 6) == 2));
     }
 }
 
@@ -233,8 +242,9 @@ static void rays_correct_an_estimate(void **state)
                  "planar-tile!");
     q.can.path = GLSSAO_PATH_FRAGMENT;
     q.can.is_software = true;
-    assert_steps(&q, "distance horizon planar-blur planar-blur rays planar-blur planar-blur planar-blur planar-blur "
-                     "correct upsample spread");
+    assert_steps(
+        &q, "distance horizon planar-blur planar-blur planar-blur rays planar-blur planar-blur planar-blur planar-blur "
+            "correct upsample spread");
     s = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_LOW);
     s.half_resolution = false; /* one round more */
     assert_steps(&q, "classic blur blur rays planar-blur planar-blur planar-blur planar-blur planar-blur planar-blur "
@@ -257,6 +267,36 @@ static void no_rays_cost_nothing(void **state)
     for (int i = 0; i < schedule.count; ++i)
         assert_true(schedule.steps[i].variant.values[MACRO_RAYS] == 0 &&
                     schedule.steps[i].variant.values[MACRO_STRIDE] == 0);
+}
+
+static void history_takes_the_place_of_upsampling(void **state)
+{
+    (void)state;
+    glssao_frame frame;
+    glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
+    glssao__request q = schedules_request(&frame, &s, 64, 48);
+    s.history = 16;
+    assert_steps(&q, "distance! horizon! planar-tile! history! steady!");
+    glssao__schedule first, second;
+    glssao__schedule_make(&first, &q);
+    q.frames = 1;
+    glssao__schedule_make(&second, &q);
+    assert_int_equal(first.maps[MAP_DISTANCE].width, 64); /* though the estimate has half the size */
+    assert_int_equal(first.steps[1].region.width, 32);
+    assert_int_equal(first.steps[3].target, MAP_HISTORY_0);
+    assert_int_equal(second.steps[3].target, MAP_HISTORY_1);
+    assert_int_equal(first.result, MAP_RESULT);
+    q.can.path = GLSSAO_PATH_FRAGMENT;
+    assert_steps(&q, "distance horizon planar-blur planar-blur planar-blur history steady");
+    s = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_LOW);
+    s.history = 4;
+    assert_steps(&q, "classic blur blur history steady");
+    q.can.is_software = true; /* tiles that get no estimate are open in both maps that the history reads */
+    q.size[0] = 1280;
+    q.size[1] = 720;
+    assert_steps(&q, "tile-rows tile-bounds tile-class tile-rings =1 =1 =1 classic open blur blur history steady");
+    s.history = 0;
+    assert_steps(&q, "tile-rows tile-bounds tile-class tile-rings =1 =1 classic blur blur");
 }
 
 static void nothing_is_only_cleared(void **state)
@@ -302,7 +342,8 @@ static void check_rules(const glssao__request *q, const glssao__schedule *s, voi
             const enum glssao__map map = step->reads[k].map;
             assert_true(map != MAP_NONE && map != step->target && map != step->second); /* no feedback loop */
             assert_true(map < MAP_FIRST_TARGET || s->maps[map].format);                 /* it exists */
-            assert_true(map < MAP_FIRST_TARGET || is_written[map]);                     /* by this frame */
+            assert_true(map < MAP_FIRST_TARGET || is_written[map] ||
+                        step->reads[k].unit == UNIT_HISTORY); /* by this frame; the history by the last one */
             for (int j = 0; j < k; ++j)
                 assert_true(step->reads[j].unit != step->reads[k].unit || step->reads[j].map == map);
         }
@@ -410,6 +451,7 @@ int main(void)
         cmocka_unit_test(rounds_of_rays_widen),
         cmocka_unit_test(rays_correct_an_estimate),
         cmocka_unit_test(no_rays_cost_nothing),
+        cmocka_unit_test(history_takes_the_place_of_upsampling),
         cmocka_unit_test(nothing_is_only_cleared),
         cmocka_unit_test(all_schedules_keep_the_rules),
         cmocka_unit_test(default_frames_have_at_most_twenty_steps),

@@ -158,7 +158,13 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     glssao_tiles tiles;            /* the picture is the same with and without, within a step of R16 */
     /* For teaching: */
     bool no_angle_weight;          /* classic: occluders count at any angle, so flat surfaces darken */
-    /* Appended later: */
+    /* Over time: */
+    uint32_t noise_index;          /* another pattern of noise for each value, for instance the number of the frame where
+                                      the host averages frames itself (TAA); 0: the pattern of docs/decisions/0028 */
+    int history;                   /* 0 to 63: earlier frames are reused, and at most so many count in a pixel's mean; 0:
+                                      none. The result has the full size. Needs frame.view; not with rays or bent normals.
+                                      docs/integration.md has more */
+    /* How far occlusion reaches: */
     float thickness;               /* horizon: multiplies the thickness that is estimated for occluders, 0.001 to 1000; 0: 1.
                                       What a second layer tells stays */
     float fade_far_start, fade_far_end; /* scene units of view distance, 0 <= start <= end: occlusion is full up to start and
@@ -210,7 +216,11 @@ typedef struct glssao_frame { /* zero a field that you don't use */
                                   back, second) or 16 (normals) of memory */
     int viewport[4];           /* x, y, width, height, pixels: where the picture lies in larger textures; width and height
                                   are the effect's full size. Each texture is copied, as above. All 0: the whole texture */
-    float view[16];            /* view_from_world, column-major; for world_normals */
+    float view[16];            /* view_from_world, column-major; for world_normals, and where settings.history > 0 */
+    uint32_t motion_texture;   /* settings.history > 0, or 0: for things that move by themselves. Float format, full size, red
+                                  and green: uv of the point now minus its uv in the last frame, the camera's motion
+                                  included. A value outside -2..2 leaves the pixel to view */
+    bool cut;                  /* settings.history > 0: nothing of the earlier frames holds */
     bool world_normals;        /* true: normal_texture is in world space. view turns each normal as it is read */
     uint32_t rays_texture;     /* linear accessibility in red from a few rays a texel, unbiased (from Embree, from hardware ray
                                   tracing): GL_TEXTURE_2D of R8, R16, R16F or R32F, full or half size, where a texel belongs
@@ -277,6 +287,7 @@ typedef enum glssao_pass { /* in the order of the frame */
     GLSSAO_PASS_BLUR,        /* all rounds */
     GLSSAO_PASS_RAYS,        /* corrects the estimate by the host's rays */
     GLSSAO_PASS_UPSAMPLE,    /* brings a half-size result to full size */
+    GLSSAO_PASS_HISTORY,     /* the mean of this frame and earlier ones, at full size */
     GLSSAO_PASS_APPLY,       /* glssao_apply: multiplies accessibility into colour */
     GLSSAO_PASS_COUNT
 } glssao_pass;

@@ -32,9 +32,15 @@ glssao__region glssao__region_of(const glssao__choice *c, glssao_pass pass)
     case GLSSAO_PASS_INPUTS:
         return whole(c->size);
     case GLSSAO_PASS_DISTANCE: /* occluders are looked for in the margin too */
+        return whole(c->is_dense ? c->size : c->estimate);
     case GLSSAO_PASS_TILES:
         return whole(c->estimate);
+    case GLSSAO_PASS_NORMALS:
+        if (c->is_dense)
+            return grown(glssao__region_inner(c->size, c->margin), c->factor * c->reach, c->size);
+        return glssao__region_of(c, GLSSAO_PASS_ESTIMATE);
     case GLSSAO_PASS_UPSAMPLE:
+    case GLSSAO_PASS_HISTORY:
         return glssao__region_inner(c->size, c->margin);
     default:
         return grown(glssao__region_inner(c->estimate, c->estimate_margin), c->reach, c->estimate);
@@ -110,12 +116,14 @@ void glssao__build_tiles(const glssao__builder *b, glssao__step *step, int facto
 /* The map that holds the value after so many of the passes that draw by turns. */
 enum glssao__map glssao__build_turn_map(const glssao__builder *b, int number)
 {
+    if (number == 0 && b->c.has_history)
+        return MAP_RAW;
     return (enum glssao__map)((b->c.paired ? MAP_PAIRED_0 : MAP_AMBIENT_0) + number % 2);
 }
 
 bool glssao__build_has_more(const glssao__builder *b)
 {
-    return b->c.upsamples || b->c.corrects;
+    return b->c.upsamples || b->c.corrects || b->c.has_history;
 }
 
 /* A step that draws the `number`-th turn, or the result. */

@@ -12,7 +12,7 @@ typedef struct glssao__builder {
     glssao__choice c;
     const glssao_frame *frame;
     const glssao_settings *settings;
-    int estimates; /* as in glssao__request */
+    int estimates, frames; /* as in glssao__request */
 } glssao__builder;
 
 /* A map without its margin. */

@@ -14,10 +14,10 @@ enum {
 };
 
 static const char *const pass_names[GLSSAO_PASS_COUNT] = {
-    [GLSSAO_PASS_INPUTS] = "inputs", [GLSSAO_PASS_NORMALS] = "normals",   [GLSSAO_PASS_DISTANCE] = "distance",
-    [GLSSAO_PASS_TILES] = "tiles",   [GLSSAO_PASS_ESTIMATE] = "estimate", [GLSSAO_PASS_RESOLVE] = "resolve",
-    [GLSSAO_PASS_BLUR] = "blur",     [GLSSAO_PASS_RAYS] = "rays",         [GLSSAO_PASS_UPSAMPLE] = "upsample",
-    [GLSSAO_PASS_APPLY] = "apply",
+    [GLSSAO_PASS_INPUTS] = "inputs",   [GLSSAO_PASS_NORMALS] = "normals",   [GLSSAO_PASS_DISTANCE] = "distance",
+    [GLSSAO_PASS_TILES] = "tiles",     [GLSSAO_PASS_ESTIMATE] = "estimate", [GLSSAO_PASS_RESOLVE] = "resolve",
+    [GLSSAO_PASS_BLUR] = "blur",       [GLSSAO_PASS_RAYS] = "rays",         [GLSSAO_PASS_UPSAMPLE] = "upsample",
+    [GLSSAO_PASS_HISTORY] = "history", [GLSSAO_PASS_APPLY] = "apply",
 };
 
 const char *glssao__pass_name(glssao_pass pass)
@@ -83,7 +83,7 @@ bool glssao__choose_dispatches(const glssao__capabilities *can)
 static bool can_be_dispatched(const glssao__choice *c, glssao_pass pass)
 {
     return pass == GLSSAO_PASS_NORMALS || pass == GLSSAO_PASS_DISTANCE || pass == GLSSAO_PASS_BLUR ||
-           pass == GLSSAO_PASS_RAYS || pass == GLSSAO_PASS_UPSAMPLE ||
+           pass == GLSSAO_PASS_RAYS || pass == GLSSAO_PASS_HISTORY || pass == GLSSAO_PASS_UPSAMPLE ||
            (pass == GLSSAO_PASS_ESTIMATE && (c->is_horizon || c->is_rays) &&
             !c->accumulates); /* a sum is added to by blending */
 }
@@ -137,7 +137,9 @@ static void choose_blur(glssao__choice *c, const glssao__request *q)
 static void choose_passes(glssao__choice *c, const glssao__request *q)
 {
     const glssao_frame *frame = q->frame;
-    const bool any_copy = c->copies[0] || c->copies[1] || c->copies[2] || c->copies[3];
+    bool any_copy = false;
+    for (int i = 0; i < HOST_TEXTURES; ++i)
+        any_copy = any_copy || c->copies[i];
     choose_pass(c, GLSSAO_PASS_INPUTS, any_copy,
                 c->is_oblique ? "the near plane is oblique: turns depth into view distance first"
                 : any_copy    ? "resolves multisampling, viewport or logarithmic depth first"
@@ -158,8 +160,13 @@ static void choose_passes(glssao__choice *c, const glssao__request *q)
                              : "the host brings no rays");
     choose_pass(c, GLSSAO_PASS_UPSAMPLE, c->upsamples,
                 c->upsamples     ? "from half size to full size along surfaces"
+                : c->has_history ? "the history brings the result to full size"
                 : c->factor == 2 ? "the host takes the half-size map"
                                  : "the estimate is at full size");
+    choose_pass(c, GLSSAO_PASS_HISTORY, c->has_history,
+                !c->has_history ? "settings.history is 0: each frame stands alone"
+                : q->frames > 0 ? "the mean of this frame and earlier ones"
+                                : "the history begins with this frame");
     const char *refusal = tiles_refusal(c, q);
     c->has_tiles = refusal == NULL;
     choose_pass(c, GLSSAO_PASS_TILES, c->has_tiles,
@@ -177,8 +184,10 @@ static void choose_copies(glssao__choice *c, const glssao__request *q)
     c->is_oblique = q->is_oblique && frame->depth_kind == GLSSAO_DEPTH_WINDOW;
     const bool depth = c->is_oblique || frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC;
     glssao__host_names(frame, c->host_names);
+    if (!c->has_history)
+        c->host_names[HOST_MOTION] = 0;
     for (int i = 0; i < HOST_RAYS; ++i) /* rays are a picture of their own */
-        c->copies[i] = c->host_names[i] != 0 && (all || (depth && i != HOST_NORMAL));
+        c->copies[i] = c->host_names[i] != 0 && (all || (depth && i != HOST_NORMAL && i != HOST_MOTION));
 }
 
 /* Where depth and normals are read from, and how they are stored there. */
@@ -189,6 +198,8 @@ static void choose_inputs(glssao__choice *c, const glssao__request *q)
     c->normals = !frame->normal_texture ? MAP_REBUILT : c->copies[HOST_NORMAL] ? MAP_NORMAL_COPY : MAP_HOST_NORMAL;
     c->depth = in_alpha ? c->normals : c->copies[HOST_DEPTH] ? MAP_DEPTH_COPY : MAP_HOST_DEPTH;
     c->inputs.values[MACRO_NORMALS] = frame->normal_texture ? (uint8_t)frame->normal_kind : NORMALS_REBUILT;
+    c->inputs.values[MACRO_VARIES] = c->has_history || (q->settings->noise_index != 0 && q->estimates == 0);
+    c->inputs.values[MACRO_DENSE] = c->is_dense;
     const bool is_window = glssao__projection_reads_window_depth(frame, q->is_oblique);
     c->inputs.values[MACRO_DEPTH] = in_alpha ? DEPTH_ALPHA : is_window ? DEPTH_WINDOW : DEPTH_DISTANCE;
     c->inputs.values[MACRO_TURNED] = q->is_turned || (frame->normal_texture && frame->world_normals);
@@ -209,7 +220,7 @@ static void choose_reach(glssao__choice *c, const glssao_settings *settings)
         c->reach = first + later * (settings->blur_rounds - 1);
     for (int i = 0; i < c->rays_rounds; ++i)
         c->reach += 2 << glssao__rays_stride(i);
-    c->reach += c->upsamples ? 1 : 0;
+    c->reach += c->upsamples || (c->has_history && c->factor == 2) ? 1 : 0;
     c->tile_rings = (c->reach + TILE_SIDE - 1) / TILE_SIDE;
 }
 
@@ -225,6 +236,7 @@ void glssao__choose(glssao__choice *c, const glssao__request *q)
     memset(c, 0, sizeof *c);
     for (int i = 0; i < 2; ++i)
         c->size[i] = q->size[i];
+    c->has_history = settings->history > 0 && q->estimates == 0;
     choose_copies(c, q);
     glssao__choose_estimate_size(settings, q->size, c->estimate);
     c->factor = settings->half_resolution ? 2 : 1;
@@ -232,6 +244,7 @@ void glssao__choose(glssao__choice *c, const glssao__request *q)
     c->estimate_margin = c->margin / c->factor;
     c->accumulates = q->estimates > 0;
     c->is_horizon = settings->technique == GLSSAO_HORIZON;
+    c->is_dense = c->has_history && c->factor == 2;
     c->is_planar = settings->blur == GLSSAO_BLUR_PLANAR;
     c->bent = settings->bent_normals;
     c->is_rays = settings->technique == GLSSAO_RAYS;
@@ -242,11 +255,12 @@ void glssao__choose(glssao__choice *c, const glssao__request *q)
     if (!nothing) {
         c->compute = chooses_compute(&q->can, settings->tiles, &c->plan.path_reason);
         c->plan.path = c->compute ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT;
-        c->upsamples = settings->half_resolution && settings->upsample;
+        c->upsamples = settings->half_resolution && settings->upsample && !c->has_history;
         choose_passes(c, q);
         choose_inputs(c, q);
         choose_reach(c, settings);
     }
-    c->paired = c->upsamples || c->corrects || c->bent || (c->blurs && c->is_planar);
-    c->result_apart = c->upsamples || c->margin > 0;
+    c->has_history = c->has_history && !nothing;
+    c->paired = c->upsamples || c->has_history || c->corrects || c->bent || (c->blurs && c->is_planar);
+    c->result_apart = c->upsamples || c->has_history || c->margin > 0;
 }

@@ -24,17 +24,19 @@ typedef struct glssao__choice {
     bool corrects;   /* the host's rays correct another estimate */
     bool is_oblique; /* window depth becomes view distance in a copy */
     bool blurs, upsamples, has_tiles;
+    bool has_history;  /* the result is the mean of this frame and earlier ones */
     bool paired;       /* later passes read paired values */
     bool result_apart; /* the result goes to a map of its own */
     int size[2], estimate[2];
-    int factor; /* full-size pixels to one of the estimate: 1 or 2 */
+    bool is_dense; /* distances and rebuilt normals have the full size, though the estimate has half of it */
+    int factor;    /* full-size pixels to one of the estimate: 1 or 2 */
     int margin, estimate_margin;
     int rays_rounds;                 /* of the blur of values from rays */
     int inner_rounds;                /* rounds of the blur within the dispatch that upsamples */
     int reach;                       /* texels of the estimate beyond a pixel that later passes read */
     int tile_rings;                  /* the same in tiles, rounded up */
-    gl_uint host_names[5];           /* as in glssao__schedule */
-    bool copies[5];                  /* which of the host's textures are copied, in the order of HOST_DEPTH and so on */
+    gl_uint host_names[HOST_MAPS];   /* as in glssao__schedule */
+    bool copies[HOST_MAPS];          /* which of the host's textures are copied, in the order of HOST_DEPTH and so on */
     enum glssao__map depth, normals; /* where the passes after the copying read them */
     glssao__variant inputs;          /* how these are stored, and what all variants have in common */
 } glssao__choice;

@@ -170,9 +170,14 @@ void glssao__add_correction(glssao__builder *b)
     glssao__build_finish(b, step);
 }
 
+enum glssao__map glssao__last_turn(const glssao__builder *b)
+{
+    return glssao__build_turn_map(b, count_turns(b));
+}
+
 void glssao__add_upsample(glssao__builder *b)
 {
-    const enum glssao__map from = glssao__build_turn_map(b, count_turns(b));
+    const enum glssao__map from = glssao__last_turn(b);
     const bool compute = b->c.plan.passes[GLSSAO_PASS_UPSAMPLE].compute;
     if (!compute)
         glssao__build_map(b, MAP_BLOCKS, "block", GL_RGBA16, b->c.estimate);

@@ -12,6 +12,8 @@ void glssao__build_rays(glssao__builder *b, glssao__step *step, bool is_last);
 
 void glssao__add_blur(glssao__builder *b);
 void glssao__add_correction(glssao__builder *b);
+/* The last map that the passes by turns drew into. */
+enum glssao__map glssao__last_turn(const glssao__builder *b);
 void glssao__add_upsample(glssao__builder *b);
 
 #endif

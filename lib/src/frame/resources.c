@@ -21,6 +21,7 @@ static const struct glssao__sampler_name sampler_names[] = {
     {"u_normal_map", UNIT_NORMAL},   {"u_depth_map", UNIT_DEPTH},       {"u_random_vector_map", UNIT_RANDOM_VECTOR},
     {"u_ambient_map", UNIT_AMBIENT}, {"u_distance_map", UNIT_DISTANCE}, {"u_back_map", UNIT_BACK},
     {"u_second_map", UNIT_SECOND},   {"u_input_map", UNIT_DEPTH},       {"u_tile_map", UNIT_TILES},
+    {"u_raw_map", UNIT_RAW},         {"u_history_map", UNIT_HISTORY},   {"u_motion_map", UNIT_MOTION},
     {"u_bent_map", UNIT_BACK},       {"u_other_map", UNIT_BACK},        {"u_bent_target", SECOND_IMAGE_UNIT},
     {"u_rays_map", UNIT_RAYS},       {"u_strength_map", UNIT_DEPTH},    {"u_albedo_map", UNIT_NORMAL}, /* apply.c */
 };

@@ -12,17 +12,22 @@
 
 static void add_copies(glssao__builder *b)
 {
-    static const char *const names[HOST_TEXTURES] = {"depth copy", "normal copy", "back copy", "second copy"};
+    static const char *const names[HOST_TEXTURES] = {"depth copy", "normal copy", "back copy", "second copy",
+                                                     "motion copy"};
     for (int i = 0; i < HOST_TEXTURES; ++i) {
         if (!b->c.copies[i])
             continue;
         const enum glssao__map copy = (enum glssao__map)(MAP_DEPTH_COPY + i);
-        glssao__build_map(b, copy, names[i], i == HOST_NORMAL ? GL_RGBA32F : GL_R32F, b->c.size);
+        glssao__build_map(b, copy, names[i],
+                          i == HOST_NORMAL   ? GL_RGBA32F
+                          : i == HOST_MOTION ? GL_RG32F
+                                             : GL_R32F,
+                          b->c.size);
         glssao__step *step = glssao__build_step(b, GLSSAO_PASS_INPUTS, SHADER_INPUT, copy);
         glssao__build_set(step, MACRO_MULTISAMPLE, b->frame->multisample);
         glssao__build_set(step, MACRO_LOGARITHMIC,
-                          b->frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC && i != HOST_NORMAL);
-        glssao__build_set(step, MACRO_OBLIQUE, b->c.is_oblique && i != HOST_NORMAL);
+                          b->frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC && i != HOST_NORMAL && i != HOST_MOTION);
+        glssao__build_set(step, MACRO_OBLIQUE, b->c.is_oblique && i != HOST_NORMAL && i != HOST_MOTION);
         step->origin[0] = b->frame->viewport[0];
         step->origin[1] = b->frame->viewport[1];
         glssao__build_point(step, UNIT_DEPTH, (enum glssao__map)(MAP_HOST_DEPTH + i));
@@ -31,7 +36,7 @@ static void add_copies(glssao__builder *b)
 
 static void add_normals(glssao__builder *b)
 {
-    glssao__build_map(b, MAP_REBUILT, "rebuilt normal", GL_RG32F, b->c.estimate);
+    glssao__build_map(b, MAP_REBUILT, "rebuilt normal", GL_RG32F, b->c.is_dense ? b->c.size : b->c.estimate);
     glssao__step *step = glssao__build_step(b, GLSSAO_PASS_NORMALS, SHADER_NORMALS, MAP_REBUILT);
     step->region = glssao__region_of(&b->c, GLSSAO_PASS_NORMALS);
     glssao__build_point(step, UNIT_DEPTH, b->c.depth);
@@ -47,7 +52,8 @@ static enum glssao__map layer_map(const glssao__builder *b, int host_texture)
 static void add_distance(glssao__builder *b)
 {
     const bool layers = b->frame->back_texture != 0;
-    glssao__build_map(b, MAP_DISTANCE, "distance", layers ? GL_RGBA32F : GL_R32F, b->c.estimate);
+    glssao__build_map(b, MAP_DISTANCE, "distance", layers ? GL_RGBA32F : GL_R32F,
+                      b->c.is_dense ? b->c.size : b->c.estimate);
     glssao__step *step = glssao__build_step(b, GLSSAO_PASS_DISTANCE, SHADER_DISTANCE, MAP_DISTANCE);
     glssao__build_set(step, MACRO_LAYERS, layers);
     glssao__build_point(step, UNIT_DEPTH, b->c.depth);
@@ -58,11 +64,17 @@ static void add_distance(glssao__builder *b)
     glssao__build_finish(b, step);
 }
 
+/* Whether tiles look occluders up in the depth map: the distance map has other texels, or there is none. */
+static bool reads_depth(const glssao__builder *b)
+{
+    return !b->c.is_horizon || b->c.is_dense;
+}
+
 static void add_tiles(glssao__builder *b)
 {
     const int columns = (b->c.estimate[0] + TILE_SIDE - 1) / TILE_SIDE,
               rows = (b->c.estimate[1] + TILE_SIDE - 1) / TILE_SIDE;
-    const int tiles[2] = {columns, rows}, lines[2] = {columns, b->c.is_horizon ? b->c.estimate[1] : b->c.size[1]};
+    const int tiles[2] = {columns, rows}, lines[2] = {columns, reads_depth(b) ? b->c.size[1] : b->c.estimate[1]};
     glssao__build_map(b, MAP_TILE_ROWS, "tile row", GL_RGBA32F, lines);
     glssao__build_map(b, MAP_TILE_BOUNDS, "tile bound", GL_RGBA32F, tiles);
     glssao__build_map(b, MAP_TILE_CLASS, "tile class", GL_R32F, tiles);
@@ -73,18 +85,20 @@ static void add_tiles(glssao__builder *b)
         glssao__build_surfaces(b, step);
         if (i > 0)
             glssao__build_point(step, UNIT_AMBIENT, (enum glssao__map)(MAP_TILE_ROWS + i - 1));
-        glssao__build_set(step, MACRO_FROM_DEPTH, !b->c.is_horizon);
+        glssao__build_set(step, MACRO_FROM_DEPTH, reads_depth(b));
         glssao__build_set(step, MACRO_PLANES, b->settings->technique != GLSSAO_CLASSIC);
         glssao__build_finish(b, step);
     }
     /* What no later pass draws is 1. */
+    if (b->c.has_history)
+        glssao__build_clear(b, GLSSAO_PASS_TILES, MAP_RAW, STEP_CLEAR_TO_OPEN);
     for (int i = 0; i < 2; ++i) {
         if (b->c.paired)
             glssao__build_clear(b, GLSSAO_PASS_TILES, (enum glssao__map)(MAP_PAIRED_0 + i), STEP_CLEAR_TO_OPEN);
         if (!b->c.paired || !b->c.result_apart)
             glssao__build_clear(b, GLSSAO_PASS_TILES, (enum glssao__map)(MAP_AMBIENT_0 + i), STEP_CLEAR_TO_OPEN);
     }
-    if (b->c.result_apart)
+    if (b->c.result_apart && !b->c.has_history)
         glssao__build_clear(b, GLSSAO_PASS_TILES, MAP_RESULT, STEP_CLEAR_TO_OPEN);
 }
 
@@ -134,7 +148,7 @@ static void add_estimate(glssao__builder *b)
     /* The values of open pixels that later passes read. */
     step = glssao__build_turn(b, GLSSAO_PASS_ESTIMATE, SHADER_OPEN, 0, false);
     glssao__build_surfaces(b, step);
-    glssao__build_set(step, MACRO_FROM_DEPTH, !b->c.is_horizon);
+    glssao__build_set(step, MACRO_FROM_DEPTH, reads_depth(b));
     glssao__build_finish(b, step);
     glssao__build_tiles(b, step, 1, 1, b->c.bent ? MOST_RINGS : b->c.tile_rings + 2);
 }
@@ -160,6 +174,32 @@ static void add_resolve(glssao__builder *b)
     glssao__build_surfaces(b, step);
     read_sums(b, step);
     glssao__build_finish(b, step);
+}
+
+static void add_history(glssao__builder *b)
+{
+    const enum glssao__map last = b->frames % 2 ? MAP_HISTORY_0 : MAP_HISTORY_1,
+                           next = b->frames % 2 ? MAP_HISTORY_1 : MAP_HISTORY_0;
+    glssao__build_map(b, last, "history", GL_RGBA32F, b->c.size);
+    glssao__build_map(b, next, "history", GL_RGBA32F, b->c.size);
+    glssao__step *step = glssao__build_step(b, GLSSAO_PASS_HISTORY, SHADER_HISTORY, next);
+    step->region = glssao__region_of(&b->c, GLSSAO_PASS_HISTORY);
+    glssao__build_point(step, UNIT_NORMAL, b->c.normals);
+    glssao__build_point(step, UNIT_DEPTH, b->c.depth);
+    glssao__build_point(step, UNIT_AMBIENT, glssao__last_turn(b));
+    glssao__build_point(step, UNIT_RAW, MAP_RAW);
+    glssao__build_point(step, UNIT_HISTORY, last);
+    if (b->frame->motion_texture) {
+        glssao__build_point(step, UNIT_MOTION, layer_map(b, HOST_MOTION));
+        glssao__build_set(step, MACRO_MOTION, 1);
+    }
+    glssao__build_set(step, MACRO_UPSAMPLE, b->c.factor == 2);
+    glssao__build_finish(b, step);
+    step = glssao__build_step(b, GLSSAO_PASS_HISTORY, SHADER_STEADY, MAP_RESULT);
+    glssao__build_point(step, UNIT_HISTORY, next);
+    glssao__build_finish(b, step);
+    step->origin[0] = b->s->delivered.x;
+    step->origin[1] = b->s->delivered.y;
 }
 
 /* Counts draws and dispatches, and says how much of its map each pass covers. */
@@ -200,7 +240,7 @@ static void place_barriers(glssao__schedule *s)
 static void set_results(glssao__builder *b)
 {
     const glssao__choice *c = &b->c;
-    const bool half_result = c->factor == 2 && !c->upsamples;
+    const bool half_result = c->factor == 2 && !c->upsamples && !c->has_history;
     b->s->delivered =
         half_result ? glssao__region_inner(c->estimate, c->estimate_margin) : glssao__region_inner(c->size, c->margin);
     for (int i = 0; i < 2; ++i) {
@@ -214,6 +254,8 @@ static void set_results(glssao__builder *b)
         glssao__build_map(b, MAP_RESULT, "result", GL_R16, delivered);
     if (c->bent)
         glssao__build_map(b, MAP_BENT, "bent normal", GL_RGBA16F, delivered);
+    if (c->has_history)
+        glssao__build_map(b, MAP_RAW, "raw ambient", GL_RG32F, c->estimate);
     if (c->accumulates)
         glssao__build_map(b, MAP_SUM, "accumulation", c->bent ? GL_RGBA32F : GL_RG32F, c->size);
     if (c->accumulates && c->bent)
@@ -245,8 +287,10 @@ void glssao__schedule_make(glssao__schedule *out, const glssao__request *q)
         [GLSSAO_PASS_BLUR] = glssao__add_blur,
         [GLSSAO_PASS_RAYS] = glssao__add_correction,
         [GLSSAO_PASS_UPSAMPLE] = glssao__add_upsample,
+        [GLSSAO_PASS_HISTORY] = add_history,
     };
-    glssao__builder b = {.s = out, .frame = q->frame, .settings = q->settings, .estimates = q->estimates};
+    glssao__builder b = {
+        .s = out, .frame = q->frame, .settings = q->settings, .estimates = q->estimates, .frames = q->frames};
     memset(out, 0, sizeof *out);
     glssao__choose(&b.c, q);
     memcpy(out->host_names, b.c.host_names, sizeof out->host_names);
@@ -255,6 +299,7 @@ void glssao__schedule_make(glssao__schedule *out, const glssao__request *q)
     out->has_tiles = b.c.has_tiles;
     out->tile_rings = b.c.tile_rings;
     memcpy(out->estimate_size, b.c.estimate, sizeof out->estimate_size);
+    out->map_factor = b.c.is_dense ? 1 : b.c.factor;
     set_results(&b);
     if (b.c.nothing) {
         add_open_result(&b);
@@ -274,6 +319,8 @@ void glssao__schedule_make(glssao__schedule *out, const glssao__request *q)
 glssao_settings glssao__schedule_accumulated(const glssao_settings *settings)
 {
     glssao_settings s = *settings;
+    s.noise_index = 0;
+    s.history = 0;
     s.half_resolution = false;
     s.upsample = false;
     s.tiles = GLSSAO_TILES_OFF; /* every pixel is added to the sums */

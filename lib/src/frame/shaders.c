@@ -20,42 +20,44 @@ static const struct macro {
 #undef ROW
 };
 
-#define BIT(macro) (1u << MACRO_##macro)
+#define BIT(macro) (UINT64_C(1) << MACRO_##macro)
 
 enum { FILES = 10 };
 
 /* What each shader is assembled from, in order, and which macros it tests. */
 static const struct shader {
     const char *name;
-    unsigned tests;
+    uint64_t tests;
     const char *files[FILES];
 } shaders[SHADER_COUNT] = {
     [SHADER_INPUT] = {"input",
                       BIT(MULTISAMPLE) | BIT(LOGARITHMIC) | BIT(OBLIQUE),
                       {shader_pixel_glsl, shader_input_frag}},
     [SHADER_NORMALS] = {"normals",
-                        BIT(DEPTH) | BIT(PERSPECTIVE) | BIT(COMPUTE) | BIT(TURNED),
+                        BIT(DENSE) | BIT(DEPTH) | BIT(PERSPECTIVE) | BIT(COMPUTE) | BIT(TURNED),
                         {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normals_frag,
                          shader_entry_glsl}},
     [SHADER_DISTANCE] = {"distance",
-                         BIT(RADIUS_GROWS) | BIT(DEPTH) | BIT(LAYERS) | BIT(COMPUTE),
+                         BIT(RADIUS_GROWS) | BIT(DEPTH) | BIT(LAYERS) | BIT(COMPUTE) | BIT(VARIES) | BIT(DENSE),
                          {shader_pixel_glsl, shader_depth_glsl, shader_distance_frag, shader_entry_glsl}},
     [SHADER_OPEN] = {"open",
-                     BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(FROM_DEPTH) | BIT(BENT),
+                     BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(FROM_DEPTH) | BIT(BENT) | BIT(VARIES) | BIT(DENSE),
                      {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                       shader_paired_glsl, shader_open_frag}},
     [SHADER_CLASSIC] = {"classic",
                         BIT(RADIUS_GROWS) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(NO_ANGLE_WEIGHT) |
-                            BIT(OUTPUT),
+                            BIT(OUTPUT) | BIT(VARIES) | BIT(DENSE),
                         {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_depth_filter_glsl,
                          shader_normal_map_glsl, shader_paired_glsl, shader_classic_frag}},
     [SHADER_HEMISPHERE] = {"hemisphere",
-                           BIT(RADIUS_GROWS) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(OUTPUT),
+                           BIT(RADIUS_GROWS) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(OUTPUT) | BIT(VARIES) |
+                               BIT(DENSE),
                            {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_depth_filter_glsl,
                             shader_normal_map_glsl, shader_paired_glsl, shader_hemisphere_frag}},
     [SHADER_HORIZON] = {"horizon",
                         BIT(RADIUS_GROWS) | BIT(NORMALS) | BIT(TURNED) | BIT(STEPS) | BIT(SLICES) | BIT(OUTPUT) |
-                            BIT(LAYERS) | BIT(COMPUTE) | BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(LOOPS) | BIT(BENT),
+                            BIT(LAYERS) | BIT(COMPUTE) | BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(LOOPS) | BIT(BENT) |
+                            BIT(VARIES) | BIT(DENSE),
                         {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                          shader_bent_glsl, shader_paired_glsl, shader_horizon_frag, shader_entry_glsl}},
     [SHADER_RESOLVE] = {"resolve",
@@ -64,7 +66,8 @@ static const struct shader {
                          shader_bent_glsl, shader_paired_glsl, shader_resolve_frag, shader_entry_glsl}},
     [SHADER_PROBE] = {"probe", BIT(BENT), {shader_pixel_glsl, shader_depth_glsl, shader_probe_frag}},
     [SHADER_BLUR] = {"blur",
-                     BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(FILTER) | BIT(OUTPUT) | BIT(COMPUTE) | BIT(BENT),
+                     BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(FILTER) | BIT(OUTPUT) | BIT(COMPUTE) | BIT(BENT) |
+                         BIT(VARIES) | BIT(DENSE),
                      {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                       shader_bent_glsl, shader_paired_glsl, shader_blur_frag, shader_entry_glsl}},
     [SHADER_PLANAR_BLUR] = {"planar-blur",
@@ -75,8 +78,8 @@ static const struct shader {
                              shader_bent_glsl, shader_paired_glsl, shader_planar_blur_glsl, shader_planar_blur_frag,
                              shader_entry_glsl}},
     [SHADER_PLANAR_TILE] = {"planar-tile",
-                            BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(OUTPUT) | BIT(COMPUTE) | BIT(UPSAMPLE) |
-                                BIT(ROUNDS) | BIT(WIDE) | BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(BENT),
+                            BIT(RADIUS_GROWS) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(OUTPUT) | BIT(COMPUTE) |
+                                BIT(UPSAMPLE) | BIT(ROUNDS) | BIT(WIDE) | BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(BENT),
                             {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                              shader_bent_glsl, shader_paired_glsl, shader_planar_blur_glsl, shader_upsample_glsl,
                              shader_planar_tile_comp}},
@@ -95,19 +98,32 @@ static const struct shader {
     [SHADER_CORRECT] = {"correct",
                         BIT(OUTPUT) | BIT(COMPUTE),
                         {shader_pixel_glsl, shader_paired_glsl, shader_correct_frag, shader_entry_glsl}},
+    [SHADER_HISTORY] = {"history",
+                        BIT(DENSE) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PERSPECTIVE) | BIT(BRANCHES) |
+                            BIT(COMPUTE) | BIT(UPSAMPLE) | BIT(MOTION),
+                        {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
+                         shader_paired_glsl, shader_upsample_glsl, shader_history_glsl, shader_history_frag,
+                         shader_entry_glsl}},
+    [SHADER_STEADY] = {"steady",
+                       BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(COMPUTE),
+                       {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_paired_glsl,
+                        shader_history_glsl, shader_steady_frag, shader_entry_glsl}},
     [SHADER_APPLY] = {"apply",
                       BIT(COMPUTE) | BIT(STRENGTH) | BIT(ALBEDO) | BIT(TINTED) | BIT(IMAGE),
                       {shader_apply_frag}},
     [SHADER_TILE_ROWS] = {"tile-rows",
-                          BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PLANES) | BIT(FROM_DEPTH),
+                          BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PLANES) | BIT(FROM_DEPTH) | BIT(VARIES) |
+                              BIT(DENSE),
                           {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                            shader_tile_map_glsl, shader_tile_rows_frag}},
     [SHADER_TILE_BOUNDS] = {"tile-bounds",
-                            BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PLANES) | BIT(FROM_DEPTH),
+                            BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PLANES) | BIT(FROM_DEPTH) | BIT(VARIES) |
+                                BIT(DENSE),
                             {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                              shader_tile_map_glsl, shader_tile_bounds_frag}},
     [SHADER_TILE_CLASS] = {"tile-class",
-                           BIT(RADIUS_GROWS) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PLANES) | BIT(FROM_DEPTH),
+                           BIT(RADIUS_GROWS) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PLANES) | BIT(FROM_DEPTH) |
+                               BIT(VARIES) | BIT(DENSE),
                            {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                             shader_tile_map_glsl, shader_tile_class_frag}},
     [SHADER_TILE_RINGS] = {"tile-rings", 0, {shader_tile_rings_frag}},
@@ -147,7 +163,7 @@ const char *glssao__shader_name(enum glssao__shader shader)
 
 bool glssao__shader_tests(enum glssao__shader shader, enum glssao__macro macro)
 {
-    return shaders[shader].tests & 1u << macro;
+    return shaders[shader].tests & UINT64_C(1) << macro;
 }
 
 glssao__variant glssao__shader_variant(enum glssao__shader shader, glssao__variant wanted)

@@ -25,6 +25,8 @@ enum glssao__shader {
     SHADER_PLANAR_TILE, /* rounds of the planar blur and upsampling in one compute shader */
     SHADER_UPSAMPLE,
     SHADER_SPREAD,
+    SHADER_HISTORY,
+    SHADER_STEADY,
     SHADER_APPLY,
     SHADER_RAYS,
     SHADER_CORRECT,
@@ -63,6 +65,9 @@ enum glssao__shader {
     X(OBLIQUE, 1)         /* input: window depth under an oblique near plane */                                        \
     X(PLANES, 1)          /* tiles: those that lie in a plane are open too */                                          \
     X(FROM_DEPTH, 1)      /* tiles, open: occluders are looked up in the depth map, not in the distance map */         \
+    X(VARIES, 1)          /* noise, and at half size the texels that are estimated, differ from frame to frame */      \
+    X(DENSE, 1)           /* distances and rebuilt normals have the full size, the estimate half of it */              \
+    X(MOTION, 1)          /* history: there is a motion texture */                                                     \
     X(STRENGTH, 2)        /* apply: what weights occlusion: nothing, a uniform, a texture too */                       \
     X(ALBEDO, 1)          /* apply: light that bounces between surfaces is added */                                    \
     X(TINTED, 1)          /* apply: the blender needs the occluded part, not the open one */                           \

@@ -22,7 +22,10 @@ enum glssao__unit {
     UNIT_SECOND,
     UNIT_TILES,
     UNIT_COUNT,
-    UNIT_RAYS = UNIT_RANDOM_VECTOR /* no pass reads both */
+    UNIT_RAYS = UNIT_RANDOM_VECTOR,   /* no pass reads both */
+    UNIT_MOTION = UNIT_RANDOM_VECTOR, /* the history reads none of the maps that these hold otherwise */
+    UNIT_RAW = UNIT_DISTANCE,
+    UNIT_HISTORY = UNIT_BACK
 };
 
 /* Textures that steps read and draw into. */
@@ -32,12 +35,14 @@ enum glssao__map {
     MAP_HOST_NORMAL,
     MAP_HOST_BACK,
     MAP_HOST_SECOND,
+    MAP_HOST_MOTION,
     MAP_HOST_RAYS,
     MAP_RANDOM_VECTOR,
     MAP_DEPTH_COPY, /* the effect's targets from here on */
     MAP_NORMAL_COPY,
     MAP_BACK_COPY,
     MAP_SECOND_COPY,
+    MAP_MOTION_COPY,
     MAP_NORMAL,
     MAP_REBUILT,   /* normals from depth, at the estimate's size (normals.frag) */
     MAP_DISTANCE,  /* view distance; with layers also thickness and second layer (distance.frag) */
@@ -58,11 +63,15 @@ enum glssao__map {
     MAP_SUM,         /* sums of accumulated estimates, one channel for each of two replicates */
     MAP_OTHER_SUM,   /* with bent normals each replicate has a map of its own, which sums hidden vectors too */
     MAP_PROBE,       /* samples of their difference */
+    MAP_RAW,         /* paired values of the estimate, which the history reads besides those that the blur left */
+    MAP_HISTORY_0,   /* the history of the last frame and of this one, by turns (history.glsl) */
+    MAP_HISTORY_1,
     MAP_COUNT,
     MAP_FIRST_TARGET = MAP_DEPTH_COPY
 };
 
 enum {
+    HOST_MAPS = 6, /* MAP_HOST_DEPTH and so on */
     PROBE_SIZE = 128,
     TILE_SIDE = 16,  /* pixels of the estimate: a software rasteriser draws smaller tiles at a loss */
     MOST_RINGS = 16, /* the greatest distance in tiles that tile_rings.frag tells */
@@ -126,6 +135,7 @@ typedef struct glssao__request {
     int size[2];                                 /* full size of the effect, pixels */
     int estimates;                               /* of glssao_accumulate, with this one; 0: glssao_compute */
     bool is_orthographic, is_oblique, is_turned; /* the projection, as in glssao__projection */
+    int frames;                                  /* that the history has seen so far; 0: it begins */
     glssao__capabilities can;
 } glssao__request;
 
@@ -134,9 +144,10 @@ typedef struct glssao__schedule {
     int count;
     enum glssao__barrier last_barrier;   /* after the last step */
     glssao__target_spec maps[MAP_COUNT]; /* those that must be there; format 0: not used */
-    gl_uint
-        host_names[5]; /* of the textures that the frame reads, 0 for others, in the order of HOST_DEPTH and so on */
+    gl_uint host_names[HOST_MAPS]; /* of the textures that the frame reads, 0 for others, in the order of HOST_DEPTH and
+                                      so on */
     int estimate_size[2];
+    int map_factor;           /* full-size pixels to one of the distance map */
     enum glssao__map result;  /* holds the result afterwards */
     enum glssao__map other;   /* the other of the maps that the passes draw into by turns */
     glssao__region delivered; /* the part of the last pass's map that is the result */

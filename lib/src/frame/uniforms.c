@@ -57,14 +57,14 @@ static void init_offsets(glssao_constants *c, uint32_t seed)
 }
 
 /* The rotation angles of the tile are evenly spaced, in an order that the seed shuffles: a box of the tile's size
- * averages over all of them. */
-static void init_rotations(glssao__hemisphere_block *c, uint32_t seed)
+ * averages over all of them. `turn`: of all, in turns. */
+static void fill_rotations(glssao__hemisphere_block *c, uint32_t seed, float turn)
 {
     enum { COUNT = sizeof c->gRotations / sizeof *c->gRotations };
     int order[COUNT];
     shuffle(order, COUNT, glssao__random_seed(seed, GLSSAO__STREAM_ROTATIONS));
     for (int i = 0; i < COUNT; ++i) {
-        double angle_rad = 2.0 * PI * (order[i] + 0.5) / COUNT;
+        double angle_rad = 2.0 * PI * ((order[i] + 0.5) / COUNT + (double)turn);
         c->gRotations[i][0] = (float)cos(angle_rad);
         c->gRotations[i][1] = (float)sin(angle_rad);
     }
@@ -101,7 +101,7 @@ void glssao__uniforms_init(glssao__uniforms *u, uint32_t seed)
 {
     memset(u, 0, sizeof *u);
     init_offsets(&u->ssao, seed);
-    init_rotations(&u->hemisphere, seed);
+    fill_rotations(&u->hemisphere, seed, 0.0f);
 }
 
 /* Bent normals are made at radius 0 too (scene units): samples then reach no other pixel. */
@@ -214,13 +214,20 @@ static void fill_frame(glssao__frame_block *c, const glssao__uniforms_source *so
     c->gSampleCount = settings->sample_count;
     c->gFactor = settings->half_resolution ? 2 : 1;
     for (int i = 0; i < 2; ++i) {
-        const double pixel = (double)c->gFactor / source->size[i] *
+        const double pixel = (double)source->map_factor / source->size[i] *
                              (double)(projection->is_orthographic ? c->gRayOrigin[i] : c->gRayDirection[i]);
         c->gPixel[i] = (float)pixel;
         c->gPixel[2 + i] = (float)(1.0 / pixel);
         c->gEstimateSize[i] = (float)source->estimate_size[i];
+        c->gMapSize[i] = source->map_factor == 1 ? (float)source->size[i] : (float)source->estimate_size[i];
+        c->gMapTexel[i] = 1.0f / c->gMapSize[i];
         c->gFullTexel[i] = 1.0f / (float)source->size[i];
     }
+    /* R2 (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018): the inverse of the plastic
+     * number, and its square. */
+    const double inverse = 0.7548776662466927;
+    c->gNoise[0] = (float)fmod(source->noise_index * inverse, 1.0);
+    c->gNoise[1] = (float)fmod(source->noise_index * (inverse * inverse), 1.0);
     fill_turn(c, frame, projection);
     fill_tiles(c, source);
     fill_extent(c, settings, projection);
@@ -234,8 +241,10 @@ static void fill_frame(glssao__frame_block *c, const glssao__uniforms_source *so
 
 void glssao__uniforms_fill(glssao__uniforms *u, const glssao__uniforms_source *source)
 {
-    if (source->settings->technique == GLSSAO_HEMISPHERE)
-        glssao__uniforms_kernel(&u->hemisphere, source->seed, source->settings->sample_count);
     fill_ssao(&u->ssao, source);
     fill_frame(&u->frame, source);
+    if (source->settings->technique == GLSSAO_HEMISPHERE) {
+        glssao__uniforms_kernel(&u->hemisphere, source->seed, source->settings->sample_count);
+        fill_rotations(&u->hemisphere, source->seed, u->frame.gNoise[0]);
+    }
 }

@@ -52,8 +52,9 @@ typedef struct glssao__uniforms_source {
     const glssao__projection *projection;
     glssao__precision precision; /* of stored depth */
     int size[2], estimate_size[2];
+    int map_factor; /* full-size pixels to one of the distance map: 1 or 2 */
     int tile_rings; /* of the schedule */
-    uint32_t seed;
+    uint32_t seed, noise_index;
 } glssao__uniforms_source;
 
 /* Fills all that a frame changes. cbHemisphere is filled for its own technique alone. */

@@ -12,7 +12,7 @@ enum { PROGRAM_UNIFORMS = 6 };
 
 /* A program's name among others; the caller says what the bytes mean. */
 typedef struct glssao__program_key {
-    uint8_t bytes[32];
+    uint8_t bytes[48];
 } glssao__program_key;
 
 /* What a program is compiled from. A compute program has no vertex stage. */

@@ -28,6 +28,7 @@ static const struct number {
     {"thickness", offsetof(glssao_settings, thickness), false, 0.0, 1e3},
     {"fade_far_start", offsetof(glssao_settings, fade_far_start), false, 0.0, 1e12},
     {"fade_far_end", offsetof(glssao_settings, fade_far_end), false, 0.0, 1e12},
+    {"history", offsetof(glssao_settings, history), true, 0.0, 63.0},
 };
 
 static bool refuse(const glssao__log *log, const char *field, long long value, const char *wanted)
@@ -131,10 +132,11 @@ static bool check_margin(const glssao_frame *frame, const int size[2], const gls
     return refuse(log, "frame.margin", margin, "want an even number that leaves at least one pixel");
 }
 
-/* The matrix that turns normals from world space, if any are. */
-static bool check_view(const glssao_frame *frame, const glssao__log *log)
+/* The matrix that turns normals from world space, if any are, and by which the history finds points again. */
+static bool check_view(const glssao_frame *frame, bool has_history, const glssao__log *log)
 {
-    if (!frame->world_normals || frame->normal_texture == 0)
+    const bool turns_normals = frame->world_normals && frame->normal_texture != 0;
+    if (!turns_normals && !has_history)
         return true;
     for (int i = 0; i < 16; ++i)
         if (!(fabs((double)frame->view[i]) <= FLT_MAX)) { /* also true for nan */
@@ -144,7 +146,8 @@ static bool check_view(const glssao_frame *frame, const glssao__log *log)
     double rows[9];
     if (glssao__matrix_normals(frame->view, rows))
         return true;
-    glssao__log_write(log, GLSSAO_LOG_ERROR, "frame.view is singular, and frame.world_normals needs it");
+    glssao__log_write(log, GLSSAO_LOG_ERROR, "frame.view is singular, and %s needs it",
+                      turns_normals ? "frame.world_normals" : "settings.history");
     return false;
 }
 
@@ -174,6 +177,10 @@ bool glssao__check_frame(const glssao_frame *frame, const glssao_settings *setti
     if (settings->bent_normals && frame->rays_texture != 0)
         return refuse(log, "settings.bent_normals", 1,
                       "frame.rays_texture, which knows no directions, can't correct them");
+    if (settings->history > 0 && frame->rays_texture != 0)
+        return refuse(log, "settings.history", settings->history, "want 0: rays are not reused over time");
+    if (settings->history > 0 && settings->bent_normals)
+        return refuse(log, "settings.history", settings->history, "want 0: bent normals are not reused over time");
     return check_margin(frame, size, log) && check_viewport(frame, size, log) && check_logarithm(frame, log) &&
-           check_view(frame, log) && glssao__projection_analyse(frame, log, out_projection);
+           check_view(frame, settings->history > 0, log) && glssao__projection_analyse(frame, log, out_projection);
 }

@@ -13,6 +13,7 @@ void glssao__host_names(const glssao_frame *frame, gl_uint out_names[HOST_TEXTUR
     out_names[HOST_NORMAL] = frame->normal_texture;
     out_names[HOST_BACK] = frame->back_texture;
     out_names[HOST_SECOND] = frame->second_texture;
+    out_names[HOST_MOTION] = frame->motion_texture;
     out_names[HOST_RAYS] = frame->rays_texture;
 }
 
@@ -295,16 +296,14 @@ void glssao__host_texture_restore(const glssao__gl *gl, const glssao__host_textu
 }
 
 glssao_result glssao__host_textures_check(const glssao__gl *gl, const glssao__log *log, const glssao_frame *frame,
-                                          const int size[2], int unit, glssao__host_textures *known,
-                                          glssao__host_inputs *out)
+                                          const int size[2], int unit, const gl_uint names[HOST_TEXTURES],
+                                          glssao__host_textures *known, glssao__host_inputs *out)
 {
-    static const char *const fields[HOST_TEXTURES] = {"frame.depth_texture", "frame.normal_texture",
-                                                      "frame.back_texture", "frame.second_texture",
-                                                      "frame.rays_texture"};
+    static const char *const fields[HOST_TEXTURES] = {"frame.depth_texture",  "frame.normal_texture",
+                                                      "frame.back_texture",   "frame.second_texture",
+                                                      "frame.motion_texture", "frame.rays_texture"};
     const bool in_alpha = frame->depth_kind == GLSSAO_DEPTH_NORMAL_ALPHA;
     const bool in_red = in_alpha || frame->depth_kind == GLSSAO_DEPTH_VIEW_DISTANCE;
-    gl_uint names[HOST_TEXTURES];
-    glssao__host_names(frame, names);
     memset(out, 0, sizeof *out);
     gl->ActiveTexture(GL_TEXTURE0 + (gl_enum)unit);
     for (int i = 0; i < HOST_TEXTURES; ++i) {

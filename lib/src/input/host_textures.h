@@ -11,7 +11,7 @@
 #include "log.h"
 
 /* The textures of a frame, in this order. */
-enum { HOST_DEPTH, HOST_NORMAL, HOST_BACK, HOST_SECOND, HOST_RAYS, HOST_TEXTURES };
+enum { HOST_DEPTH, HOST_NORMAL, HOST_BACK, HOST_SECOND, HOST_MOTION, HOST_RAYS, HOST_TEXTURES };
 
 enum { HOST_PARAMETERS = 4, HOST_SEEN = 8 };
 
@@ -43,11 +43,11 @@ typedef struct glssao__host_inputs {
 void glssao__host_names(const glssao_frame *frame, gl_uint out_names[HOST_TEXTURES]);
 
 /* Refuses textures that are not what the frame says, and sets parameters that would change what is read. `size`: full
- * size in pixels. `unit`: a saved texture unit. `known`: NULL, or what to remember and to consult before OpenGL. After
- * GLSSAO_OK, glssao__host_textures_restore is due. */
+ * size in pixels. `unit`: a saved texture unit. `names`: of those that are read. `known`: NULL, or what to remember and
+ * to consult before OpenGL. After GLSSAO_OK, glssao__host_textures_restore is due. */
 glssao_result glssao__host_textures_check(const glssao__gl *gl, const glssao__log *log, const glssao_frame *frame,
-                                          const int size[2], int unit, glssao__host_textures *known,
-                                          glssao__host_inputs *out);
+                                          const int size[2], int unit, const gl_uint names[HOST_TEXTURES],
+                                          glssao__host_textures *known, glssao__host_inputs *out);
 /* Gives the textures their parameters back. */
 void glssao__host_textures_restore(const glssao__gl *gl, const glssao__host_inputs *inputs, int unit);
 

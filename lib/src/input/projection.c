@@ -98,9 +98,9 @@ bool glssao__projection_analyse(const glssao_frame *frame, const glssao__log *lo
     out->is_orthographic = m.is_orthographic;
     out->is_oblique = m.is_oblique;
     out->doubt = m.doubt;
-    out->eye = 0.0;
     out->turn[0] = (float)m.cosine;
     out->turn[1] = (float)m.sine;
+    out->eye = 0.0;
     if (m.is_orthographic && !m.is_oblique && frame->depth_kind == GLSSAO_DEPTH_WINDOW)
         out->eye = move_eye(m.clip_from_view, ndc_at_0);
     if (!glssao__matrix_invert(m.clip_from_view, inverse)) {

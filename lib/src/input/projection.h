@@ -17,6 +17,7 @@ typedef struct glssao__projection {
     /* Of the passes' view space: the host's, turned about the view axis where the projection turns the picture. */
     float clip_from_view[16], view_from_clip[16];
     float turn[2]; /* cosine and sine, as in glssao__matrix */
+    double eye;    /* how much farther view distance reaches from the host's eye, scene units */
     bool is_turned, is_orthographic;
     float distance_from_depth[4], ray_origin[4], ray_direction[4]; /* as in cbFrame */
     bool
@@ -24,7 +25,6 @@ typedef struct glssao__projection {
     float oblique[4]; /* as in cbFrame */
     float sky_depth;
     double ends[4]; /* distance_from_depth, not rounded */
-    double eye;     /* the view distance from which the passes count theirs; not 0 where the eye was moved */
     enum glssao__doubt doubt;
 } glssao__projection;
 

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// The mean of this frame's estimate and earlier ones', found again where the surface was in the last frame.
+// in  u_ambient_map  paired values after the blur; fetched
+// in  u_raw_map      the same before it; fetched
+// in  u_history_map  the last frame's output, fetched
+// in  u_motion_map   MOTION 1: uv now minus uv in the last frame; point sampled
+// in  u_depth_map, u_normal_map  as for the estimate, full size; point sampled
+// out result         a texel of the history (shared/history.glsl)
+// UPSAMPLE 1: the estimate has half the size
+
+uniform sampler2D u_ambient_map;
+uniform sampler2D u_raw_map;
+uniform sampler2D u_history_map;
+#if MOTION
+uniform sampler2D u_motion_map;
+#endif
+#define RESULT vec4
+
+
+// What this frame says of the pixel. x: the estimate, y: what the blur left of it.
+vec2 estimate_at(ivec2 pixel, vec2 uv, float depth)
+{
+#if UPSAMPLE
+    ivec2 from = pixel - ivec2(gPick);
+    ivec2 odd = from & 1;
+    ivec2 last = ivec2(gEstimateSize) - 1;
+    ivec2 a = clamp(from >> 1, ivec2(0), last);
+    ivec2 d = clamp((from >> 1) + odd, ivec2(0), last);
+    vec2 at_a = texelFetch(u_ambient_map, a, 0).rg;
+    vec2 at_b = texelFetch(u_ambient_map, ivec2(d.x, a.y), 0).rg;
+    vec2 at_c = texelFetch(u_ambient_map, ivec2(a.x, d.y), 0).rg;
+    vec2 at_d = texelFetch(u_ambient_map, d, 0).rg;
+    vec4 weights = upsample_weights(at_a, at_b, at_c, at_d, vec2(odd), uv, depth);
+    // The bits of the normal in a raw value add too little to matter.
+    vec4 raw = vec4(texelFetch(u_raw_map, a, 0).r, texelFetch(u_raw_map, ivec2(d.x, a.y), 0).r,
+                    texelFetch(u_raw_map, ivec2(a.x, d.y), 0).r, texelFetch(u_raw_map, d, 0).r);
+    return vec2(dot(weights, raw), weighted(weights, at_a, at_b, at_c, at_d)) / dot(weights, vec4(1.0));
+#else
+    return vec2(texelFetch(u_raw_map, pixel, 0).r, accessibility_of(texelFetch(u_ambient_map, pixel, 0).rg));
+#endif
+}
+
+// The uv at which the last frame saw a point of its view space.
+vec2 last_uv(vec3 position_view)
+{
+    float distance = -position_view.z;
+    return (position_view.xy - gLastRayOrigin.zw - distance * gLastRayDirection.zw) /
+           (gLastRayOrigin.xy + distance * gLastRayDirection.xy);
+}
+
+#if MOTION
+// The point that the last frame saw at a uv, where it is less than the radius off a view distance; else one at that distance.
+vec3 last_position(vec2 uv, float distance)
+{
+    ivec2 texel = ivec2(clamp(floor(uv / gFullTexel), gLastRegion.xy, gLastRegion.zw));
+    vec4 tap = texelFetch(u_history_map, texel, 0);
+    float seen = orthographic() ? tap.z : 1.0 / tap.z;
+    distance = abs(seen - distance) < radius_at(distance) ? seen : distance;
+    return vec3(uv * gLastRayOrigin.xy + gLastRayOrigin.zw + distance * (uv * gLastRayDirection.xy + gLastRayDirection.zw),
+                -distance);
+}
+#endif
+
+// The history of a point of the last frame's view space: mean, mean of what was blurred, frames; 0 frames where there is none.
+// Each of the four texels around its uv counts where it lies in the point's plane, n . p = h, within the tolerance, and faces
+// the same way. Along the ray of a texel the plane has the linear quantity n . ray / h in perspective.
+vec4 history_at(vec3 position_view, vec3 normal_view, vec2 uv, float tolerance)
+{
+    vec2 place = uv / gFullTexel - 0.5;
+    // False for NaN too.
+    if (!(all(greaterThanEqual(place, gLastRegion.xy - 0.5)) && all(lessThanEqual(place, gLastRegion.zw + 0.5))))
+        return vec4(0.0);
+    vec2 low = floor(place);
+    vec2 part = place - low;
+    ivec2 a = ivec2(max(low, gLastRegion.xy)), d = ivec2(min(low + 1.0, gLastRegion.zw));
+    mat4 taps = mat4(texelFetch(u_history_map, a, 0), texelFetch(u_history_map, ivec2(d.x, a.y), 0),
+                     texelFetch(u_history_map, ivec2(a.x, d.y), 0), texelFetch(u_history_map, d, 0));
+    vec4 stored = vec4(taps[0].w, taps[1].w, taps[2].w, taps[3].w);
+    vec4 change = floor(stored * (1.0 / 65536.0));
+    stored -= 65536.0 * change;
+    vec4 frames = floor(stored * (1.0 / 1024.0));
+    vec4 linear = vec4(taps[0].z, taps[1].z, taps[2].z, taps[3].z);
+    float height = dot(position_view, normal_view);
+    // The plane's linear quantity at the corners' rays, from that at the point's own uv.
+    vec2 slope = normal_view.xy * (orthographic() ? gLastRayOrigin.xy / normal_view.z : gLastRayDirection.xy / height);
+    vec4 x = vec4(-part.x, 1.0 - part.x, -part.x, 1.0 - part.x) * (slope.x * gFullTexel.x);
+    vec4 y = vec4(-part.yy, 1.0 - part.yy) * (slope.y * gFullTexel.y);
+    float own = linear_from_distance(-position_view.z);
+    vec4 off = abs(own + x + y - linear) * abs(orthographic() ? vec4(normal_view.z) : height / linear);
+    // Squared changes of the projected normal. Codes are whole numbers that a float holds exactly.
+    vec2 projected = projected_normal(normal_view);
+    vec4 codes = stored - 1024.0 * frames;
+    vec4 high = floor(codes * (1.0 / 32.0));
+    vec4 turn_x = high - 15.0 - projected.x, turn_y = codes - 32.0 * high - 15.0 - projected.y;
+    vec4 turn = turn_x * turn_x + turn_y * turn_y;
+    vec4 weights = vec4(1.0 - part.x, part.x, 1.0 - part.x, part.x) * vec4(1.0 - part.yy, part.yy);
+    const float MOST = TURN * TURN / (NORMAL_STEP * NORMAL_STEP);
+    weights *= vec4(lessThan(off, vec4(tolerance))) * vec4(lessThan(turn, vec4(MOST))) * vec4(greaterThan(frames, vec4(0.0)));
+    float sum = dot(weights, vec4(1.0));
+    vec2 means = (taps * weights).xy;
+    return sum > 0.01 ? vec4(means, dot(weights, frames), (dot(weights, change) - 128.0 * sum) / 127.0) / sum : vec4(0.0);
+}
+
+RESULT result()
+{
+    ivec2 pixel = ivec2(pixel_center());
+    vec2 uv = pixel_center() * gFullTexel;
+    float depth = depth_component(textureLod(u_depth_map, uv, 0.0));
+    if (is_sky(depth))
+        return vec4(1.0, 1.0, 0.0, 0.0);
+    float distance = distance_from_depth(depth);
+    vec3 normal_view = normal_view_at_uv(uv);
+    vec2 now = estimate_at(pixel, uv, depth);
+    vec4 last = vec4(0.0);
+    if (gHistory.y > 0.0) {
+        vec3 position = (gLastView * vec4(position_view_from_uv(uv, distance), 1.0)).xyz;
+        vec3 normal = mat3(gLastView) * normal_view;
+        vec2 pixel_width = abs(gLastRayOrigin.xy - position.z * gLastRayDirection.xy) * gFullTexel;
+        float tolerance = PLANE * radius_at(distance) + max(pixel_width.x, pixel_width.y) + depth_step(-position.z);
+        vec2 place = last_uv(position);
+#if MOTION
+        vec2 moved = uv - textureLod(u_motion_map, uv, 0.0).rg;
+        vec2 apart = (moved - place) / gFullTexel;
+        // A thing that moves by itself. Its distance was that of the surface which was seen there, if that is near.
+        if (all(lessThan(abs(moved - uv), vec2(2.0))) && dot(apart, apart) > 0.25) {
+            place = moved;
+            position = last_position(place, -position.z);
+        }
+#endif
+        last = history_at(position, normal, place, tolerance);
+    }
+    float frames = min(floor(last.z + 0.5) + 1.0, gHistory.x);
+    // What changes for longer than noise does is taken over at once, and what was known before is soon forgotten.
+    float change = frames > 1.0 ? mix(last.w, now.y - last.y, LATELY) : 0.0;
+    float jump = clamp(abs(change) / (NOISE + min(DETAIL * abs(last.x - last.y), NOISE)) - 1.0, 0.0, 1.0);
+    frames = jump > 0.0 ? min(frames, FORGET) : frames;
+    vec2 means = clamp(last.xy + jump * change, 0.0, 1.0);
+    change -= jump * change;
+#if UPSAMPLE
+    // A pixel that was estimated itself counts for more than one between others.
+    bool picked = ((pixel - ivec2(gPick)) & 1) == ivec2(0);
+    float share = min((picked ? PICKED : (4.0 - PICKED) / 3.0) / frames, 1.0);
+#else
+    float share = 1.0 / frames;
+#endif
+    means = frames > 1.0 ? mix(means, now, vec2(share, 1.0 / frames)) : now;
+    return history_texel(means, change, linear_from_distance(distance), frames, normal_code(normal_view));
+}

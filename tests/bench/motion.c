@@ -1,0 +1,358 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * glssao-motion: settings with reuse of earlier frames against single frames, on recorded motions, with ray-traced
+ * truth for every fourth frame. Prints a table to standard output.
+ */
+#define _POSIX_C_SOURCE 200809L
+#include "context.h"
+#include "effects.h"
+#include "measure.h"
+#include "paths.h"
+#include "perception.h"
+#include "picture.h"
+#include "scenes.h"
+#include "sequence.h"
+#include "truth.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { ERROR_LENGTH = 4096, FRAMES_MAX = 64, CONFIGS_MAX = 32, TRUTH_EVERY = 4, WARM = 15 };
+
+/* One frame of a motion. */
+typedef struct shot {
+    gbuffer gbuffer;
+    float *distance;
+    unsigned char *is_new, *classes;
+    bench_truth truth; /* nothing where this frame has none */
+    perception perception;
+    GLuint motion; /* texture; 0: nothing moves by itself */
+} shot;
+
+typedef struct motion {
+    options options;
+    context *context;
+    map_reader reader;
+    shot shots[FRAMES_MAX];
+    int count;
+    float radius;
+    char error[ERROR_LENGTH];
+} motion;
+
+/* What is printed of a setting on one motion. */
+typedef struct figures {
+    double sum2, pixels, ssim, flip, new2, new_pixels, cpu_ms;
+    int truths, lag;
+    frame_change change;
+} figures;
+
+typedef struct config {
+    char name[32];
+    glssao_settings settings;
+} config;
+
+static double cpu_ms(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
+}
+
+/* uv now minus uv in the last frame, for the box; far away elsewhere. The camera stands still. */
+static bool draw_motion(shot *s, int frame)
+{
+    const scene_view *v = &s->gbuffer.view;
+    const size_t count = (size_t)v->width * (size_t)v->height;
+    float *uv = malloc(2 * count * sizeof *uv);
+    if (!uv)
+        return false;
+    const float *p = v->clip_from_view, *m = v->view_from_world;
+    for (size_t i = 0; i < count; i++) {
+        const float d = s->distance[i], x = ((float)(i % (size_t)v->width) + 0.5f) / (float)v->width,
+                    y = ((float)(i / (size_t)v->width) + 0.5f) / (float)v->height;
+        const float at[3] = {(2 * x - 1) * d / p[0], (2 * y - 1) * d / p[5], -d};
+        float world[3], moved;
+        for (int k = 0; k < 3; k++) {
+            world[k] = 0;
+            for (int j = 0; j < 3; j++)
+                world[k] += m[4 * k + j] * (at[j] - m[12 + j]);
+        }
+        uv[2 * i] = uv[2 * i + 1] = 1e4f;
+        if (!(d > 0) || !path_is_on_box(world, frame, &moved))
+            continue;
+        const float old[3] = {at[0] - moved * m[0], at[1] - moved * m[1], at[2] - moved * m[2]};
+        uv[2 * i] = x - 0.5f - 0.5f * p[0] * old[0] / -old[2];
+        uv[2 * i + 1] = y - 0.5f - 0.5f * p[5] * old[1] / -old[2];
+    }
+    gl.GenTextures(1, &s->motion);
+    gl.BindTexture(GL_TEXTURE_2D, s->motion);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, v->width, v->height, 0, GL_RG, GL_FLOAT, uv);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    free(uv);
+    return true;
+}
+
+static bool make_truth(motion *m, const scene *s, shot *k, const char *name)
+{
+    const scene_view *v = &k->gbuffer.view;
+    const size_t count = (size_t)v->width * (size_t)v->height;
+    const truth_request request = {
+        .name = name, .cache = m->options.cache, .radius = m->radius, .rays = m->options.rays, .seed = 0};
+    if (!truth_get(&request, s, v, &k->truth, m->error, sizeof m->error))
+        return false;
+    k->classes = calloc(1, count);
+    for (size_t i = 0; k->classes && i < count; i++)
+        k->classes[i] = k->distance[i] > 0 && k->truth.foreground[i] ? PIXEL_SMOOTH : PIXEL_NONE;
+    return k->classes && perception_create(&k->perception, k->truth.accessibility, k->classes, v->width, v->height);
+}
+
+static bool make_shot(motion *m, const bench_scene *b, scene *s, bench_path path, int frame)
+{
+    shot *k = &m->shots[frame];
+    const int *size = m->options.size;
+    const camera start = bench_scene_camera(b, s, (float)size[0] / (float)size[1]);
+    camera now = path_camera(path, &start, frame);
+    float *normals = NULL;
+    if (path == PATH_BOX && !path_move_box(s, frame))
+        return false;
+    camera_fit_planes(&now, s);
+    if (path == PATH_BOX)
+        now.near_plane = start.near_plane, now.far_plane = start.far_plane;
+    const scene_view view = camera_view(&now, size[0], size[1]);
+    if (!gbuffer_draw(&k->gbuffer, s, &view, 0, m->error, sizeof m->error))
+        return false;
+    gbuffer_read(&k->gbuffer, &k->distance, &normals);
+    free(normals);
+    k->is_new = calloc(1, (size_t)size[0] * (size_t)size[1]);
+    if (!k->distance || !k->is_new)
+        return false;
+    if (frame > 0) {
+        const shot *before = &m->shots[frame - 1];
+        sequence_find_new(&(sequence_frame){before->gbuffer.view, before->distance, NULL},
+                          &(sequence_frame){k->gbuffer.view, k->distance, NULL}, k->is_new);
+    }
+    if (path == PATH_BOX && !draw_motion(k, frame))
+        return false;
+    char name[128];
+    snprintf(name, sizeof name, "%s-%s-%d", b->name, path_name(path), frame);
+    const bool wanted =
+        (frame >= WARM && frame % TRUTH_EVERY == TRUTH_EVERY - 1) || (path == PATH_BOX && frame >= PATH_EVENT);
+    return !wanted || make_truth(m, s, k, name);
+}
+
+static void clear_shots(motion *m)
+{
+    for (int i = 0; i < FRAMES_MAX; i++) {
+        shot *k = &m->shots[i];
+        gbuffer_destroy(&k->gbuffer);
+        if (k->truth.accessibility)
+            perception_destroy(&k->perception);
+        truth_destroy(&k->truth);
+        gl.DeleteTextures(1, &k->motion);
+        free(k->distance);
+        free(k->is_new);
+        free(k->classes);
+        *k = (shot){.motion = 0};
+    }
+}
+
+static void add_truth(figures *f, shot *k, const float *result, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const double e = (double)result[i] - (double)k->truth.accessibility[i];
+        if (!k->classes[i])
+            continue;
+        f->sum2 += e * e;
+        f->pixels += 1;
+        f->new2 += k->is_new[i] ? e * e : 0;
+        f->new_pixels += k->is_new[i];
+    }
+    f->ssim += perception_ssim(&k->perception, result);
+    f->flip += perception_flip(&k->perception, result);
+    f->truths += 1;
+}
+
+static bool write_picture(motion *m, const char *name, int frame, const float *result)
+{
+    const int w = m->options.size[0], h = m->options.size[1];
+    uint8_t *pixels = malloc((size_t)w * (size_t)h * 2);
+    char path[1200];
+    const bench_truth *truth = &m->shots[frame].truth;
+    for (int y = 0; pixels && y < h; y++)
+        for (int x = 0; x < w; x++) {
+            const size_t i = (size_t)(h - 1 - y) * (size_t)w + (size_t)x;
+            const float error = truth->accessibility ? 0.5f + 2 * (result[i] - truth->accessibility[i]) : 0.5f;
+            pixels[y * w + x] = (uint8_t)(255 * fminf(fmaxf(result[i], 0), 1) + 0.5f);
+            pixels[(h + y) * w + x] = (uint8_t)(255 * fminf(fmaxf(error, 0), 1) + 0.5f);
+        }
+    snprintf(path, sizeof path, "%s/%s-%02d.png", m->options.out, name, frame);
+    const bool done = pixels && picture_write_png(path, w, 2 * h, 1, pixels, m->error, sizeof m->error);
+    free(pixels);
+    return done;
+}
+
+/* The frames in order through one effect. `results`: of each frame, kept. */
+static bool run_config(motion *m, const config *c, bench_path path, float **results, figures *f, const char *label)
+{
+    effects e = {.context = m->context, .width = m->options.size[0], .height = m->options.size[1], .no_timers = true};
+    const size_t count = (size_t)e.width * (size_t)e.height;
+    bool done = true;
+    for (int i = 0; done && i < m->count; i++) {
+        shot *k = &m->shots[i];
+        glssao_effect *effect = effects_get(&e, &k->gbuffer, &c->settings, m->error, sizeof m->error);
+        glssao_settings s = bench_scale_settings(&c->settings, m->radius);
+        glssao_frame frame = gbuffer_frame(&k->gbuffer, false);
+        frame.motion_texture = k->motion;
+        frame.cut = path == PATH_CUT && i == PATH_EVENT;
+        gl.Finish();
+        const double before = cpu_ms();
+        done = effect && glssao_compute(effect, &frame, &s) == GLSSAO_OK;
+        gl.Finish();
+        f->cpu_ms += i > 0 ? cpu_ms() - before : 0;
+        if (done)
+            map_reader_read(&m->reader, effect, results[i]);
+        if (done && k->truth.accessibility && i >= WARM)
+            add_truth(f, k, results[i], count);
+        if (done && i >= WARM) {
+            const shot *b = &m->shots[i - 1];
+            sequence_compare(&f->change, &(sequence_frame){b->gbuffer.view, b->distance, results[i - 1]},
+                             &(sequence_frame){k->gbuffer.view, k->distance, results[i]});
+        }
+        char name[256];
+        snprintf(name, sizeof name, "%s-%s", label, c->name);
+        if (done && m->options.check)
+            done = write_picture(m, name, i, results[i]);
+    }
+    effects_destroy(&e);
+    return done;
+}
+
+/* PATH_BOX: how many frames after the event the error, where the single frame changed by more than 0.1, is back within
+ * 0.02 of the single frame's. */
+static int find_lag(const motion *m, float *const *single, float *const *result)
+{
+    const size_t count = (size_t)m->options.size[0] * (size_t)m->options.size[1];
+    const shot *before = &m->shots[PATH_EVENT - 1];
+    for (int i = PATH_EVENT; i < m->count; i++) {
+        const shot *k = &m->shots[i];
+        double sums[2] = {0, 0}, pixels = 0;
+        for (size_t p = 0; p < count; p++) {
+            if (!k->classes[p] || fabsf(k->distance[p] - before->distance[p]) > 1e-3f * k->distance[p] ||
+                !(fabsf(single[i][p] - single[PATH_EVENT - 1][p]) > 0.1f))
+                continue;
+            const double t = (double)k->truth.accessibility[p];
+            sums[0] += ((double)single[i][p] - t) * ((double)single[i][p] - t);
+            sums[1] += ((double)result[i][p] - t) * ((double)result[i][p] - t);
+            pixels += 1;
+        }
+        if (getenv("MOTION_LAG"))
+            fprintf(stderr, "  lag frame %d: %.0f pixels, single %.4f, this %.4f\n", i, pixels, sqrt(sums[0] / pixels),
+                    sqrt(sums[1] / pixels));
+        if (sqrt(sums[1] / pixels) <= sqrt(sums[0] / pixels) + 0.02)
+            return i - PATH_EVENT;
+    }
+    return m->count;
+}
+
+static int list_configs(config out[CONFIGS_MAX])
+{
+    static const char *const names[] = {"low", "medium", "high", "ultra"};
+    int n = 0;
+    for (int q = 0; q < 4; q++)
+        for (int h = 0; h < 2; h++) {
+            config *c = &out[n++];
+            c->settings = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)q);
+            c->settings.history = h == 0 ? 0 : 16;
+            if (h == 2)
+                c->settings.half_resolution = false;
+            snprintf(c->name, sizeof c->name, "%s%s", names[q], h == 0 ? "" : h == 1 ? "-16" : "-full");
+        }
+    return n;
+}
+
+static bool run_motion(motion *m, const bench_scene *b, bench_path path)
+{
+    scene_view view;
+    config configs[CONFIGS_MAX];
+    float *results[2][FRAMES_MAX] = {{0}};
+    scene *s =
+        bench_scene_open(b, m->options.size[0], m->options.size[1], &view, &m->radius, m->error, sizeof m->error);
+    bool done = s != NULL;
+    m->count = m->options.sequence_frames;
+    for (int i = 0; done && i < m->count; i++) {
+        done = make_shot(m, b, s, path, i);
+        for (int k = 0; k < 2; k++)
+            results[k][i] = calloc((size_t)view.width * (size_t)view.height, sizeof(float));
+    }
+    scene_destroy(s);
+    const int count = list_configs(configs);
+    for (int i = 0; done && i < count; i++) {
+        figures f = {.lag = 0};
+        char label[128];
+        const bool reuses = configs[i].settings.history > 0;
+        if (!options_match(m->options.only, configs[i].name))
+            continue;
+        snprintf(label, sizeof label, "%s-%s", b->name, path_name(path));
+        done = run_config(m, &configs[i], path, results[reuses], &f, label);
+        if (path == PATH_BOX && reuses)
+            f.lag = find_lag(m, results[0], results[1]);
+        printf("%s\t%s\t%s\t%.4f\t%.4f\t%.4f\t%.4f\t%.4f\t%d\t%.2f\n", b->name, path_name(path), configs[i].name,
+               sqrt(f.sum2 / f.pixels), f.ssim / f.truths, f.flip / f.truths, sqrt(f.change.sum2 / f.change.pixels),
+               f.new_pixels > 0 ? sqrt(f.new2 / f.new_pixels) : 0, f.lag, f.cpu_ms / (m->count - 1));
+        fflush(stdout);
+    }
+    clear_shots(m);
+    for (int i = 0; i < FRAMES_MAX; i++)
+        for (int k = 0; k < 2; k++)
+            free(results[k][i]);
+    return done;
+}
+
+static bool run(motion *m, const char *paths)
+{
+    bench_scene scenes[BENCH_SCENES_MAX];
+    m->context =
+        context_create(&(context_options){.kind = (context_kind)m->options.context}, m->error, sizeof m->error);
+    if (!m->context || !gl_load(context_load, m->context, m->error, sizeof m->error) ||
+        !map_reader_create(&m->reader, m->options.size[0], m->options.size[1], m->error, sizeof m->error) ||
+        !make_folder(m->options.out))
+        return false;
+    const int count = bench_scenes_list(&m->options, scenes);
+    printf("scene\tmotion\tsetting\tRMSE\tSSIM\tFLIP\tchange\tnew\tlag\tCPU ms\n");
+    for (int i = 0; i < count; i++)
+        for (int p = 0; p < PATH_COUNT; p++) {
+            const bool moves_box = strcmp(scenes[i].name, "columns") == 0;
+            if ((p == PATH_BOX) != moves_box || !options_match(paths, path_name((bench_path)p)))
+                continue;
+            if (!run_motion(m, &scenes[i], (bench_path)p))
+                return false;
+        }
+    return true;
+}
+
+int main(int argc, char **argv)
+{
+    static motion m;
+    const char *paths = NULL;
+    if (argc > 2 && strcmp(argv[1], "--paths") == 0) {
+        paths = argv[2];
+        argv += 2;
+        argc -= 2;
+    }
+    const options_result parsed = options_parse(argc, argv, &m.options, m.error, sizeof m.error);
+    if (parsed != OPTIONS_RUN) {
+        fprintf(stderr, "glssao-motion: %s\n", m.error);
+        return 2;
+    }
+    if (m.options.sequence_frames > FRAMES_MAX)
+        m.options.sequence_frames = FRAMES_MAX;
+    const bool done = run(&m, paths);
+    if (!done)
+        fprintf(stderr, "glssao-motion: %s\n", m.error);
+    map_reader_destroy(&m.reader);
+    context_destroy(m.context);
+    return done ? 0 : 1;
+}

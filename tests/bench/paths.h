@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Recorded motions: how the camera, or a thing in the scene, moves from frame to frame.
+ */
+#ifndef GLSSAO_BENCH_PATHS_H
+#define GLSSAO_BENCH_PATHS_H
+
+#include "camera.h"
+
+typedef enum bench_path {
+    PATH_STILL = 0, /* nothing moves */
+    PATH_ORBIT,     /* a slow turn about the target */
+    PATH_WALK,      /* forward, with the head bobbing */
+    PATH_PAN,       /* a fast turn about the eye */
+    PATH_DOLLY,     /* sideways */
+    PATH_CUT,       /* still, then from another side at once, then still */
+    PATH_BOX,       /* the camera stands still; a box slides along the floor, and then is gone */
+    PATH_COUNT
+} bench_path;
+
+/* What happens at once does so at this frame. */
+enum { PATH_EVENT = 12 };
+
+const char *path_name(bench_path path);
+
+/* The camera of a frame, from that of frame 0. */
+camera path_camera(bench_path path, const camera *start, int frame);
+
+/* PATH_BOX, in the built-in scene "columns": moves its box to where it is in that frame. False where there is none. */
+bool path_move_box(scene *s, int frame);
+/* Whether the box shows a point of world space in that frame, and by how much it moved along x since the last one. */
+bool path_is_on_box(const float world[3], int frame, float *out_moved);
+
+#endif

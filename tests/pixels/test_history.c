@@ -1,0 +1,535 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Reuse of earlier frames, and noise that differs from frame to frame: in a room that is computed, not drawn, for every
+ * projection, with the camera at rest and in motion, and with a box that moves.
+ */
+#include "fixture.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { W = 96, H = 64, N = W * H, FRAMES = 20 };
+
+/* What the camera sees from a place. The shapes are moved instead of the eye. */
+typedef struct shot {
+    analytic_projection projection;
+    double x, z;  /* of the eye, in the view space of the first shot */
+    double box_x; /* how far the last shape has moved along x */
+    int width, height, margin;
+    bool depth_alone;
+} shot;
+
+static glssao_frame take(const shot *s)
+{
+    analytic_shape room[ANALYTIC_ROOM_SHAPES];
+    analytic_room(room, 1.0);
+    for (int i = 2; i < ANALYTIC_ROOM_SHAPES; ++i) /* all but floor and wall */
+        room[i].center[0] += s->box_x;
+    for (int i = 0; i < ANALYTIC_ROOM_SHAPES; ++i) {
+        room[i].center[0] -= s->x;
+        room[i].center[2] -= s->z;
+    }
+    const analytic_view view = analytic_make_view(s->projection, (double)s->width / s->height, 0.5, 40.0, 1.0);
+    glssao_frame frame = fixture_frame(&view, room, ANALYTIC_ROOM_SHAPES, s->width, s->height);
+    if (s->depth_alone) {
+        gl.DeleteTextures(1, &frame.normal_texture);
+        frame.normal_texture = 0;
+    }
+    frame.margin = s->margin;
+    frame.view[0] = frame.view[5] = frame.view[10] = frame.view[15] = 1.0f;
+    frame.view[12] = (float)-s->x;
+    frame.view[14] = (float)-s->z;
+    return frame;
+}
+
+static shot first_shot(analytic_projection projection)
+{
+    return (shot){.projection = projection, .width = W, .height = H};
+}
+
+static glssao_settings make_settings(glssao_technique technique, glssao_quality quality, int history)
+{
+    glssao_settings s = glssao_default_settings(technique, quality);
+    s.radius = 1.0f;
+    s.history = history;
+    return s;
+}
+
+static void compute(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
+{
+    assert_int_equal(glssao_compute(effect, frame, settings), GLSSAO_OK);
+}
+
+static float *read_result(const glssao_effect *effect)
+{
+    int width, height;
+    const uint32_t map = glssao_map(effect, GLSSAO_MAP_AMBIENT, &width, &height);
+    assert_true(map != 0);
+    return fixture_read_texture(map, width, height, 1);
+}
+
+static float *shoot(glssao_effect *effect, const shot *s, const glssao_settings *settings)
+{
+    const glssao_frame frame = take(s);
+    compute(effect, &frame, settings);
+    fixture_delete_frame(&frame);
+    return read_result(effect);
+}
+
+static double rms(const float *a, const float *b, int count)
+{
+    double sum = 0.0;
+    for (int i = 0; i < count; ++i) {
+        assert_true(isfinite(a[i]) && isfinite(b[i]));
+        sum += ((double)a[i] - (double)b[i]) * ((double)a[i] - (double)b[i]);
+    }
+    return sqrt(sum / count);
+}
+
+/* The technique's own floor: the mean of many estimates at full size. */
+static float *make_floor(fixture *f, const shot *s, const glssao_settings *settings)
+{
+    glssao_effect *effect = fixture_effect(f, s->width, s->height);
+    glssao_settings plain = *settings;
+    plain.history = 0;
+    plain.blur = GLSSAO_BLUR_NONE;
+    plain.tiles = GLSSAO_TILES_OFF;
+    plain.half_resolution = false;
+    float *sum = calloc((size_t)N, sizeof *sum);
+    const glssao_frame frame = take(s);
+    const int count = 256;
+    for (int i = 0; i < count; ++i) {
+        plain.noise_index = (uint32_t)i;
+        compute(effect, &frame, &plain);
+        float *result = read_result(effect);
+        for (int p = 0; p < N; ++p)
+            sum[p] += result[p] / (float)count;
+        free(result);
+    }
+    fixture_delete_frame(&frame);
+    glssao_destroy(effect);
+    return sum;
+}
+
+/* ---- noise_index ---- */
+
+/* The mean over indices converges: 16 of them leave less than a third of one's noise, and 8 less than half. */
+static void means_over_noise_indices_converge(void **state)
+{
+    fixture *f = *state;
+    const shot s = first_shot(PERSPECTIVE);
+    for (int t = GLSSAO_CLASSIC; t <= GLSSAO_HORIZON; ++t) {
+        glssao_settings settings = make_settings((glssao_technique)t, GLSSAO_LOW, 0);
+        settings.half_resolution = false;
+        settings.blur = GLSSAO_BLUR_NONE;
+        settings.power = 1.0f;
+        float *floor_map = make_floor(f, &s, &settings), *mean = calloc((size_t)N, sizeof *mean);
+        double errors[17] = {0};
+        glssao_effect *effect = fixture_effect(f, W, H);
+        for (int i = 0; i < 16; ++i) {
+            settings.noise_index = 100 + (uint32_t)i;
+            float *result = shoot(effect, &s, &settings);
+            for (int p = 0; p < N; ++p)
+                mean[p] += (result[p] - mean[p]) / (float)(i + 1);
+            errors[i + 1] = rms(mean, floor_map, N);
+            free(result);
+        }
+        assert_true(errors[1] > 0.005);
+        assert_true(errors[8] < 0.5 * errors[1]);
+        assert_true(errors[16] < errors[1] / 3.0);
+        glssao_destroy(effect);
+        free(floor_map);
+        free(mean);
+    }
+}
+
+static void index_0_is_the_pattern_without_an_index(void **state)
+{
+    fixture *f = *state;
+    const shot s = first_shot(PERSPECTIVE);
+    for (int t = GLSSAO_CLASSIC; t <= GLSSAO_HORIZON; ++t) {
+        glssao_settings settings = make_settings((glssao_technique)t, GLSSAO_HIGH, 0);
+        glssao_effect *effect = fixture_effect(f, W, H);
+        float *zero = shoot(effect, &s, &settings);
+        settings.noise_index = 7;
+        float *seven = shoot(effect, &s, &settings);
+        settings.noise_index = 0;
+        float *again = shoot(effect, &s, &settings);
+        int width, height;
+        (void)glssao_map(effect, GLSSAO_MAP_AMBIENT, &width, &height);
+        assert_memory_equal(zero, again, (size_t)(width * height) * sizeof *zero);
+        assert_memory_not_equal(zero, seven, (size_t)(width * height) * sizeof *zero);
+        free(zero);
+        free(seven);
+        free(again);
+        glssao_destroy(effect);
+    }
+}
+
+/* ---- history ---- */
+
+/* At rest a history of 16 comes nearer to the floor than the single frame, whatever the projection. */
+static void rest_converges_in_every_projection(void **state)
+{
+    fixture *f = *state;
+    for (int p = 0; p < PROJECTION_COUNT; ++p)
+        for (int depth_alone = 0; depth_alone < 2; ++depth_alone) {
+            shot s = first_shot((analytic_projection)p);
+            s.depth_alone = depth_alone;
+            glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
+            float *floor_map = make_floor(f, &s, &settings);
+            glssao_effect *effect = fixture_effect(f, W, H);
+            float *single = shoot(effect, &s, &settings), *last = NULL;
+            for (int i = 1; i < FRAMES; ++i) {
+                free(last);
+                last = shoot(effect, &s, &settings);
+            }
+            assert_true(rms(last, floor_map, N) < 0.75 * rms(single, floor_map, N));
+            free(floor_map);
+            free(single);
+            free(last);
+            glssao_destroy(effect);
+        }
+}
+
+/* A camera that moves finds its points again: the error stays below the single frame's. Without gLastView it would not.
+ */
+static void motion_keeps_the_history(void **state)
+{
+    fixture *f = *state;
+    for (int p = 0; p < PROJECTION_COUNT; ++p) {
+        const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
+        glssao_effect *effect = fixture_effect(f, W, H), *other = fixture_effect(f, W, H);
+        shot s = first_shot((analytic_projection)p);
+        float *last = NULL;
+        for (int i = 0; i < FRAMES; ++i) {
+            s.x = 0.03 * i;
+            s.z = 0.02 * i;
+            free(last);
+            last = shoot(effect, &s, &settings);
+        }
+        float *floor_map = make_floor(f, &s, &settings), *single = shoot(other, &s, &settings);
+        assert_true(rms(last, floor_map, N) < 0.85 * rms(single, floor_map, N));
+        free(floor_map);
+        free(single);
+        free(last);
+        glssao_destroy(effect);
+        glssao_destroy(other);
+    }
+}
+
+static void first_frames_and_cuts_stand_alone(void **state)
+{
+    fixture *f = *state;
+    const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM, 16);
+    glssao_settings plain = settings;
+    plain.history = 0;
+    shot a = first_shot(PERSPECTIVE), b = a;
+    b.x = 1.5;
+    glssao_effect *effect = fixture_effect(f, W, H), *other = fixture_effect(f, W, H);
+    float *fresh = shoot(other, &b, &settings);
+    for (int i = 0; i < 4; ++i)
+        free(shoot(effect, &a, &settings));
+    glssao_frame frame = take(&b);
+    frame.cut = true;
+    compute(effect, &frame, &settings);
+    float *cut = read_result(effect);
+    assert_memory_equal(cut, fresh, N * sizeof *cut);
+    free(cut);
+    /* Another radius, a frame without a history, and a resize end it too. */
+    glssao_settings wider = settings;
+    wider.radius = 2.0f;
+    frame.cut = false;
+    compute(effect, &frame, &wider);
+    compute(effect, &frame, &settings);
+    cut = read_result(effect);
+    assert_memory_equal(cut, fresh, N * sizeof *cut);
+    free(cut);
+    compute(effect, &frame, &plain);
+    compute(effect, &frame, &settings);
+    cut = read_result(effect);
+    assert_memory_equal(cut, fresh, N * sizeof *cut);
+    free(cut);
+    assert_int_equal(glssao_resize(effect, W + 2, H), GLSSAO_OK);
+    assert_int_equal(glssao_resize(effect, W, H), GLSSAO_OK);
+    compute(effect, &frame, &settings);
+    cut = read_result(effect);
+    assert_memory_equal(cut, fresh, N * sizeof *cut);
+    fixture_delete_frame(&frame);
+    free(cut);
+    free(fresh);
+    glssao_destroy(effect);
+    glssao_destroy(other);
+}
+
+/* The single frame is that of today: of a level that estimates at full size, to a step of R16 and what pairing rounds.
+ */
+static void single_frame_is_as_good_as_without_history(void **state)
+{
+    fixture *f = *state;
+    const shot s = first_shot(PERSPECTIVE);
+    glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_ULTRA, 16);
+    glssao_effect *effect = fixture_effect(f, W, H);
+    float *with = shoot(effect, &s, &settings);
+    settings.history = 0;
+    float *without = shoot(effect, &s, &settings);
+    for (int i = 0; i < N; ++i)
+        assert_true(fabs((double)with[i] - (double)without[i]) < 1e-3);
+    free(with);
+    free(without);
+    glssao_destroy(effect);
+}
+
+static void same_frames_give_the_same_bits(void **state)
+{
+    fixture *f = *state;
+    const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
+    float *results[2] = {NULL, NULL};
+    for (int k = 0; k < 2; ++k) {
+        glssao_effect *effect = fixture_effect(f, W, H);
+        shot s = first_shot(PERSPECTIVE);
+        for (int i = 0; i < 6; ++i) {
+            s.x = 0.05 * i;
+            free(results[k]);
+            results[k] = shoot(effect, &s, &settings);
+        }
+        glssao_destroy(effect);
+    }
+    assert_memory_equal(results[0], results[1], N * sizeof *results[0]);
+    free(results[0]);
+    free(results[1]);
+}
+
+static GLuint make_texture(GLenum internal_format, GLenum format, const float *texels)
+{
+    GLuint texture;
+    gl.GenTextures(1, &texture);
+    gl.BindTexture(GL_TEXTURE_2D, texture);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)internal_format, W, H, 0, format, GL_FLOAT, texels);
+    return texture;
+}
+
+/* Depth and normals that are not numbers leave no trace once they are gone. */
+static void no_number_is_forgotten(void **state)
+{
+    fixture *f = *state;
+    const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
+    const shot s = first_shot(PERSPECTIVE);
+    glssao_effect *effect = fixture_effect(f, W, H);
+    glssao_frame frame = take(&s);
+    static float normals[N * 3], depth[N], motion[N * 2];
+    for (int i = 0; i < N; ++i) {
+        normals[3 * i] = normals[3 * i + 1] = normals[3 * i + 2] = i % 3 ? NAN : INFINITY;
+        depth[i] = i % 5 == 0 ? NAN : i % 5 == 1 ? -INFINITY : 3.0f;
+        motion[2 * i] = motion[2 * i + 1] = i % 2 ? NAN : 1e30f;
+    }
+    glssao_frame broken = frame;
+    broken.depth_kind = GLSSAO_DEPTH_VIEW_DISTANCE;
+    broken.depth_texture = make_texture(GL_R32F, GL_RED, depth);
+    broken.normal_texture = fixture_normal_texture(W, H, normals);
+    broken.motion_texture = make_texture(GL_RG32F, GL_RG, motion);
+    for (int i = 0; i < 3; ++i)
+        compute(effect, i == 1 ? &broken : &frame, &settings);
+    float *result = read_result(effect);
+    for (int i = 0; i < N; ++i)
+        assert_true(result[i] >= 0.0f && result[i] <= 1.0f);
+    free(result);
+    gl.DeleteTextures(1, &broken.motion_texture);
+    gl.DeleteTextures(1, &broken.depth_texture);
+    gl.DeleteTextures(1, &broken.normal_texture);
+    fixture_delete_frame(&frame);
+    glssao_destroy(effect);
+}
+
+/* Where a box was, 16 frames later the floor is as bright as for an effect that never saw the box, within 0.02. */
+static void shadows_of_what_moved_away_fade(void **state)
+{
+    fixture *f = *state;
+    const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_HIGH, 16);
+    glssao_effect *effect = fixture_effect(f, W, H), *other = fixture_effect(f, W, H);
+    shot s = first_shot(PERSPECTIVE);
+    for (int i = 0; i < FRAMES; ++i)
+        free(shoot(effect, &s, &settings));
+    float *before = read_result(effect), *last = NULL;
+    s.box_x = 50.0;
+    for (int i = 0; i < 16; ++i) {
+        free(last);
+        last = shoot(effect, &s, &settings);
+    }
+    float *never = NULL;
+    for (int i = 0; i < FRAMES; ++i) {
+        free(never);
+        never = shoot(other, &s, &settings);
+    }
+    double sum = 0.0;
+    int changed = 0;
+    for (int i = 0; i < N; ++i)
+        if (fabsf(before[i] - never[i]) > 0.05f) {
+            sum += (double)last[i] - (double)never[i];
+            changed += 1;
+        }
+    assert_true(changed > 10);
+    assert_true(fabs(sum / changed) < 0.02);
+    free(before);
+    free(last);
+    free(never);
+    glssao_destroy(effect);
+    glssao_destroy(other);
+}
+
+/* Draws and dispatches give the same history, within what an eye can see. */
+static void dispatches_do_as_draws(void **state)
+{
+    fixture *f = *state;
+    const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM, 16);
+    float *results[2] = {NULL, NULL};
+    for (int k = 0; k < 2; ++k) {
+        glssao_config config = fixture_config(f, W, H);
+        config.path = k ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT;
+        glssao_effect *effect;
+        const glssao_result made = glssao_create(&config, &effect);
+        if (made == GLSSAO_UNSUPPORTED_CONTEXT) {
+            fixture_clear_log(f);
+            break;
+        }
+        shot s = first_shot(PERSPECTIVE);
+        for (int i = 0; i < 8; ++i) {
+            s.x = 0.05 * i;
+            free(results[k]);
+            results[k] = shoot(effect, &s, &settings);
+        }
+        glssao_destroy(effect);
+    }
+    if (results[1])
+        assert_true(rms(results[0], results[1], N) < 5e-4);
+    free(results[0]);
+    free(results[1]);
+}
+
+/* A box that moves across the picture keeps its history by the motion texture alone: its front is then nearer to the
+ * floor. */
+static void motion_texture_keeps_the_history_of_what_moves(void **state)
+{
+    fixture *f = *state;
+    const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
+    /* The whole picture moves, by 3 pixels a frame, though the view says that nothing does. */
+    const double step = 3.0;
+    double errors[2] = {0.0, 0.0};
+    for (int with = 0; with < 2; ++with) {
+        glssao_effect *effect = fixture_effect(f, W, H);
+        shot s = first_shot(ORTHOGRAPHIC);
+        const analytic_view view = analytic_make_view(ORTHOGRAPHIC, (double)W / H, 0.5, 40.0, 1.0);
+        const double pixel = 2.0 / (W * (double)view.projection[0]);
+        static float motion[2 * N];
+        for (int i = 0; i < N; ++i)
+            motion[2 * i] = (float)(-step / W);
+        const GLuint texture = make_texture(GL_RG32F, GL_RG, motion);
+        float *last = NULL;
+        for (int i = 0; i < FRAMES; ++i) {
+            s.x = step * pixel * i;
+            glssao_frame frame = take(&s);
+            frame.view[12] = 0.0f;
+            frame.motion_texture = with ? texture : 0;
+            compute(effect, &frame, &settings);
+            fixture_delete_frame(&frame);
+            free(last);
+            last = read_result(effect);
+        }
+        float *floor_map = make_floor(f, &s, &settings);
+        errors[with] = rms(last, floor_map, N);
+        free(last);
+        free(floor_map);
+        gl.DeleteTextures(1, &texture);
+        glssao_destroy(effect);
+    }
+    assert_true(errors[1] < 0.85 * errors[0]);
+}
+
+static void every_technique_size_and_margin_runs(void **state)
+{
+    fixture *f = *state;
+    for (int t = GLSSAO_CLASSIC; t <= GLSSAO_HORIZON; ++t)
+        for (int k = 0; k < 8; ++k) {
+            shot s = first_shot(k % 2 ? ORTHOGRAPHIC : PERSPECTIVE);
+            s.width = k & 2 ? 61 : W;
+            s.height = k & 2 ? 1 + 6 * 7 : H;
+            s.margin = k & 4 ? 8 : 0;
+            glssao_settings settings = make_settings((glssao_technique)t, GLSSAO_MEDIUM, 8);
+            settings.half_resolution = true;
+            glssao_effect *effect = fixture_effect(f, s.width, s.height);
+            for (int i = 0; i < 6; ++i) {
+                s.x = 0.1 * i;
+                free(shoot(effect, &s, &settings));
+                const glssao_frame frame = take(&s);
+                const glssao_plan plan = glssao_plan_frame(effect, &frame, &settings);
+                fixture_delete_frame(&frame);
+                assert_true(plan.passes[GLSSAO_PASS_HISTORY].run && !plan.passes[GLSSAO_PASS_UPSAMPLE].run);
+            }
+            int width, height;
+            (void)glssao_map(effect, GLSSAO_MAP_AMBIENT, &width, &height);
+            assert_int_equal(width, s.width - 2 * s.margin);
+            assert_int_equal(height, s.height - 2 * s.margin);
+            glssao_destroy(effect);
+        }
+}
+
+/* Each refusal names the field. */
+static void bad_views_are_refused_by_name(void **state)
+{
+    fixture *f = *state;
+    const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
+    const shot s = first_shot(PERSPECTIVE);
+    glssao_effect *effect = fixture_effect(f, W, H);
+    glssao_frame frame = take(&s);
+    frame.view[5] = NAN;
+    assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_INVALID_ARGUMENT);
+    assert_non_null(strstr(f->log, "frame.view[5]"));
+    fixture_clear_log(f);
+    memset(frame.view, 0, sizeof frame.view);
+    assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_INVALID_ARGUMENT);
+    assert_non_null(strstr(f->log, "settings.history"));
+    fixture_clear_log(f);
+    glssao_settings plain = settings;
+    plain.history = 0;
+    frame.motion_texture = 12345; /* not read */
+    compute(effect, &frame, &plain);
+    frame.view[0] = frame.view[5] = frame.view[10] = frame.view[15] = 1.0f;
+    assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_INVALID_ARGUMENT);
+    assert_non_null(strstr(f->log, "frame.motion_texture"));
+    fixture_clear_log(f);
+    frame.motion_texture = 0;
+    glssao_settings bent = settings;
+    bent.bent_normals = true;
+    assert_int_equal(glssao_compute(effect, &frame, &bent), GLSSAO_INVALID_ARGUMENT);
+    assert_non_null(strstr(f->log, "bent normals are not reused over time"));
+    fixture_clear_log(f);
+    plain.history = 64;
+    assert_int_equal(glssao_compute(effect, &frame, &plain), GLSSAO_INVALID_ARGUMENT);
+    assert_non_null(strstr(f->log, "settings.history = 64"));
+    fixture_clear_log(f);
+    frame.motion_texture = 0;
+    fixture_delete_frame(&frame);
+    glssao_destroy(effect);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
+        TEST(means_over_noise_indices_converge),
+        TEST(index_0_is_the_pattern_without_an_index),
+        TEST(rest_converges_in_every_projection),
+        TEST(motion_keeps_the_history),
+        TEST(first_frames_and_cuts_stand_alone),
+        TEST(single_frame_is_as_good_as_without_history),
+        TEST(same_frames_give_the_same_bits),
+        TEST(no_number_is_forgotten),
+        TEST(shadows_of_what_moved_away_fade),
+        TEST(dispatches_do_as_draws),
+        TEST(motion_texture_keeps_the_history_of_what_moves),
+        TEST(every_technique_size_and_margin_runs),
+        TEST(bad_views_are_refused_by_name),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+}
