@@ -108,6 +108,12 @@ static bool take(const option *o, const char *text, void *out)
     case OPTION_VECTOR:
         ((option_vector *)target)->given = true;
         return parse_numbers(text, 3, ((option_vector *)target)->value);
+    case OPTION_PAIR: {
+        option_pair *pair = target;
+        pair->given = true;
+        return parse_numbers(text, 2, pair->value) && fmin(pair->value[0], pair->value[1]) >= o->min &&
+               fmax(pair->value[0], pair->value[1]) <= o->max;
+    }
     case OPTION_MATRIX:
         ((option_matrix *)target)->given = true;
         return parse_numbers(text, 16, ((option_matrix *)target)->value);
@@ -199,17 +205,16 @@ bool option_parse(const option_set *set, int argc, char **argv, void *out, failu
 bool option_differs(const option *o, const void *a, const void *b)
 {
     static const size_t sizes[] = {
-        [OPTION_FLAG] = sizeof(bool),         [OPTION_INT] = sizeof(int),
-        [OPTION_INT_OR_NONE] = sizeof(int),   [OPTION_SEED] = sizeof(uint32_t),
-        [OPTION_FLOAT] = sizeof(float),       [OPTION_NUMBER] = sizeof(float),
-        [OPTION_VECTOR] = 3 * sizeof(double), [OPTION_MATRIX] = 16 * sizeof(double),
-        [OPTION_SIZE] = 2 * sizeof(int),      [OPTION_SHARD] = 2 * sizeof(int),
-        [OPTION_WORD] = sizeof(int),          [OPTION_TEXT] = sizeof(char *),
-        [OPTION_FILE] = sizeof(char *),
+        [OPTION_FLAG] = sizeof(bool),         [OPTION_INT] = sizeof(int),         [OPTION_INT_OR_NONE] = sizeof(int),
+        [OPTION_SEED] = sizeof(uint32_t),     [OPTION_FLOAT] = sizeof(float),     [OPTION_NUMBER] = sizeof(float),
+        [OPTION_VECTOR] = 3 * sizeof(double), [OPTION_PAIR] = 2 * sizeof(double), [OPTION_MATRIX] = 16 * sizeof(double),
+        [OPTION_SIZE] = 2 * sizeof(int),      [OPTION_SHARD] = 2 * sizeof(int),   [OPTION_WORD] = sizeof(int),
+        [OPTION_TEXT] = sizeof(char *),       [OPTION_FILE] = sizeof(char *),
     };
     /* Structures with `given` are compared without the padding between it and the value. */
     const size_t value = o->kind == OPTION_NUMBER   ? offsetof(option_number, value)
                          : o->kind == OPTION_VECTOR ? offsetof(option_vector, value)
+                         : o->kind == OPTION_PAIR   ? offsetof(option_pair, value)
                          : o->kind == OPTION_MATRIX ? offsetof(option_matrix, value)
                                                     : 0;
     const char *x = (const char *)a + o->offset, *y = (const char *)b + o->offset;

@@ -21,6 +21,11 @@ typedef struct option_vector {
     double value[3];
 } option_vector;
 
+typedef struct option_pair {
+    bool given;
+    double value[2];
+} option_pair;
+
 typedef struct option_matrix {
     bool given;
     double value[16];
@@ -35,6 +40,7 @@ typedef enum option_kind {
     OPTION_FLOAT,       /* float, min to max */
     OPTION_NUMBER,      /* option_number, min to max */
     OPTION_VECTOR,      /* option_vector */
+    OPTION_PAIR,        /* option_pair: two numbers with a comma between them, both min to max */
     OPTION_MATRIX,      /* option_matrix: 16 numbers with commas between them */
     OPTION_SIZE,        /* int[2], both min to max: "640x480" */
     OPTION_SHARD,       /* int[2], the second min to max, the first below it: "0/4" */

@@ -26,6 +26,8 @@ typedef struct options {
     int width, height;
     int quality, technique, context, path; /* glssao_quality, glssao_technique, context_kind, glssao_path */
     option_number radius, power, intensity, fov_deg, near_plane, far_plane, error, budget_ms, time_s;
+    option_number thickness;
+    option_pair fade_far;
     option_vector eye, target, up, sky_up;
     int sample_count;  /* 0: the default of the quality */
     int rays;          /* a traced pixel; 0: the default of the quality with -t rays, none with another technique */
@@ -39,6 +41,7 @@ typedef struct options {
     bool no_shadows, mapped_normals, specular_occlusion, multi_bounce;
     int shadow_size; /* texels; 0: not given */
     int debug_map;   /* options_map; OPTIONS_MAP_NONE: not given */
+    bool radius_in_pixels;
     bool orthographic, plan, no_ao, help, version;
     const char *background;       /* text of --background; NULL: the sky */
     int samples_per_pixel;        /* 0: the default for the context */

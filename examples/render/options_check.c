@@ -65,6 +65,25 @@ bool options_parse_background(const char *text, float out_rgba[4])
     return is_color || (text && strcmp(text, "none") == 0);
 }
 
+/* The settings that a part of --set alone can't judge. */
+static bool check_extent(const options *o, failure *why)
+{
+    glssao_settings s = {.fade_far_start = (float)o->fade_far.value[0], .fade_far_end = (float)o->fade_far.value[1]};
+    s.radius_in_pixels = o->radius_in_pixels;
+    if (o->set)
+        setting_apply(o->set, &s, &(failure){0});
+    if (s.fade_far_start > s.fade_far_end)
+        return fault_set(why, "--fade-far \"%g,%g\": the end is nearer than the start", (double)s.fade_far_start,
+                         (double)s.fade_far_end);
+    const bool fades = s.fade_far_end > 0;
+    if (o->technique == OPTIONS_RAYTRACE && (s.radius_in_pixels || fades || o->thickness.given))
+        return fault_set(why, "%s: not for raytrace",
+                         s.radius_in_pixels ? "--radius-in-pixels"
+                         : fades            ? "--fade-far"
+                                            : "--thickness");
+    return true;
+}
+
 /* Whether the name of a file ends in `end`. */
 static bool ends_in(const char *path, const char *end)
 {
@@ -217,5 +236,5 @@ bool options_check(const options *o, options_program program, failure *why)
         return fault_set(why, "--shard %d/%d: needs a list, --batch LIST", o->shard_index, o->shard_count);
     }
     return check_together(o, program == OPTIONS_VIEWER, why) && check_picture(o, program, why) &&
-           check_settings(o, why) && check_samples(o, why);
+           check_settings(o, why) && check_samples(o, why) && check_extent(o, why);
 }

@@ -7,9 +7,9 @@
 
 /* Without these words, an option would be ignored without a word. */
 static const char only_depth_map[] = "depth-in|depth-kind|depth-scale|normals-in|ortho-height|projection|heightmap",
-                  also_depth_map[] =
-                      "output|ao|quality|technique|radius|power|samples|blur-rounds|error|set|fov|near|far|"
-                      "seed|scene|batch|shard|cache|timeout|isolate|help|version";
+                  also_depth_map[] = "output|ao|quality|technique|radius|radius-in-pixels|thickness|fade-far|power|"
+                                     "samples|blur-rounds|error|set|fov|near|far|"
+                                     "seed|scene|batch|shard|cache|timeout|isolate|help|version";
 
 static bool check_applicable(const options *start, const options *o, options_program program, failure *why)
 {

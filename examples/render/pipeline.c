@@ -26,7 +26,17 @@ glssao_settings pipeline_settings_at(const options *o, float radius)
         settings.power = 1;
         settings.sample_count = 512;
     }
-    setting_scale_radius(&settings, o->radius.given ? o->radius.value : radius > 0 ? radius : settings.radius);
+    const bool given = o->radius.given && !o->radius_in_pixels;
+    setting_scale_radius(&settings, given ? o->radius.value : radius > 0 ? radius : settings.radius);
+    settings.radius_in_pixels = o->radius_in_pixels;
+    if (o->radius_in_pixels)
+        settings.radius = o->radius.given ? o->radius.value : (float)SETTING_PIXELS;
+    if (o->thickness.given)
+        settings.thickness = o->thickness.value;
+    if (o->fade_far.given) {
+        settings.fade_far_start = (float)o->fade_far.value[0];
+        settings.fade_far_end = (float)o->fade_far.value[1];
+    }
     if (o->power.given)
         settings.power = o->power.value;
     if (o->sample_count)

@@ -148,15 +148,18 @@ static void print_settings(FILE *f, const report *r)
         return;
     }
     fprintf(f,
-            "  \"settings\": {\"technique\": \"%s\", \"quality\": \"%s\", \"radius\": %.9g, \"fade_start\": %.9g, "
+            "  \"settings\": {\"technique\": \"%s\", \"quality\": \"%s\", \"radius\": %.9g, "
+            "\"radius_in_pixels\": %s, \"thickness\": %.9g, \"fade_far_start\": %.9g, \"fade_far_end\": %.9g, "
+            "\"fade_start\": %.9g, "
             "\"fade_end\": %.9g, \"surface_epsilon\": %.9g, \"power\": %.9g, \"sample_count\": %d, "
             "\"half_resolution\": %s, \"upsample\": %s, \"tiles\": \"%s\", \"blur\": \"%s\", \"blur_rounds\": %d, "
             "\"blur_sigma\": %.9g, "
             "\"blur_normal_threshold\": %.9g, \"blur_depth_threshold\": %.9g, \"history\": %d, "
             "\"noise_index\": %u, \"bent_normals\": %s, \"seed\": %u},\n",
             words_at(ALL_TECHNIQUE_WORDS, (int)s->technique).text, words_at(QUALITY_WORDS, r->options->quality).text,
-            (double)s->radius, (double)s->fade_start, (double)s->fade_end, (double)s->surface_epsilon, (double)s->power,
-            s->sample_count, s->half_resolution ? "true" : "false", s->upsample ? "true" : "false",
+            (double)s->radius, s->radius_in_pixels ? "true" : "false", (double)s->thickness, (double)s->fade_far_start,
+            (double)s->fade_far_end, (double)s->fade_start, (double)s->fade_end, (double)s->surface_epsilon,
+            (double)s->power, s->sample_count, s->half_resolution ? "true" : "false", s->upsample ? "true" : "false",
             words_at(TILES_WORDS, (int)s->tiles).text, words_at(BLUR_WORDS, (int)s->blur).text, s->blur_rounds,
             (double)s->blur_sigma, (double)s->blur_normal_threshold, (double)s->blur_depth_threshold, s->history,
             s->noise_index, s->bent_normals ? "true" : "false", r->options->seed);

@@ -18,6 +18,14 @@ enum {
 #define AT(member) offsetof(glssao_settings, member)
 const setting setting_table[] = {
     {"radius", "scene units", "largest distance of an occluder", SETTING_NUMBER, AT(radius), 0, 1e12f, true, NULL, ALL},
+    {"radius-in-pixels", "", "let the radius count pixels of the full size, at any distance", SETTING_SWITCH,
+     AT(radius_in_pixels), 0, 1, false, NULL, ALL},
+    {"thickness", "factor", "multiplies the thickness that is estimated for occluders", SETTING_NUMBER, AT(thickness),
+     0.001f, 1000, false, NULL, HORIZON},
+    {"fade-far-start", "scene units", "view distance up to which occlusion is full", SETTING_NUMBER, AT(fade_far_start),
+     0, 1e12f, false, NULL, ALL},
+    {"fade-far-end", "scene units", "view distance from which on there is no occlusion; 0: never", SETTING_NUMBER,
+     AT(fade_far_end), 0, 1e12f, false, NULL, ALL},
     {"power", "exponent", "contrast: accessibility is raised to this power", SETTING_NUMBER, AT(power), 0, 64, false,
      NULL, ALL},
     {"samples", "a pixel", "more samples give less noise and take more time", SETTING_WHOLE, AT(sample_count), 1, 64,

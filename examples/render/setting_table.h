@@ -22,6 +22,8 @@ typedef struct setting {
     unsigned techniques; /* one bit for each technique that reads it */
 } setting;
 
+enum { SETTING_PIXELS = 32 }; /* the usual radius in pixels */
+
 extern const setting setting_table[];
 extern const int setting_count;
 

@@ -54,7 +54,10 @@ static void step_quality(viewer *v)
 
 static void set_radius(viewer *v, float radius)
 {
-    setting_scale_radius(&v->settings, radius);
+    if (v->settings.radius_in_pixels)
+        v->settings.radius = radius;
+    else
+        setting_scale_radius(&v->settings, radius);
     v->options.radius = (option_number){true, radius};
     viewer_change(v);
 }
@@ -184,7 +187,7 @@ static bool key_of_settings(viewer *v, int key, bool shift)
         set_radius(v, v->settings.radius * 1.25f);
         return true;
     case GLFW_KEY_R:
-        set_radius(v, camera_suggest_radius(v->scene));
+        set_radius(v, v->settings.radius_in_pixels ? (float)SETTING_PIXELS : camera_suggest_radius(v->scene));
         return true;
     case GLFW_KEY_COMMA:
     case GLFW_KEY_PERIOD:

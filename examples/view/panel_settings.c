@@ -12,9 +12,17 @@
 /* The upper end of a slider. For a length it is ten times the default for the scene's suggested radius. */
 static float slider_end(const setting *s, const viewer *v, float standard)
 {
+    const float suggested = camera_suggest_radius(v->scene);
+    const bool is_far =
+        s->offset == offsetof(glssao_settings, fade_far_start) || s->offset == offsetof(glssao_settings, fade_far_end);
+    if (is_far)
+        return 40 * suggested; /* two diagonals of the scene */
+    if (s->offset == offsetof(glssao_settings, radius) && v->settings.radius_in_pixels)
+        return 10 * SETTING_PIXELS;
+    if (s->offset == offsetof(glssao_settings, thickness))
+        return 10;
     if (!s->length)
         return s->high;
-    const float suggested = camera_suggest_radius(v->scene);
     return s->offset == offsetof(glssao_settings, radius) ? 10 * suggested : fmaxf(10 * standard, suggested);
 }
 
@@ -49,10 +57,12 @@ static bool draw_setting(viewer *v, const setting *s, const glssao_settings *sta
     switch (s->kind) {
     case SETTING_NUMBER: {
         float value = *(float *)at;
-        const float usual =
-            s->offset == offsetof(glssao_settings, radius) ? camera_suggest_radius(v->scene) : *(const float *)from;
+        const bool is_radius = s->offset == offsetof(glssao_settings, radius);
+        const float usual = !is_radius                     ? *(const float *)from
+                            : v->settings.radius_in_pixels ? (float)SETTING_PIXELS
+                                                           : camera_suggest_radius(v->scene);
         changed = gui_slider(s->name, s->unit, &value, s->low, slider_end(s, v, usual), s->length, usual);
-        if (changed && s->offset == offsetof(glssao_settings, radius))
+        if (changed && is_radius && !v->settings.radius_in_pixels)
             setting_scale_radius(&v->settings, value);
         else if (changed)
             *(float *)at = value;
@@ -69,6 +79,8 @@ static bool draw_setting(viewer *v, const setting *s, const glssao_settings *sta
             *(bool *)at = *(const bool *)from;
             changed = true;
         }
+        if (changed && s->offset == offsetof(glssao_settings, radius_in_pixels))
+            v->settings.radius = *(bool *)at ? (float)SETTING_PIXELS : camera_suggest_radius(v->scene);
         break;
     case SETTING_WORD: {
         int value = *(int *)at;

@@ -28,9 +28,11 @@ void viewer_drop_truth(viewer *v)
 static bool start(viewer *v)
 {
     v->truth_mean = malloc((size_t)v->width * (size_t)v->height * sizeof *v->truth_mean);
-    v->truth = v->truth_mean
-                   ? truth_job_start(v->scene, &v->view, v->settings.radius, v->options.seed, glfwPostEmptyEvent)
-                   : NULL;
+    v->truth = v->truth_mean ? truth_job_start(v->scene, &v->view,
+                                               v->settings.radius_in_pixels ? camera_suggest_radius(v->scene)
+                                                                            : v->settings.radius,
+                                               v->options.seed, glfwPostEmptyEvent)
+                             : NULL;
     if (!v->truth)
         viewer_say(v, true, "ray tracing could not start: out of memory or threads");
     return v->truth;

@@ -22,6 +22,8 @@ vec2 gFullTexel;            // a texel of the host's maps, in uv
 float gTileRings;           // how far tiles are told from the nearest that needs an estimate
 float gWindowSky;           // the window depth that means nothing was drawn (OBLIQUE)
 vec2 gRoll;                 // cosine and sine of the turn of the passes' view space about the view axis (TURNED)
+vec2 gFadeFar;              // x: view distance from which on nothing is occluded; y: the share lost per unit before it
+vec2 gThickness;            // x: multiplies estimated thickness; y: start of the run that the point belongs to, steps
 vec4 gTurn[3];              // xyz: rows of the matrix from stored normals to the view space of the passes (TURNED)
 vec4 gOblique;              // what numerator (xy) and denominator (zw) of gDistanceFromDepth gain per uv (OBLIQUE)
 vec2 gMapSize;              // of the distance map, pixels

@@ -31,8 +31,8 @@ void main()
     float linear = linear_from_distance(distance);
     uint code = normal_code(normal_view);
     o_ambient = ambient(1.0, linear, code);
-    // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
-    if (distance == FAR_AWAY || normal_view == vec3(0.0))
+    // Sky has no surface, a point without a normal has no hemisphere, and beyond the fade nothing counts.
+    if (distance >= gFadeFar.x || normal_view == vec3(0.0))
         return;
     vec3 position_view = position_view_from_uv(uv_from_texel(texel), distance);
     normal_view = seen_normal_at(texel, position_view, normal_view);
@@ -49,7 +49,7 @@ void main()
     for (int i = 0; i < gSampleCount; ++i) {
         vec3 offset = gOffsetVectors[i].xyz;
         offset -= 2.0 * dot(random_vector, offset) * random_vector; // reflect(), written out: no unit length needed
-        vec3 sample_view = position_view + sign(dot(offset, normal_view)) * gOcclusionRadius * offset;
+        vec3 sample_view = position_view + sign(dot(offset, normal_view)) * wanted_radius(distance) * offset;
         vec4 sample_uvw = gProjTex * vec4(sample_view, 1.0);
         // At or behind the camera nothing can be seen through the sample, and the division would mirror it.
         if (sample_uvw.w <= 0.0)
@@ -66,7 +66,7 @@ void main()
 #endif
         occlusion += weight_from_distance(to_occluder.z, least) * facing;
     }
-    float accessibility = 1.0 - radius_fade(distance) * occlusion / float(gSampleCount);
+    float accessibility = 1.0 - far_fade(distance) * radius_fade(distance) * occlusion / float(gSampleCount);
     // pow() is undefined below 0, which rounding can leave, and at 0 for a power so small that it is flushed to 0.
     o_ambient = ambient(clamp(pow(max(accessibility, 1e-6), gPower), 0.0, 1.0), linear, code);
 }

@@ -36,8 +36,9 @@ RESULT result()
 #if LAYERS
     float back = distance_at(u_back_map, uv);
     float second = distance_at(u_second_map, uv);
-    bool solid = back < FAR_AWAY && back - distance >= THIN * gOcclusionRadius;
-    bool known = solid && second - back >= GAP * gOcclusionRadius;
+    float radius = wanted_radius(distance);
+    bool solid = back < FAR_AWAY && back - distance >= THIN * radius;
+    bool known = solid && second - back >= GAP * radius;
     float behind = second < FAR_AWAY ? max(second - distance, 0.0) : FAR_AWAY;
     return vec4(distance, known ? back - distance : solid ? distance - back : 0.0, behind, 0.0);
 #else

@@ -29,20 +29,21 @@ void main()
     float linear = linear_from_distance(center_distance);
     uint code = normal_code(normal_view);
     o_ambient = ambient(1.0, linear, code);
-    // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
-    if (center_distance == FAR_AWAY || normal_view == vec3(0.0))
+    // Sky has no surface, a point without a normal has no hemisphere, and beyond the fade nothing counts.
+    if (center_distance >= gFadeFar.x || normal_view == vec3(0.0))
         return;
     vec3 position_view = position_view_from_uv(uv_from_texel(texel), center_distance);
     normal_view = seen_normal_at(texel, position_view, normal_view);
     mat3 basis = view_from_tangent(normal_view);
 
+    float radius = wanted_radius(center_distance);
     // Within this, the depth format and its filter can't tell a surface in reach from the point's own.
-    float least = gSurfaceEpsilon + depth_step(center_distance + gOcclusionRadius) +
+    float least = gSurfaceEpsilon + depth_step(center_distance + radius) +
                   filter_error(uv_from_texel(texel), center_distance, normal_view);
     float occlusion = 0.0;
     float counted = 0.0;
     for (int i = 0; i < gSampleCount; ++i) {
-        vec3 sample_view = position_view + gOcclusionRadius * (basis * gKernel[i].xyz);
+        vec3 sample_view = position_view + radius * (basis * gKernel[i].xyz);
         vec4 sample_uvw = gProjTex * vec4(sample_view, 1.0);
         // At or behind the camera nothing can be seen through the sample.
         if (sample_uvw.w <= 0.0)
@@ -53,12 +54,12 @@ void main()
             continue;
         float surface_distance = distance_from_depth(stored_depth(uv));
         bool hidden = surface_distance < -sample_view.z - least;
-        bool in_reach = abs(surface_distance - center_distance) <= gOcclusionRadius;
+        bool in_reach = abs(surface_distance - center_distance) <= radius;
         occlusion += hidden && in_reach ? 1.0 : 0.0;
         counted += 1.0;
     }
     // The floor prevents 0 / 0 where no sample counts.
-    float accessibility = 1.0 - radius_fade(center_distance) * occlusion / max(counted, 1.0);
+    float accessibility = 1.0 - far_fade(center_distance) * radius_fade(center_distance) * occlusion / max(counted, 1.0);
     // pow() is undefined below 0, which rounding can leave, and at 0 for a power so small that it is flushed to 0.
     o_ambient = ambient(clamp(pow(max(accessibility, 1e-6), gPower), 0.0, 1.0), linear, code);
 }

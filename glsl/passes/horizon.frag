@@ -2,7 +2,7 @@
 // The horizon estimate: cosine-weighted visibility, slice by slice (J. Jimenez et al., "Practical Realtime Strategies for
 // Accurate Indirect Occlusion", 2016), gathered in a mask of sectors (O. Therrien et al., "Screen Space Indirect Lighting with
 // Visibility Bitmask", 2023). The sectors have equal cosine-weighted measure. An occluder counts as being as thick as it is
-// wide along the slice, and the sphere of the radius cuts each sample, as in the traced truth.
+// wide along the slice, times the setting, and the sphere of the radius cuts each sample, as in the traced truth.
 // in  u_normal_map    view space; point sampled
 // in  u_distance_map  view distance at the estimate's size, with LAYERS 1 thickness and second layer too; point sampled,
 //                     clamped
@@ -52,8 +52,6 @@ const float CALIBRATION = CALIBRATION_8;
 const float CALIBRATION = CALIBRATION_6;
 #endif
 
-// The start of the run that the point itself belongs to: so far before the point that the run is thicker than the sphere.
-const float BEFORE_THE_POINT = -100.0;
 // Straight below the point, where a sample hides nothing.
 const vec2 BELOW_THE_POINT = vec2(0.0, -1e6);
 // A bound of layers, so that no square overflows.
@@ -219,7 +217,7 @@ uint hidden_sectors(point p, slice_side side, out float highest)
         bends_before = i == 0 || abs(rise[i] - rise[max(i - 1, 0)]) > ALIKE;
         boundary = abs(rise[i]) > JUMP && bends_before && bends_after ? float(i) : boundary;
     }
-    float start = boundary == 0.0 ? 0.0 : BEFORE_THE_POINT;
+    float start = boundary == 0.0 ? 0.0 : gThickness.y;
     uint mask = 0u;
     UNROLL for (int i = 0; i < STEPS; ++i) {
         start = i > 0 && end[max(i - 1, 0)] == float(i) ? float(i) : start;
@@ -341,6 +339,7 @@ float slice_occlusion(point p, float angle)
     if (orthographic())
         side.run_width = mix(RUN_WIDTH, PLAN_WIDTH, clamp((normal_up - PLAN_FROM) / (PLAN_TO - PLAN_FROM), 0.0, 1.0));
 #endif
+    side.run_width *= gThickness.x;
 
     uint mask = 0u;
     float veiled = total;
@@ -406,8 +405,8 @@ RESULT result()
     uint code = normal_code(normal_view);
     RESULT open = ambient(OPEN, linear, code);
 #endif
-    // Sky has no surface, and a point without a normal has no hemisphere: nothing there to occlude.
-    if (distance >= FAR_AWAY || normal_view == vec3(0.0))
+    // Sky has no surface, a point without a normal has no hemisphere, and beyond the fade nothing counts.
+    if (distance >= gFadeFar.x || normal_view == vec3(0.0))
         return open;
     vec3 ray = vec3(uv * gRayDirection.xy + gRayDirection.zw, -1.0);
     float ray_length = length(ray);
@@ -442,9 +441,9 @@ RESULT result()
     occlusion /= float(SLICES);
     // pow() is undefined below 0, which rounding can leave (as it can leave more than 1), and at 0 for a power so small that it
     // is flushed to 0.
-    float share = max(1.0 - occlusion, 1e-6);
+    float share = max(1.0 - far_fade(distance) * occlusion, 1e-6);
 #if BENT
-    vec3 hidden = hidden_vector / float(SLICES);
+    vec3 hidden = far_fade(distance) * hidden_vector / float(SLICES);
 #if STEPS < 12
     hidden *= (1.0 - pow(share, CALIBRATION)) / max(1.0 - share, 1e-4); // it grows as the occlusion does
 #endif

@@ -34,6 +34,22 @@ float depth_step(float distance)
     return gDepthStep.x + distance * (gDepthStep.y + distance * gDepthStep.z);
 }
 
+// The radius that is asked for at a view distance (scene units). RADIUS_GROWS 1: it counts pixels, in perspective.
+float wanted_radius(float distance)
+{
+#if RADIUS_GROWS
+    return gOcclusionRadius * distance;
+#else
+    return gOcclusionRadius;
+#endif
+}
+
+// The share of the occlusion that counts at a view distance.
+float far_fade(float distance)
+{
+    return clamp((gFadeFar.x - distance) * gFadeFar.y, 0.0, 1.0);
+}
+
 // Whether a stored depth means that nothing was drawn.
 bool is_sky(float depth)
 {

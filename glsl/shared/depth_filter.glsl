@@ -37,5 +37,6 @@ float radius_fade(float distance)
 {
     vec2 pixel = abs(gRayOrigin.xy + distance * gRayDirection.xy) * gInvRenderTargetSize;
     float width = min(pixel.x, pixel.y);
-    return width > gOcclusionRadius ? gOcclusionRadius / width : 1.0; // never divides by 0, which the width is at the eye
+    float radius = wanted_radius(distance);
+    return width > radius ? radius / width : 1.0; // never divides by 0, which the width is at the eye
 }

@@ -41,13 +41,17 @@ float longer_side()
 // them counts as one as long as the longer: samples spread over more would miss what is near.
 float radius_at(float distance)
 {
-    return min(gOcclusionRadius, longer_side() * (orthographic() ? 1.0 : distance));
+    return min(wanted_radius(distance), longer_side() * (orthographic() ? 1.0 : distance));
 }
 
 // The change of the linear quantity for a change of view distance by the radius.
 float radius_in_linear(float linear)
 {
+#if RADIUS_GROWS
+    return min(gOcclusionRadius, longer_side()) * linear;
+#else
     return orthographic() ? radius_at(0.0) : min(gOcclusionRadius * linear, longer_side()) * linear;
+#endif
 }
 
 // The change of the linear quantity for a step of the depth format.

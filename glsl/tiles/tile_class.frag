@@ -21,6 +21,9 @@ vec3 bounds_of(ivec2 tile)
 vec2 reach_of(float nearest, vec2 widest_ray)
 {
     float reach = gTiles.y * gOcclusionRadius;
+#if RADIUS_GROWS
+    nearest = 1.0; // radius and picture grow alike
+#endif
 #if FROM_DEPTH
     // Samples lie in a ball, whose image is wider off the axis and nearer to the eye.
     float depth = orthographic() ? 1.0 : nearest - reach;
@@ -67,7 +70,7 @@ bool lies_in_plane(ivec2 tile, vec3 bounds, vec3 plane, vec3 point)
 bool is_open_sky(vec3 bounds, float farthest)
 {
 #if FROM_DEPTH
-    return bounds.y == 0.0 && bounds.x > farthest + gOcclusionRadius;
+    return bounds.y == 0.0 && bounds.x > farthest + wanted_radius(farthest);
 #else
     return bounds.y == 0.0;
 #endif
@@ -77,7 +80,7 @@ bool is_open_sky(vec3 bounds, float farthest)
 bool needs_estimate(ivec2 tile)
 {
     vec3 own = bounds_of(tile);
-    if (own.y == 0.0)
+    if (own.y == 0.0 || own.x >= gFadeFar.x)
         return false;
     vec2 widest_ray = vec2(0.0);
     for (int i = 0; i < 4; ++i)

@@ -23,7 +23,9 @@ static bool is_same_view(const glssao_frame *a, const glssao_settings *s, const 
            memcmp(a->projection, b->projection, sizeof a->projection) == 0 &&
            a->clip_zero_to_one == b->clip_zero_to_one && a->world_normals == b->world_normals &&
            (!a->world_normals || memcmp(a->view, b->view, sizeof a->view) == 0) && s->radius == t->radius &&
-           s->sample_count == t->sample_count && s->bent_normals == t->bent_normals;
+           s->sample_count == t->sample_count && s->bent_normals == t->bent_normals && s->thickness == t->thickness &&
+           s->fade_far_start == t->fade_far_start && s->fade_far_end == t->fade_far_end &&
+           s->radius_in_pixels == t->radius_in_pixels;
 }
 
 static int count(const glssao__accumulation *a)

@@ -14,10 +14,11 @@ enum { COUNT_PERIOD = 1 << 16 };
 
 static bool has_same_estimate(const glssao_settings *a, const glssao_settings *b)
 {
-    return a->technique == b->technique && a->radius == b->radius && a->fade_start == b->fade_start &&
-           a->fade_end == b->fade_end && a->surface_epsilon == b->surface_epsilon && a->power == b->power &&
-           a->sample_count == b->sample_count && a->half_resolution == b->half_resolution &&
-           a->no_angle_weight == b->no_angle_weight;
+    return a->technique == b->technique && a->radius == b->radius && a->radius_in_pixels == b->radius_in_pixels &&
+           a->thickness == b->thickness && a->fade_far_start == b->fade_far_start &&
+           a->fade_far_end == b->fade_far_end && a->fade_start == b->fade_start && a->fade_end == b->fade_end &&
+           a->surface_epsilon == b->surface_epsilon && a->power == b->power && a->sample_count == b->sample_count &&
+           a->half_resolution == b->half_resolution && a->no_angle_weight == b->no_angle_weight;
 }
 
 int glssao__history_frames(const glssao__history *h, const glssao_frame *frame, const glssao_settings *settings,

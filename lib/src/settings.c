@@ -62,6 +62,7 @@ glssao_settings glssao_default_settings(glssao_technique technique, glssao_quali
         .blur_sigma = 2.5f,
         .blur_normal_threshold = 0.8f,
         .blur_depth_threshold = 0.2f,
+        .thickness = 1.0f,
     };
     if (technique == GLSSAO_HEMISPHERE)
         return hemisphere_settings(s, quality);

@@ -27,6 +27,7 @@ void deferred(glssao_effect *effect, GLuint depth, GLuint normals, const float *
               void (*draw_lights)(void));
 void world_normals(glssao_effect *effect, GLuint depth, GLuint normals, const float *projection, const float *view,
                    glssao_settings settings);
+glssao_settings bounded_occlusion(void);
 void linear_depth(glssao_effect *effect, GLuint view_distance, const float *projection, glssao_settings settings);
 void multisampled(glssao_effect *effect, GLuint multisampled_framebuffer, GLuint resolved_framebuffer, GLuint depth,
                   const float *projection, glssao_settings settings, int width, int height);
@@ -95,6 +96,19 @@ void world_normals(glssao_effect *effect, GLuint depth, GLuint normals, const fl
     memcpy(frame.view, view, sizeof frame.view); /* view from world, column-major, as for the vertex shader */
     glssao_compute(effect, &frame, &settings);
     /* end */
+}
+
+glssao_settings bounded_occlusion(void)
+{
+    /* snippet: extent */
+    glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
+    settings.radius = 40.0f;
+    settings.radius_in_pixels = true; /* of the full size, as wide as they are where the point lies */
+    settings.fade_far_start = 50.0f;  /* view distance, scene units: full occlusion up to here, */
+    settings.fade_far_end = 80.0f;    /* none from here on */
+    settings.thickness = 0.5f;        /* occluders count as half as thick as estimated */
+    /* end */
+    return settings;
 }
 
 void linear_depth(glssao_effect *effect, GLuint view_distance, const float *projection, glssao_settings settings)

@@ -183,6 +183,12 @@ static void every_projection_looks_the_same(void **state)
                 glssao_frame f = frame;
                 f.margin = margin;
                 assert_same_picture(effect, &f, &settings, "room");
+                settings.fade_far_end = (float)(6.0 * scale);
+                assert_same_picture(effect, &f, &settings, "room that fades");
+                settings.radius_in_pixels = true;
+                settings.radius = margin ? 3.0f : 20.0f;
+                settings.thickness = 0.5f;
+                assert_same_picture(effect, &f, &settings, "room with a radius in pixels");
             }
         glssao_destroy(effect);
         fixture_delete_frame(&frame);

@@ -109,6 +109,9 @@ static double check(setup *s, const float *depth, const vagueness *most, const c
         .normals = normals,
         .radius = (double)s->settings.radius,
         .power = (double)s->settings.power,
+        .radius_in_pixels = s->settings.radius_in_pixels,
+        .thickness = (double)s->settings.thickness,
+        .fade_far = {(double)s->settings.fade_far_start, (double)s->settings.fade_far_end},
     };
     memcpy(s->input.projection, s->frame.projection, sizeof s->input.projection);
     assert_true(horizon_variant(s->effect, &s->input));
@@ -247,6 +250,26 @@ static void agrees_at_other_settings(void **state)
     s.power = 1.0f;
     const scene_options rebuilt = {PERSPECTIVE, 120, 80, true, true, false};
     check_scene(*state, &rebuilt, &s, "rebuilt normals");
+}
+
+/* The picture's middle is about 5 units away. */
+static void agrees_for_thickness_far_fade_and_radius_in_pixels(void **state)
+{
+    static const float thicknesses[] = {0.25f, 0.5f, 3.0f}, fades[][2] = {{4.0f, 12.0f}, {0.0f, 14.0f}, {8.6f, 8.6f}};
+    for (int i = 0; i < 6; ++i) {
+        const scene_options o = {i % 2 == 0 ? PERSPECTIVE : ORTHOGRAPHIC, 120, 80, .posts = true, .vague = false};
+        glssao_settings s = bare_settings(i < 3 ? 16 : 48, i % 3 == 1, 1.0);
+        s.thickness = thicknesses[i / 2];
+        check_scene(*state, &o, &s, "thickness");
+        s.thickness = 1.0f;
+        s.fade_far_start = fades[i / 2][0];
+        s.fade_far_end = fades[i / 2][1];
+        check_scene(*state, &o, &s, "far fade");
+        s.fade_far_start = s.fade_far_end = 0.0f;
+        s.radius = i / 2 == 0 ? 6.0f : 17.5f;
+        s.radius_in_pixels = true;
+        check_scene(*state, &o, &s, "radius in pixels");
+    }
 }
 
 static double next_random(uint32_t *state)
@@ -393,7 +416,8 @@ static void agrees_for_each_estimate_of_a_still_view(void **state)
                         .height = HEIGHT,
                         .normals = normals,
                         .radius = (double)settings.radius,
-                        .power = 1.0};
+                        .power = 1.0,
+                        .thickness = 1.0};
     memcpy(in.projection, frame.projection, sizeof in.projection);
     float *before = calloc(3 * WIDTH * HEIGHT, sizeof *before), *distance = NULL;
     int turned = 0;
@@ -464,6 +488,7 @@ int main(void)
         GL_TEST(agrees_for_every_projection),
         GL_TEST(agrees_at_other_settings),
         GL_TEST(agrees_on_random_frames),
+        GL_TEST(agrees_for_thickness_far_fade_and_radius_in_pixels),
         GL_TEST(agrees_where_the_radius_is_beyond_the_picture),
         GL_TEST(agrees_on_layers_of_a_small_scene),
         GL_TEST(agrees_for_each_estimate_of_a_still_view),

@@ -355,6 +355,28 @@ static void hemisphere_agrees_at_other_settings(void **state)
     }
 }
 
+/* The picture's middle is about 5 units away. */
+static void estimates_agree_for_far_fade_and_radius_in_pixels(void **state)
+{
+    static const float fades[][2] = {{4.0f, 9.0f}, {8.6f, 8.6f}};
+    for (int i = 0; i < 8; ++i) {
+        const bool hemisphere = i & 1, orthographic = i & 2, pixels = i & 4;
+        setup s;
+        set_up(
+            &s, *state,
+            &(setup_options){orthographic ? ORTHOGRAPHIC : PERSPECTIVE, GL_DEPTH_COMPONENT32F, 151, 100, 1.0, i == 4});
+        if (hemisphere)
+            use_hemisphere(&s, 16);
+        s.settings.power = 1.0f;
+        s.settings.fade_far_start = pixels ? 0.0f : fades[orthographic][0];
+        s.settings.fade_far_end = pixels ? 0.0f : fades[orthographic][1];
+        s.settings.radius = pixels ? 11.5f : 1.0f;
+        s.settings.radius_in_pixels = pixels;
+        check_estimate(&s, pixels ? "radius in pixels" : "far fade");
+        tear_down(&s);
+    }
+}
+
 /* Steps of depth must not occlude, even though no other bias hides them. */
 static void estimates_agree_for_16_bit_depth(void **state)
 {
@@ -488,6 +510,7 @@ int main(void)
         GL_TEST(estimates_agree_for_stored_distances),
         GL_TEST(hemisphere_agrees_for_every_projection),
         GL_TEST(hemisphere_agrees_at_other_settings),
+        GL_TEST(estimates_agree_for_far_fade_and_radius_in_pixels),
         GL_TEST(estimates_agree_for_16_bit_depth),
         GL_TEST(estimates_agree_where_nothing_is_left),
         GL_TEST(estimates_agree_with_samples_behind_the_camera),

@@ -34,6 +34,8 @@ glssao_settings settings_scaled(const glssao_settings *settings, double scale)
     s.fade_end *= by;
     s.surface_epsilon *= by;
     s.blur_depth_threshold *= by;
+    s.fade_far_start *= by;
+    s.fade_far_end *= by;
     return s;
 }
 

@@ -103,6 +103,50 @@ static void power_64(glssao_settings *s)
     s->power = 64.0f;
 }
 
+static void thinnest(glssao_settings *s)
+{
+    s->thickness = 1e-3f;
+}
+
+static void thickest(glssao_settings *s)
+{
+    s->thickness = 1e3f;
+}
+
+static void pixel_radius(glssao_settings *s)
+{
+    s->radius = 20.0f;
+    s->radius_in_pixels = true;
+}
+
+static void many_pixels_radius(glssao_settings *s)
+{
+    s->radius = 1e12f;
+    s->radius_in_pixels = true;
+}
+
+static void few_pixels_radius(glssao_settings *s)
+{
+    s->radius = 1e-6f;
+    s->radius_in_pixels = true;
+}
+
+/* Everything lies beyond it, or in the middle of it. */
+static void fades_at_once(glssao_settings *s)
+{
+    s->fade_far_end = 1e-30f;
+}
+
+static void fades_at_a_step(glssao_settings *s)
+{
+    s->fade_far_start = s->fade_far_end = 5.0f;
+}
+
+static void fades_at_the_end(glssao_settings *s)
+{
+    s->fade_far_end = 1e12f;
+}
+
 static void least_lengths(glssao_settings *s)
 {
     *s = settings_scaled(s, 1e-9);
@@ -207,6 +251,22 @@ static const hard_case cases[] = {
     {"power 0", SEE_ROOM, .change = power_0, .depth = DEPTH_24, .normal = NORMAL_32F, .least = EXACT},
     {"power 64", SEE_ROOM, .change = power_64, .depth = DEPTH_24, .normal = NORMAL_32F},
     {"power 64 in a corner", SEE_WALL, .change = power_64, .depth = DEPTH_24, .normal = NORMAL_32F},
+    {"a thickness of next to nothing", SEE_ROOM, .change = thinnest, .depth = DEPTH_24, .normal = NORMAL_32F},
+    {"a plane of any thickness", SEE_PLANE, 60.0, .change = thickest, .depth = DEPTH_24, .normal = NORMAL_32F,
+     .least = OPEN},
+    {"a radius in pixels", SEE_ROOM, .change = pixel_radius, .depth = DEPTH_24, .normal = NORMAL_32F, .turn = 1},
+    {"a plane and a radius in pixels", SEE_PLANE, 60.0, .change = pixel_radius, .depth = DEPTH_24, .normal = NORMAL_32F,
+     .least = OPEN, .turn = 2},
+    {"a plane far away and a radius in pixels", SEE_PLANE, 60.0, 500.0, .near_plane = 5.0, .far_plane = 5000.0,
+     .change = pixel_radius, .depth = DEPTH_32F, .normal = NORMAL_32F, .least = OPEN, .turn = 3},
+    {"a plane and a radius of 10^12 pixels", SEE_PLANE, 60.0, .change = many_pixels_radius, .depth = DEPTH_32F,
+     .normal = NORMAL_32F, .turn = 4},
+    {"a radius of a millionth of a pixel", SEE_ROOM, .change = few_pixels_radius, .depth = DEPTH_32F,
+     .normal = NORMAL_32F, .least = {0.99, 0.99, 0.99}, .turn = 5},
+    {"a far fade before everything", SEE_ROOM, .change = fades_at_once, .depth = DEPTH_24, .normal = NORMAL_32F,
+     .least = {1.0, 1.0, 1.0}},
+    {"a far fade that is a step", SEE_ROOM, .change = fades_at_a_step, .depth = DEPTH_24, .normal = NORMAL_32F},
+    {"a far fade of 10^12 units", SEE_ROOM, .change = fades_at_the_end, .depth = DEPTH_24, .normal = NORMAL_32F},
     {"lengths of next to nothing", SEE_ROOM, .change = least_lengths, .depth = DEPTH_24, .normal = NORMAL_32F},
     {"lengths beyond the scene", SEE_ROOM, .change = most_lengths, .depth = DEPTH_24, .normal = NORMAL_32F},
     {"a plane and lengths beyond it", SEE_PLANE, 60.0, .change = most_lengths, .depth = DEPTH_32F, .normal = NORMAL_32F,

@@ -65,6 +65,7 @@ static void assert_same(fixture *f, const glssao_frame *plain, const glssao_fram
         if (!effect)
             continue;
         configuration c = configuration_of(numbers[i / PATHS]);
+        c.settings = settings_scaled(&c.settings, 2.0);                    /* more occlusion */
         c.settings.tiles = i % PATHS ? GLSSAO_TILES_OFF : GLSSAO_TILES_ON; /* the bounds of tiles read distances too */
         picture a = shade(f, effect, plain, &c.settings), b = shade(f, effect, other, &c.settings);
         assert_true(a.width == b.width && a.height == b.height && picture_mean(&a) < 0.999);
@@ -282,6 +283,38 @@ static void eyes_behind_the_near_plane_see_the_same(void **state)
         }
 }
 
+/* The settings count view distance from the host's eye. */
+static void far_fades_follow_the_hosts_eye(void **state)
+{
+    static const double moves[] = {2.0, -5000.0};
+    for (int i = 0; i < 4; ++i) {
+        subject s = room(ORTHOGRAPHIC);
+        glssao_frame frame = subject_frame(&s, DEPTH_32F, NORMAL_32F);
+        glssao_settings settings = glssao_default_settings(i % 2 ? GLSSAO_HORIZON : GLSSAO_HEMISPHERE, GLSSAO_HIGH);
+        settings.radius = 2.0f;
+        picture without = shade(*state, effects[0], &frame, &settings);
+        settings.fade_far_start = 5.0f;
+        settings.fade_far_end = 9.0f;
+        picture plain = shade(*state, effects[0], &frame, &settings);
+        frame.projection[14] -= (float)moves[i / 2] * frame.projection[10];
+        settings.fade_far_start -= (float)moves[i / 2];
+        settings.fade_far_end -= (float)moves[i / 2];
+        picture moved = shade(*state, effects[0], &frame, &settings);
+        double apart = 0.0, faded = 0.0;
+        for (int k = 0; k < W * H; ++k) {
+            apart = fmax(apart, fabs((double)plain.values[k] - (double)moved.values[k]));
+            faded = fmax(faded, (double)plain.values[k] - (double)without.values[k]);
+        }
+        if (!(faded > 0.05 && apart < 0.01))
+            fail_msg("case %d: %g faded, %g apart", i, faded, apart);
+        free(without.values);
+        free(plain.values);
+        free(moved.values);
+        subject_frame_free(&frame);
+        subject_free(&s);
+    }
+}
+
 /* ---- oblique near planes ---- */
 
 /* Lengyel's third row for a plane in view space, and the window depth that it gives. */
@@ -395,6 +428,7 @@ int main(void)
         GL_TEST(views_are_checked_where_they_count),
         GL_TEST(residues_change_nothing),
         GL_TEST(eyes_behind_the_near_plane_see_the_same),
+        GL_TEST(far_fades_follow_the_hosts_eye),
         GL_TEST(oblique_near_planes_change_nothing),
         GL_TEST(planes_stay_open),
         GL_TEST(doubts_are_told_once),

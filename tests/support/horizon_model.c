@@ -112,6 +112,7 @@ static slice make_slice(const point *p, double angle, double jitter)
         const rounded more = subtract(once_rounded(c->plan_width), once_rounded(c->width));
         s.run_width = add(s.run_width, multiply(clamp_to(part, 0.0, 1.0), more));
     }
+    s.run_width = multiply(s.run_width, once_rounded(p->in->thickness));
     const interval to = bounds(s.sin_g);
     s.total_minus = middle(horizon_slice_measure(&s, -1.0, to));
     s.total = add(s.total_minus, middle(horizon_slice_measure(&s, 1.0, (interval){-to.high, -to.low})));
@@ -182,7 +183,14 @@ static rounded radius_at(const horizon_input *in, bool orthographic, double dist
     for (int axis = 0; axis < 2; ++axis)
         longer = fmax(longer, fabs(2.0 * (orthographic ? (double)m[15] : -(double)m[11]) / (double)m[5 * axis]));
     longer *= orthographic ? 1.0 : distance;
-    return in->radius < longer ? once_rounded(in->radius) : (rounded){longer, 4.0 * ROUNDING * longer};
+    rounded radius = once_rounded(in->radius);
+    if (in->radius_in_pixels) {
+        const double w = orthographic ? (double)m[15] : -(double)m[11] * distance;
+        const double sides[2] = {2.0 * w / ((double)m[0] * in->full_width), 2.0 * w / ((double)m[5] * in->full_height)};
+        radius.v = in->radius * sqrt(fabs(sides[0] * sides[1]));
+        radius.e = 4.0 * ROUNDING * radius.v;
+    }
+    return radius.v < longer ? radius : (rounded){longer, 4.0 * ROUNDING * longer};
 }
 
 static bool make_point(const horizon_input *in, int x, int y, point *out)
@@ -249,6 +257,11 @@ static void estimate(const point *p, double *out_low, double *out_high)
         occlusion.low += one.low / in->slices;
         occlusion.high += one.high / in->slices;
     }
+    double share = 1.0;
+    if (in->fade_far[1] > 0.0 && p->distance > in->fade_far[0])
+        share = fmax((in->fade_far[1] - p->distance) / (in->fade_far[1] - in->fade_far[0]), 0.0);
+    occlusion.low *= share;
+    occlusion.high *= share;
     const double exponent = in->constants.calibration * in->power;
     *out_low = fmin(pow(fmax(1.0 - occlusion.high, 1e-6), exponent), 1.0);
     *out_high = fmin(pow(fmax(1.0 - occlusion.low, 1e-6), exponent), 1.0);

@@ -28,7 +28,10 @@ typedef struct horizon_input {
     const float *normals; /* xyz a pixel, view space, full size */
     float projection[16];
     double radius, power;
-    double depth_step[3]; /* step of the depth format at distance t: coefficients of 1, t, t^2 */
+    bool radius_in_pixels; /* of the full size; pixels that are no squares count as squares of the same area */
+    double thickness;      /* multiplies what is estimated */
+    double fade_far[2];    /* view distance where the fade starts and ends; 0, 0: none */
+    double depth_step[3];  /* step of the depth format at distance t: coefficients of 1, t, t^2 */
     int slices, steps;
     double noise_offset[2]; /* added to the tile's angle and jitter; both wrap at 1 */
     bool turned_over;       /* swap the tile's angle and jitter */

@@ -156,7 +156,7 @@ static void add_runs(const point *p, const slice *s, const side *d, const candid
             --first;
         while (next < steps && !(jumps >> next & 1u))
             ++next;
-        const double start = first >= 0 ? first : -100.0;
+        const double start = first >= 0 ? first : -100.0 / fmin(p->in->thickness, 1.0);
         const rounded end = next < steps ? exactly(next)
                                          : add(subtract(once_rounded(p->in->constants.open_end * steps), exactly(0.5)),
                                                exactly(s->jitter));

@@ -146,13 +146,31 @@ static double least_nearer(const model_input *in, int x, int y, double t, vec3 n
            at * at * (double)in->depth_step[2] + slope / fmax(256.0 * fabs(facing), 1e-3);
 }
 
+/* The radius at distance t. In pixels, it is so many sides of a square as large as a pixel of the full size there. */
+static double radius_at(const model_input *in, double t)
+{
+    const vec3 p = position_view(in, 0.5, 0.5, t);
+    const double across = fabs(position_view(in, 0.5 + 1.0 / in->width, 0.5, t).x - p.x);
+    const double up = fabs(position_view(in, 0.5, 0.5 + 1.0 / in->height, t).y - p.y);
+    return (double)in->settings->radius * (in->settings->radius_in_pixels ? sqrt(across * up) : 1.0);
+}
+
+/* The share of the occlusion that counts at distance t. */
+static double far_fade(const model_input *in, double t)
+{
+    const double start = (double)in->settings->fade_far_start, end = (double)in->settings->fade_far_end;
+    if (end == 0.0 || t <= start)
+        return 1.0;
+    return t < end ? (end - t) / (end - start) : 0.0;
+}
+
 /* The radius over the smaller side of an ambient pixel at distance t; at most 1. */
 static double radius_fade(const model_input *in, double t)
 {
     const vec3 p = position_view(in, 0.5, 0.5, t);
     const double across = fabs(position_view(in, 0.5 + 1.0 / in->ambient_width, 0.5, t).x - p.x);
     const double up = fabs(position_view(in, 0.5, 0.5 + 1.0 / in->ambient_height, t).y - p.y);
-    return fmin((double)in->settings->radius / fmin(across, up), 1.0);
+    return fmin(radius_at(in, t) / fmin(across, up), 1.0);
 }
 
 typedef struct beside {
@@ -225,7 +243,7 @@ void model_classic(const model_input *in, int x, int y, double *out_low, double 
         vec3 o = {(double)offset[0], (double)offset[1], (double)offset[2]};
         o = add_scaled(o, -2.0 * dot(v, o), v);
         double side = dot(o, n);
-        vec3 q = add_scaled(p, (side > 0.0 ? 1.0 : side < 0.0 ? -1.0 : 0.0) * (double)s->radius, o);
+        vec3 q = add_scaled(p, (side > 0.0 ? 1.0 : side < 0.0 ? -1.0 : 0.0) * radius_at(in, -p.z), o);
         double w = entry(in, 15) + entry(in, 11) * q.z;
         if (w <= 0.0)
             continue;
@@ -258,7 +276,7 @@ void model_classic(const model_input *in, int x, int y, double *out_low, double 
         low += weight_low * fmax(facing - facing_error, 0.0);
         high += weight_high * fmin(facing + facing_error, 1.0);
     }
-    const double share = radius_fade(in, -p.z) / s->sample_count;
+    const double share = far_fade(in, -p.z) * radius_fade(in, -p.z) / s->sample_count;
     *out_high = pow(fmax(1.0 - low * share, 1e-6), (double)s->power);
     *out_low = pow(fmax(1.0 - high * share, 1e-6), (double)s->power);
 }
@@ -278,7 +296,7 @@ void model_hemisphere(const model_input *in, int x, int y, double *out_low, doub
     double depth = depth_texel(in, fx, fy, 0.0);
     if (is_sky(in, depth) || dot(n, n) == 0.0)
         return;
-    double center = distance_from_depth(in, depth), radius = (double)s->radius;
+    double center = distance_from_depth(in, depth), radius = radius_at(in, center);
     vec3 p = position_view(in, (fx + 0.5) / in->width, (fy + 0.5) / in->height, center);
     if (!turn_to_seen(in, fx, fy, p, &n)) {
         *out_low = 0.0;
@@ -321,7 +339,7 @@ void model_hemisphere(const model_input *in, int x, int y, double *out_low, doub
         high += behind > -error && reach > -error ? 1.0 : 0.0;
         counted += 1.0;
     }
-    const double fade = radius_fade(in, center);
+    const double fade = far_fade(in, center) * radius_fade(in, center);
     double occlusion_low = fade * low / fmax(counted + perhaps_counted, 1.0);
     double occlusion_high = fade * fmin((high + perhaps_counted) / fmax(counted, 1.0), 1.0);
     *out_high = pow(fmax(1.0 - occlusion_low, 1e-6), (double)s->power);

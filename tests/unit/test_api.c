@@ -245,10 +245,21 @@ static void compute_refuses_bad_settings(void **state)
     REFUSED(blur_sigma, 3.0f);
     REFUSED(blur_normal_threshold, 1.5f);
     REFUSED(blur_depth_threshold, -1.0f);
+    REFUSED(thickness, -1.0f);
+    REFUSED(thickness, 1e-4f);
+    REFUSED(thickness, 1001.0f);
+    REFUSED(thickness, NAN);
+    REFUSED(fade_far_start, -1.0f);
+    REFUSED(fade_far_end, NAN);
+    REFUSED(fade_far_end, INFINITY);
     REFUSED(technique, (glssao_technique)7);
     REFUSED(blur, (glssao_blur)9);
     REFUSED(bent_normals, true); /* the technique is not horizon */
 #undef REFUSED
+    s = in.settings;
+    s.fade_far_start = 5.0f;
+    s.fade_far_end = 4.0f;
+    check_refused(f, &in, &in.frame, &s, "settings.fade_far_end = 4: less than fade_far_start = 5");
     s = in.settings;
     s.technique = GLSSAO_HORIZON;
     s.sample_count = 14;

@@ -78,6 +78,40 @@ static void tiles_add_their_steps(void **state)
     assert_steps(&q, "classic blur blur");
 }
 
+/* Settings that most frames leave alone run the shaders of before. */
+static void rare_settings_cost_nothing_unused(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 8; ++i) {
+        glssao_frame frame;
+        glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
+        glssao__request q = schedules_request(&frame, &s, 1280, 720);
+        q.can.path = i & 1 ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT;
+        s.radius_in_pixels = i & 2;
+        q.is_orthographic = i & 4; /* whose pixels are as wide everywhere */
+        s.thickness = s.radius_in_pixels ? 0.5f : 1.0f;
+        s.fade_far_end = s.radius_in_pixels ? 9.0f : 0.0f;
+        glssao__schedule schedule;
+        glssao__schedule_make(&schedule, &q);
+        const bool grows = (i & 6) == 2;
+        for (int k = 0; k < schedule.count; ++k) {
+            const uint8_t *values = schedule.steps[k].variant.values;
+            assert_true(!values[MACRO_TURNED] && !values[MACRO_OBLIQUE]);
+            switch (schedule.steps[k].shader) {
+            case SHADER_DISTANCE:
+            case SHADER_HORIZON:
+            case SHADER_PLANAR_BLUR:
+            case SHADER_PLANAR_TILE:
+            case SHADER_UPSAMPLE:
+                assert_true(values[MACRO_RADIUS_GROWS] == grows);
+                break;
+            default:
+                assert_false(values[MACRO_RADIUS_GROWS]);
+            }
+        }
+    }
+}
+
 static void inputs_are_copied_first(void **state)
 {
     (void)state;
@@ -408,6 +442,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(levels_have_their_steps),
         cmocka_unit_test(tiles_add_their_steps),
+        cmocka_unit_test(rare_settings_cost_nothing_unused),
         cmocka_unit_test(inputs_are_copied_first),
         cmocka_unit_test(rounds_share_dispatches_by_two),
         cmocka_unit_test(estimates_are_added_and_averaged),

@@ -164,6 +164,12 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     int history;                   /* 0 to 63: earlier frames are reused, and at most so many count in a pixel's mean; 0:
                                       none. The result has the full size. Needs frame.view; not with rays or bent normals.
                                       docs/integration.md has more */
+    /* How far occlusion reaches: */
+    float thickness;               /* horizon: multiplies the thickness that is estimated for occluders, 0.001 to 1000; 0: 1.
+                                      What a second layer tells stays */
+    float fade_far_start, fade_far_end; /* scene units of view distance, 0 <= start <= end: occlusion is full up to start and
+                                      fades to nothing at end. 0, 0: never */
+    bool radius_in_pixels;         /* radius counts pixels of the full size, as wide as they are where the point lies */
     bool bent_normals;             /* horizon: also write GLSSAO_MAP_BENT_NORMAL. Not with frame.rays_texture, whose rays tell
                                       no directions */
 } glssao_settings;

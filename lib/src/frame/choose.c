@@ -204,6 +204,7 @@ static void choose_inputs(glssao__choice *c, const glssao__request *q)
     c->inputs.values[MACRO_DEPTH] = in_alpha ? DEPTH_ALPHA : is_window ? DEPTH_WINDOW : DEPTH_DISTANCE;
     c->inputs.values[MACRO_TURNED] = q->is_turned || (frame->normal_texture && frame->world_normals);
     c->inputs.values[MACRO_PERSPECTIVE] = !q->is_orthographic;
+    c->inputs.values[MACRO_RADIUS_GROWS] = q->settings->radius_in_pixels && !q->is_orthographic;
     c->inputs.values[MACRO_BENT] = c->bent;
     c->inputs.values[MACRO_BRANCHES] = !q->can.is_software; /* a software rasteriser takes both sides of a branch */
 }

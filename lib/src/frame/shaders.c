@@ -38,25 +38,26 @@ static const struct shader {
                         {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normals_frag,
                          shader_entry_glsl}},
     [SHADER_DISTANCE] = {"distance",
-                         BIT(DEPTH) | BIT(LAYERS) | BIT(COMPUTE) | BIT(VARIES) | BIT(DENSE),
+                         BIT(RADIUS_GROWS) | BIT(DEPTH) | BIT(LAYERS) | BIT(COMPUTE) | BIT(VARIES) | BIT(DENSE),
                          {shader_pixel_glsl, shader_depth_glsl, shader_distance_frag, shader_entry_glsl}},
     [SHADER_OPEN] = {"open",
                      BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(FROM_DEPTH) | BIT(BENT) | BIT(VARIES) | BIT(DENSE),
                      {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                       shader_paired_glsl, shader_open_frag}},
     [SHADER_CLASSIC] = {"classic",
-                        BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(NO_ANGLE_WEIGHT) | BIT(OUTPUT) | BIT(VARIES) |
-                            BIT(DENSE),
+                        BIT(RADIUS_GROWS) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(NO_ANGLE_WEIGHT) |
+                            BIT(OUTPUT) | BIT(VARIES) | BIT(DENSE),
                         {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_depth_filter_glsl,
                          shader_normal_map_glsl, shader_paired_glsl, shader_classic_frag}},
     [SHADER_HEMISPHERE] = {"hemisphere",
-                           BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(OUTPUT) | BIT(VARIES) | BIT(DENSE),
+                           BIT(RADIUS_GROWS) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(OUTPUT) | BIT(VARIES) |
+                               BIT(DENSE),
                            {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_depth_filter_glsl,
                             shader_normal_map_glsl, shader_paired_glsl, shader_hemisphere_frag}},
     [SHADER_HORIZON] = {"horizon",
-                        BIT(NORMALS) | BIT(TURNED) | BIT(STEPS) | BIT(SLICES) | BIT(OUTPUT) | BIT(LAYERS) |
-                            BIT(COMPUTE) | BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(LOOPS) | BIT(BENT) | BIT(VARIES) |
-                            BIT(DENSE),
+                        BIT(RADIUS_GROWS) | BIT(NORMALS) | BIT(TURNED) | BIT(STEPS) | BIT(SLICES) | BIT(OUTPUT) |
+                            BIT(LAYERS) | BIT(COMPUTE) | BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(LOOPS) | BIT(BENT) |
+                            BIT(VARIES) | BIT(DENSE),
                         {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                          shader_bent_glsl, shader_paired_glsl, shader_horizon_frag, shader_entry_glsl}},
     [SHADER_RESOLVE] = {"resolve",
@@ -70,19 +71,21 @@ static const struct shader {
                      {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                       shader_bent_glsl, shader_paired_glsl, shader_blur_frag, shader_entry_glsl}},
     [SHADER_PLANAR_BLUR] = {"planar-blur",
-                            BIT(NORMALS) | BIT(TURNED) | BIT(OUTPUT) | BIT(WIDE) | BIT(PERSPECTIVE) | BIT(BRANCHES) |
-                                BIT(COMPUTE) | BIT(STRIDE) | BIT(RAYS) | BIT(CORRECTS) | BIT(BENT),
+                            BIT(RADIUS_GROWS) | BIT(NORMALS) | BIT(TURNED) | BIT(OUTPUT) | BIT(WIDE) |
+                                BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(COMPUTE) | BIT(STRIDE) | BIT(RAYS) |
+                                BIT(CORRECTS) | BIT(BENT),
                             {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                              shader_bent_glsl, shader_paired_glsl, shader_planar_blur_glsl, shader_planar_blur_frag,
                              shader_entry_glsl}},
     [SHADER_PLANAR_TILE] = {"planar-tile",
-                            BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(OUTPUT) | BIT(COMPUTE) | BIT(UPSAMPLE) |
-                                BIT(ROUNDS) | BIT(WIDE) | BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(BENT),
+                            BIT(RADIUS_GROWS) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(OUTPUT) | BIT(COMPUTE) |
+                                BIT(UPSAMPLE) | BIT(ROUNDS) | BIT(WIDE) | BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(BENT),
                             {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                              shader_bent_glsl, shader_paired_glsl, shader_planar_blur_glsl, shader_upsample_glsl,
                              shader_planar_tile_comp}},
     [SHADER_UPSAMPLE] = {"upsample",
-                         BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(BENT),
+                         BIT(RADIUS_GROWS) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PERSPECTIVE) |
+                             BIT(BRANCHES) | BIT(BENT),
                          {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                           shader_bent_glsl, shader_paired_glsl, shader_upsample_glsl, shader_packed_direction_glsl,
                           shader_upsample_frag}},
@@ -119,8 +122,8 @@ static const struct shader {
                             {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                              shader_tile_map_glsl, shader_tile_bounds_frag}},
     [SHADER_TILE_CLASS] = {"tile-class",
-                           BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PLANES) | BIT(FROM_DEPTH) | BIT(VARIES) |
-                               BIT(DENSE),
+                           BIT(RADIUS_GROWS) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PLANES) | BIT(FROM_DEPTH) |
+                               BIT(VARIES) | BIT(DENSE),
                            {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                             shader_tile_map_glsl, shader_tile_class_frag}},
     [SHADER_TILE_RINGS] = {"tile-rings", 0, {shader_tile_rings_frag}},

@@ -43,6 +43,7 @@ enum glssao__shader {
     X(NORMALS, 3)         /* how normals are stored: signed, unsigned, octahedral, rebuilt */                          \
     X(DEPTH, 2)           /* how it stores depth: window depth, view distance, view distance in alpha */               \
     X(TURNED, 1)          /* stored normals lie in another space than the passes compute in */                         \
+    X(RADIUS_GROWS, 1)    /* the radius grows with view distance: it counts pixels, in perspective */                  \
     X(PERSPECTIVE, 1)     /* the projection is known not to be orthographic */                                         \
     X(BRANCHES, 1)        /* branches that spare a GPU work are taken */                                               \
     X(LOOPS, 1)           /* loops marked UNROLL_IF_SHORT stay loops, which keeps a GPU's program small */             \

@@ -107,6 +107,19 @@ void glssao__uniforms_init(glssao__uniforms *u, uint32_t seed)
 /* Bent normals are made at radius 0 too (scene units): samples then reach no other pixel. */
 static const float LEAST_RADIUS = 1e-12f;
 
+/* The radius in scene units, or where it counts pixels in perspective, at a view distance of 1. Pixels that are no
+ * squares count as squares of the same area. */
+static double radius_of(const glssao__uniforms_source *source)
+{
+    const glssao_settings *s = source->settings;
+    const glssao__projection *p = source->projection;
+    const float *side = p->is_orthographic ? p->ray_origin : p->ray_direction;
+    double radius = (double)s->radius;
+    if (s->radius_in_pixels)
+        radius *= sqrt(fabs((double)side[0] / source->size[0] * (double)side[1] / source->size[1]));
+    return s->bent_normals && radius <= 0.0 ? (double)LEAST_RADIUS : radius;
+}
+
 static void fill_ssao(glssao_constants *c, const glssao__uniforms_source *source)
 {
     const glssao_settings *settings = source->settings;
@@ -123,7 +136,7 @@ static void fill_ssao(glssao_constants *c, const glssao__uniforms_source *source
     glssao__uniforms_gauss_weights(settings->blur_sigma, c->gBlurWeights);
     c->gInvRenderTargetSize[0] = 1.0f / (float)source->estimate_size[0];
     c->gInvRenderTargetSize[1] = 1.0f / (float)source->estimate_size[1];
-    c->gOcclusionRadius = settings->bent_normals && settings->radius <= 0.0f ? LEAST_RADIUS : settings->radius;
+    c->gOcclusionRadius = (float)radius_of(source);
     c->gOcclusionFadeStart = settings->fade_start;
     c->gOcclusionFadeEnd = settings->fade_end;
     c->gSurfaceEpsilon = settings->surface_epsilon;
@@ -134,11 +147,13 @@ static void fill_ssao(glssao_constants *c, const glssao__uniforms_source *source
 static const float FLAT = 1.5e-3f;
 
 /* For the passes in glsl/tiles/. */
-static void fill_tiles(glssao__frame_block *c, const glssao_settings *s, int rings)
+static void fill_tiles(glssao__frame_block *c, const glssao__uniforms_source *source)
 {
+    const glssao_settings *s = source->settings;
+    const bool grows = s->radius_in_pixels && !source->projection->is_orthographic; /* beyond any epsilon */
     const bool classic = s->technique == GLSSAO_CLASSIC, hemisphere = s->technique == GLSSAO_HEMISPHERE;
     /* A sample above a plane that is off by FLAT may lie this little behind the surface that is seen there. */
-    const bool hidden = hemisphere && s->surface_epsilon < 16.0f * FLAT * s->radius;
+    const bool hidden = hemisphere && (grows || s->surface_epsilon < 16.0f * FLAT * (float)radius_of(source));
     c->gTiles[0] = (float)TILE_SIDE;
     /* Classic reflects its offsets about vectors that are not of unit length: one as long as the root of 3 stretches an
      * offset by 5. */
@@ -146,7 +161,7 @@ static void fill_tiles(glssao__frame_block *c, const glssao_settings *s, int rin
     /* The little occlusion that is left of a plane grows with the power. */
     c->gTiles[2] = classic || hidden ? 0.0f : s->power > 1.0f ? FLAT / s->power : FLAT;
     c->gTiles[3] = classic ? s->surface_epsilon : 0.0f;
-    c->gTileRings = (float)(rings + 3);
+    c->gTileRings = (float)(source->tile_rings + 3);
 }
 
 /* From stored normals to the view space of the passes, which is the host's turned about the view axis. */
@@ -162,6 +177,22 @@ static void fill_turn(glssao__frame_block *c, const glssao_frame *frame, const g
         c->gTurn[2][i] = (float)n[6 + i];
     }
     memcpy(c->gRoll, projection->turn, sizeof c->gRoll);
+}
+
+/* How thick occluders count, and how far away occlusion does. */
+static void fill_extent(glssao__frame_block *c, const glssao_settings *s, const glssao__projection *projection)
+{
+    const double thickness = s->thickness > 0.0f ? (double)s->thickness : 1.0;
+    const double start = (double)s->fade_far_start, end = (double)s->fade_far_end;
+    c->gThickness[0] = (float)thickness;
+    /* So far before the point that the run is thicker than the sphere. */
+    c->gThickness[1] = (float)(-100.0 / fmin(thickness, 1.0));
+    c->gFadeFar[0] = (float)FAR_AWAY;
+    c->gFadeFar[1] = 1.0f;
+    if (end > 0.0) {
+        c->gFadeFar[0] = (float)(end - projection->eye);
+        c->gFadeFar[1] = (float)fmin(1.0 / (end - start), 1e30); /* infinite for a step */
+    }
 }
 
 static void fill_frame(glssao__frame_block *c, const glssao__uniforms_source *source)
@@ -198,7 +229,8 @@ static void fill_frame(glssao__frame_block *c, const glssao__uniforms_source *so
     c->gNoise[0] = (float)fmod(source->noise_index * inverse, 1.0);
     c->gNoise[1] = (float)fmod(source->noise_index * (inverse * inverse), 1.0);
     fill_turn(c, frame, projection);
-    fill_tiles(c, settings, source->tile_rings);
+    fill_tiles(c, source);
+    fill_extent(c, settings, projection);
     glssao__projection_depth_step(frame, projection, &source->precision, c->gDepthStep);
     if (frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC) {
         const double constant = glssao__projection_log_constant(frame);

@@ -25,12 +25,24 @@ static const struct number {
     {"blur_sigma", offsetof(glssao_settings, blur_sigma), false, 0.1, 2.5},
     {"blur_normal_threshold", offsetof(glssao_settings, blur_normal_threshold), false, -1.0, 1.0},
     {"blur_depth_threshold", offsetof(glssao_settings, blur_depth_threshold), false, 0.0, 1e12},
+    {"thickness", offsetof(glssao_settings, thickness), false, 0.0, 1e3},
+    {"fade_far_start", offsetof(glssao_settings, fade_far_start), false, 0.0, 1e12},
+    {"fade_far_end", offsetof(glssao_settings, fade_far_end), false, 0.0, 1e12},
     {"history", offsetof(glssao_settings, history), true, 0.0, 63.0},
 };
 
 static bool refuse(const glssao__log *log, const char *field, long long value, const char *wanted)
 {
     glssao__log_write(log, GLSSAO_LOG_ERROR, "%s = %lld: %s", field, value, wanted);
+    return false;
+}
+
+static bool check_fade(const glssao__log *log, const char *field, float start, float end)
+{
+    if (end >= start)
+        return true;
+    glssao__log_write(log, GLSSAO_LOG_ERROR, "settings.%s_end = %g: less than %s_start = %g", field, (double)end, field,
+                      (double)start);
     return false;
 }
 
@@ -57,11 +69,14 @@ bool glssao__check_settings(const glssao_settings *settings, const glssao__log *
         return refuse(log, "settings.bent_normals", 1, "only the horizon technique knows directions");
     if ((unsigned)settings->tiles > GLSSAO_TILES_ON)
         return refuse(log, "settings.tiles", settings->tiles, "unknown");
-    if (settings->fade_end < settings->fade_start) {
-        glssao__log_write(log, GLSSAO_LOG_ERROR, "settings.fade_end = %g: less than fade_start = %g",
-                          (double)settings->fade_end, (double)settings->fade_start);
+    if (settings->thickness > 0.0f && settings->thickness < 1e-3f) {
+        glssao__log_write(log, GLSSAO_LOG_ERROR, "settings.thickness = %g: want 0.001 to 1000, or 0 for 1",
+                          (double)settings->thickness);
         return false;
     }
+    if (!check_fade(log, "fade", settings->fade_start, settings->fade_end) ||
+        !check_fade(log, "fade_far", settings->fade_far_start, settings->fade_far_end))
+        return false;
     if (settings->technique == GLSSAO_RAYS && settings->blur != GLSSAO_BLUR_PLANAR &&
         settings->blur != GLSSAO_BLUR_NONE)
         return refuse(log, "settings.blur", settings->blur, "the rays technique takes the planar blur, or none");

@@ -23,7 +23,7 @@ static double distance_at(double numerator, double denominator, bool perspective
 
 /* Moves the eye of an orthographic projection along the view axis, which changes no picture, to the near end of the
  * depth range. Without it, points behind the eye would have view distances below 0, and far from the eye floats would
- * not tell neighbours apart. A range that begins near the eye stays as it is. */
+ * not tell neighbours apart. A range that begins near the eye stays as it is. Returns how far the eye moved. */
 static double move_eye(double p[16], double ndc_at_0)
 {
     if (p[10] == 0.0)
