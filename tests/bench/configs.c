@@ -129,7 +129,8 @@ static int add_traced(const options *o, bench_config *out, int count)
                 {GLSSAO_HORIZON, GLSSAO_HIGH, 2}, {GLSSAO_HORIZON, GLSSAO_HIGH, 4}, {GLSSAO_HORIZON, GLSSAO_ULTRA, 1},
                 {GLSSAO_HORIZON, GLSSAO_ULTRA, 2}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0] && count < BENCH_CONFIGS_MAX; i++) {
-        const char *name = technique_names[rows[i].technique], *level = words_at(QUALITY_WORDS, (int)rows[i].level).text;
+        const char *name = technique_names[rows[i].technique],
+                   *level = words_at(QUALITY_WORDS, (int)rows[i].level).text;
         bench_config c = {.kind = BENCH_TRACED,
                           .level = rows[i].rays == 0,
                           .settings = glssao_default_settings(rows[i].technique, rows[i].level)};
