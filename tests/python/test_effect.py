@@ -117,7 +117,8 @@ class Effect(Case):
             effect.compute(texture, PROJECTION, 1)
         effect.resize(8, 8)
         effect.compute(texture, PROJECTION, 1)
-        self.assertRefused(ValueError, "name = 'colour': want ambient, ambient_other, normal, random_vector, depth, tiles, rebuilt_normal",
+        self.assertRefused(ValueError, "name = 'colour': want ambient, ambient_other, normal, random_vector, depth, tiles, rebuilt_normal, " +
+                           "bent_normal",
                            effect.map, "colour")
         effect.close()
         effect.close()
