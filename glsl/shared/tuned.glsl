@@ -2,7 +2,7 @@
 // Constants of the horizon technique that were found by experiment. The shaders, the C tests and glssao-tune all read this
 // file: one #define a line, a plain number each. Lengths are in units of the radius.
 
-// The estimate (passes/horizon.frag). glssao-tune searches these.
+// The estimate (passes/horizon.frag). glssao-tune searches most of these; those of PLAN, VEIL_REACH and VEIL_FAR were set by hand.
 #define JUMP 0.3              // a step in height of more than this ends a run of samples ...
 #define ALIKE 0.4             // ... unless the step before or after it differs by less than this: a steep surface
 #define OPEN_END 1.25         // where a run ends that is not seen to end
@@ -27,10 +27,11 @@
 // The planar blur (shared/planar_blur.glsl).
 #define BLUR_TOLERANCE 0.02   // how far off a line may be
 #define BLUR_NEAR 0.1         // how far off a neighbour may be of a pixel that has no other
-#define BLUR_ALONE 0.5         // how much darker than its neighbours a pixel may be that can't be smoothed
+#define BLUR_ALONE 0.5        // how much darker than its neighbours a pixel may be that can't be smoothed
 #define BLUR_HOLLOW 0.1       // how far a later round's line may bend towards the eye at its ends
 
-#define RAYS_ALIKE 0.14
+// The later rounds of the blur of rays (shared/planar_blur.glsl).
+#define RAYS_ALIKE 0.14       // difference of accessibility at which a tap counts no more
 
 // Upsampling (shared/upsample.glsl).
 #define UPSAMPLE_TOLERANCE 0.02 // how far off the plane of its neighbours a pixel may be
