@@ -2,7 +2,7 @@
 // Constants of the horizon technique that were found by experiment. The shaders, the C tests and glssao-tune all read this
 // file: one #define a line, a plain number each. Lengths are in units of the radius.
 
-// The estimate (passes/horizon.frag). glssao-tune searches most of these; those of PLAN, VEIL_REACH and VEIL_FAR were set by hand.
+// The estimate (passes/horizon.frag). glssao-tune searches most of these; PLAN, VEIL_REACH and VEIL_FAR were set by hand.
 #define JUMP 0.3              // a step in height of more than this ends a run of samples ...
 #define ALIKE 0.4             // ... unless the step before or after it differs by less than this: a steep surface
 #define OPEN_END 1.25         // where a run ends that is not seen to end

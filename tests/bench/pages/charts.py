@@ -70,6 +70,11 @@ def short(config, technique):
     return config[len(technique) + 1 :] if config.startswith(technique + "-") else config
 
 
+def needs_scene(config, info):
+    """Whether a host needs more than depth and normals: hidden surfaces, or rays through the scene."""
+    return info["inputs"] == "beyond" or technique_of(info) == "rays" or config.endswith("-rays")
+
+
 def accuracy(a, column, picture):
     """A measure against time: a mark a configuration, and the front of all that need no more than depth and normals."""
     name, less, _ = data.MEASURES[column]
@@ -101,10 +106,10 @@ def accuracy(a, column, picture):
     script += f"set logscale x\nset xrange [{10**x_low}:{10**x_high}]\nset yrange [{y_low}:{y_high}]\n"
     if not less: # slow and good marks are at the top right
         script += "set key bottom right\n"
-    plain = [c for c in configs if a.info(c)["inputs"] != "beyond" and technique_of(a.info(c)) != "rays"]
+    plain = [c for c in configs if not needs_scene(c, a.info(c))]
     front = a.front(plain, column)
     script += block("front", [points[c] for c in front])
-    plots = ['$front with lines lw 2 lc rgb "#a0a0a0" title "Pareto front"']
+    plots = ['$front with lines lw 2 lc rgb "#a0a0a0" title "Pareto front of depth and normals"']
     for technique in dict.fromkeys(technique_of(a.info(c)) for c in configs):
         own = [c for c in configs if technique_of(a.info(c)) == technique]
         script += block(technique, [points[c] for c in own])
@@ -113,7 +118,7 @@ def accuracy(a, column, picture):
     labels = Labels(map(pixel, points.values()))
     for config in sorted(configs, key=lambda c: (not a.info(c)["level"], c not in front)):
         info = a.info(config)
-        if not info["level"] and config not in front:
+        if not info["level"] and config not in front and not config.endswith("-rays"):
             continue
         at, text = pixel(points[config]), short(config, technique_of(info))
         place = labels.place(*at, text)

@@ -8,6 +8,7 @@ import tempfile
 import unittest
 
 import blocks
+import charts
 import data
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -64,6 +65,13 @@ class Figures(unittest.TestCase):
         self.assertAlmostEqual(share, -0.1)
         self.assertAlmostEqual(low, -0.1)
         self.assertAlmostEqual(high, -0.1)
+
+    def test_front_is_of_what_depth_and_normals_give(self):
+        plain = {"inputs": "normals", "technique": "horizon"}
+        self.assertFalse(charts.needs_scene("horizon-high", plain))
+        self.assertTrue(charts.needs_scene("horizon-high-with-2-rays", plain))
+        self.assertTrue(charts.needs_scene("horizon-high-beyond", {**plain, "inputs": "beyond"}))
+        self.assertTrue(charts.needs_scene("rays-low", {**plain, "technique": "rays"}))
 
     def test_front_has_what_is_not_beaten_in_both(self):
         rmse = {"horizon-low": [0.3], "horizon-medium": [0.2], "horizon-high": [0.25], "horizon-ultra": [0.1]}
