@@ -35,16 +35,13 @@ static shot make_shot(const analytic_shape *shapes, int shape_count, analytic_pr
               .width = width,
               .height = height};
     analytic_render(&s.view, shapes, shape_count, width, height, &s.depth, &s.normals);
-    s.frame = (glssao_frame){.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, width, height, s.depth),
-                             .normal_texture = fixture_normal_texture(width, height, s.normals)};
-    memcpy(s.frame.projection, s.view.projection, sizeof s.view.projection);
+    s.frame = fixture_maps_frame(&s.view, width, height, GL_DEPTH_COMPONENT32F, s.depth, s.normals);
     return s;
 }
 
 static void free_shot(shot *s)
 {
-    gl.DeleteTextures(1, &s->frame.depth_texture);
-    gl.DeleteTextures(1, &s->frame.normal_texture);
+    fixture_delete_frame(&s->frame);
     free(s->depth);
     free(s->normals);
 }
@@ -358,7 +355,6 @@ static void closed_forms_agree_with_rays(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(closed_forms_agree_with_rays),    GL_TEST(plane_is_exactly_open_at_every_level),
         GL_TEST(nothing_far_in_front_casts_a_shade),       GL_TEST(ground_beside_a_block_is_near_the_integral),
