@@ -17,32 +17,81 @@ static void upload_buffer(unsigned *name, GLenum target, const void *data, size_
     gl.BufferData(target, (GLsizeiptr)size, data, GL_STATIC_DRAW);
 }
 
+/* The parts of a vertex that some draw call reads, one after another in the vertex buffer. */
+typedef struct vertex_layout {
+    struct {
+        unsigned location;
+        size_t from, to; /* bytes in a scene_vertex, floats in the buffer's vertex */
+        size_t components;
+    } parts[4];
+    size_t count, floats;
+} vertex_layout;
+
+static vertex_layout lay_out_vertices(const scene_renderer *r)
+{
+    bool normals = false, uvs = false, colors = false;
+    for (uint32_t i = 0; i < r->item_count; i++) {
+        normals = normals || !r->items[i].flat;
+        uvs = uvs || r->items[i].variant & VARIANT_TEXTURED;
+        colors = colors || r->items[i].colored;
+    }
+    const struct {
+        unsigned location;
+        bool read;
+        size_t from, components;
+    } parts[] = {
+        {ATTRIBUTE_POSITION, true, offsetof(scene_vertex, position), 3},
+        {ATTRIBUTE_NORMAL, normals, offsetof(scene_vertex, normal), 3},
+        {ATTRIBUTE_UVS, uvs, offsetof(scene_vertex, uv), 4},
+        {ATTRIBUTE_COLOR, colors, offsetof(scene_vertex, color), 4},
+    };
+    vertex_layout out = {.count = 0};
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
+        if (parts[i].read) {
+            out.parts[out.count].location = parts[i].location;
+            out.parts[out.count].from = parts[i].from;
+            out.parts[out.count].components = parts[i].components;
+            out.parts[out.count++].to = out.floats;
+            out.floats += parts[i].components;
+        }
+    return out;
+}
+
+/* Packs a block of vertices at a time, so that a large scene is in memory only twice. */
+static void upload_vertices(scene_renderer *r)
+{
+    enum { BLOCK = 1024, MOST_FLOATS = sizeof(scene_vertex) / sizeof(float) };
+    const scene *s = r->scene;
+    const vertex_layout layout = lay_out_vertices(r);
+    const size_t stride = layout.floats * sizeof(float);
+    float block[BLOCK * MOST_FLOATS];
+    upload_buffer(&r->vertex_buffer, GL_ARRAY_BUFFER, NULL, s->vertex_count * stride);
+    for (size_t first = 0; first < s->vertex_count; first += BLOCK) {
+        const size_t count = s->vertex_count - first < BLOCK ? s->vertex_count - first : BLOCK;
+        for (size_t i = 0; i < count; i++)
+            for (size_t k = 0; k < layout.count; k++)
+                memcpy(block + i * layout.floats + layout.parts[k].to,
+                       (const char *)&s->vertices[first + i] + layout.parts[k].from,
+                       layout.parts[k].components * sizeof(float));
+        gl.BufferSubData(GL_ARRAY_BUFFER, (GLintptr)(first * stride), (GLsizeiptr)(count * stride), block);
+    }
+    for (size_t k = 0; k < layout.count; k++) {
+        gl.VertexAttribPointer(layout.parts[k].location, (GLint)layout.parts[k].components, GL_FLOAT, GL_FALSE,
+                               (GLsizei)stride, (const void *)(layout.parts[k].to * sizeof(float)));
+        gl.EnableVertexAttribArray(layout.parts[k].location);
+    }
+}
+
 static void upload_geometry(scene_renderer *r, const draw_instance *instances)
 {
     const scene *s = r->scene;
     gl.GenVertexArrays(1, &r->empty_vertex_array);
     gl.GenVertexArrays(1, &r->vertex_array);
     gl.BindVertexArray(r->vertex_array);
-    upload_buffer(&r->instance_buffer, GL_ARRAY_BUFFER, instances, s->instance_count * sizeof *instances);
-    upload_buffer(&r->vertex_buffer, GL_ARRAY_BUFFER, s->vertices, s->vertex_count * sizeof *s->vertices);
-    upload_buffer(&r->index_buffer, GL_ELEMENT_ARRAY_BUFFER, s->indices, s->index_count * sizeof *s->indices);
-
     /* Which instances is set before each draw call: 3.3 has no base instance. */
-    static const struct {
-        unsigned location;
-        int components;
-        size_t offset;
-    } attributes[] = {
-        {ATTRIBUTE_POSITION, 3, offsetof(scene_vertex, position)},
-        {ATTRIBUTE_NORMAL, 3, offsetof(scene_vertex, normal)},
-        {ATTRIBUTE_UVS, 4, offsetof(scene_vertex, uv)},
-        {ATTRIBUTE_COLOR, 4, offsetof(scene_vertex, color)},
-    };
-    for (size_t i = 0; i < sizeof attributes / sizeof attributes[0]; i++) {
-        gl.VertexAttribPointer(attributes[i].location, attributes[i].components, GL_FLOAT, GL_FALSE,
-                               sizeof(scene_vertex), (const void *)attributes[i].offset);
-        gl.EnableVertexAttribArray(attributes[i].location);
-    }
+    upload_buffer(&r->instance_buffer, GL_ARRAY_BUFFER, instances, s->instance_count * sizeof *instances);
+    upload_buffer(&r->index_buffer, GL_ELEMENT_ARRAY_BUFFER, s->indices, s->index_count * sizeof *s->indices);
+    upload_vertices(r);
     if (s->tangents) {
         upload_buffer(&r->tangent_buffer, GL_ARRAY_BUFFER, s->tangents, s->vertex_count * sizeof *s->tangents);
         gl.VertexAttribPointer(ATTRIBUTE_TANGENT, 4, GL_FLOAT, GL_FALSE, sizeof *s->tangents, NULL);
