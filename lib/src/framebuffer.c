@@ -54,8 +54,8 @@ static glssao_result copy_depth(glssao_effect *effect, gl_uint framebuffer, cons
         return glssao__log_refuse(&effect->log, "framebuffer = %u: no framebuffer of this context", framebuffer);
     glssao__state_save(gl, &need, host_restores, &state);
     glssao__timers_frame(timers, effect->last.number + 1);
-    const glssao_result result = glssao__depth_copy_take(&effect->depth_copy, gl, timers, &effect->log, framebuffer,
-                                                         part, host_restores);
+    const glssao_result result =
+        glssao__depth_copy_take(&effect->depth_copy, gl, timers, &effect->log, framebuffer, part, host_restores);
     glssao__state_restore(gl, &state);
     if (effect->depth_copy.is_new)
         glssao__host_textures_forget(&effect->known, effect->depth_copy.texture);

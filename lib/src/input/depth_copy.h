@@ -22,8 +22,8 @@ typedef struct glssao__depth_copy {
 glssao__state_need glssao__depth_copy_need(void);
 
 /* Copies x, y, width, height pixels of the framebuffer's depth, or one sample of each. With `host_restores`, a copy
- * like the last asks OpenGL nothing. Needs the state above. Timed as SECTION_DEPTH_COPY. May fail with INVALID_ARGUMENT,
- * FRAMEBUFFER_ERROR and OUT_OF_MEMORY. */
+ * like the last asks OpenGL nothing. Needs the state above. Timed as SECTION_DEPTH_COPY. May fail with
+ * INVALID_ARGUMENT, FRAMEBUFFER_ERROR and OUT_OF_MEMORY. */
 glssao_result glssao__depth_copy_take(glssao__depth_copy *copy, const glssao__gl *gl, glssao__timers *timers,
                                       const glssao__log *log, gl_uint framebuffer, const int rectangle[4],
                                       bool host_restores);
