@@ -32,6 +32,7 @@ typedef enum draw_kind {
     DRAW_MAIN,
     DRAW_SHADOW,
     DRAW_LAYER,
+    DRAW_MOTION,
     DRAW_KIND_COUNT,
     DRAW_SKY = DRAW_KIND_COUNT
 } draw_kind;
@@ -94,6 +95,8 @@ struct scene_renderer {
     const scene *scene;
     unsigned vertex_array, empty_vertex_array;
     unsigned vertex_buffer, tangent_buffer, more_uv_buffer, index_buffer, instance_buffer;
+    unsigned last_vertex_buffer, last_instance_buffer; /* of the pose before; 0: there was none */
+    unsigned motion_vertex_array;                      /* 0: not made */
     unsigned *images[2]; /* GL texture of each of the scene's images, 0 where no material uses it: linear, sRGB */
     unsigned *samplers;  /* of each of the scene's textures, 0 likewise */
     unsigned linear_sampler, nearest_sampler; /* clamped, for screen-sized maps */
@@ -124,6 +127,7 @@ typedef struct draw_pass {
     float normal_view_from_world[3][3];
     double clip_from_world[16];
     float depth_offset;                                                              /* layers */
+    const scene_view *last;                                                          /* motion */
     float ambient[3], ambient_tilt[3], up_view[3], directional[3], to_light_view[3]; /* main pass */
     float lights[MOST_LIGHTS][4][4];
     int light_count;
@@ -137,8 +141,11 @@ typedef struct draw_pass {
     uint32_t first_instance;
 } draw_pass;
 
-/* draw_upload.c: creates r->neutral on first use. */
+/* draw_upload.c: creates r->neutral on first use; points the bound vertex array to what the vertex buffer holds;
+ * uploads into a buffer, made where its name is 0. */
 void draw_make_neutral(scene_renderer *r);
+void draw_point_vertices(const scene_renderer *r);
+void draw_upload_buffer(unsigned *name, unsigned target, const void *data, size_t size);
 
 /* draw_items.c: decides which draw calls the scene takes; fills instances[s->instance_count]. */
 bool draw_plan_items(scene_renderer *r, draw_instance *instances);

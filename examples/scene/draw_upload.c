@@ -10,24 +10,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void upload_buffer(unsigned *name, GLenum target, const void *data, size_t size)
+void draw_upload_buffer(unsigned *name, GLenum target, const void *data, size_t size)
 {
-    gl.GenBuffers(1, name);
+    if (!*name)
+        gl.GenBuffers(1, name);
     gl.BindBuffer(target, *name);
     gl.BufferData(target, (GLsizeiptr)size, data, GL_STATIC_DRAW);
 }
 
-static void upload_geometry(scene_renderer *r, const draw_instance *instances)
+void draw_point_vertices(const scene_renderer *r)
 {
-    const scene *s = r->scene;
-    gl.GenVertexArrays(1, &r->empty_vertex_array);
-    gl.GenVertexArrays(1, &r->vertex_array);
-    gl.BindVertexArray(r->vertex_array);
-    upload_buffer(&r->instance_buffer, GL_ARRAY_BUFFER, instances, s->instance_count * sizeof *instances);
-    upload_buffer(&r->vertex_buffer, GL_ARRAY_BUFFER, s->vertices, s->vertex_count * sizeof *s->vertices);
-    upload_buffer(&r->index_buffer, GL_ELEMENT_ARRAY_BUFFER, s->indices, s->index_count * sizeof *s->indices);
-
-    /* Which instances is set before each draw call: 3.3 has no base instance. */
     static const struct {
         unsigned location;
         int components;
@@ -38,18 +30,32 @@ static void upload_geometry(scene_renderer *r, const draw_instance *instances)
         {ATTRIBUTE_UVS, 4, offsetof(scene_vertex, uv)},
         {ATTRIBUTE_COLOR, 4, offsetof(scene_vertex, color)},
     };
+    gl.BindBuffer(GL_ARRAY_BUFFER, r->vertex_buffer);
     for (size_t i = 0; i < sizeof attributes / sizeof attributes[0]; i++) {
         gl.VertexAttribPointer(attributes[i].location, attributes[i].components, GL_FLOAT, GL_FALSE,
                                sizeof(scene_vertex), (const void *)attributes[i].offset);
         gl.EnableVertexAttribArray(attributes[i].location);
     }
+}
+
+static void upload_geometry(scene_renderer *r, const draw_instance *instances)
+{
+    const scene *s = r->scene;
+    gl.GenVertexArrays(1, &r->empty_vertex_array);
+    gl.GenVertexArrays(1, &r->vertex_array);
+    gl.BindVertexArray(r->vertex_array);
+    /* Which instances is set before each draw call: 3.3 has no base instance. */
+    draw_upload_buffer(&r->instance_buffer, GL_ARRAY_BUFFER, instances, s->instance_count * sizeof *instances);
+    draw_upload_buffer(&r->vertex_buffer, GL_ARRAY_BUFFER, s->vertices, s->vertex_count * sizeof *s->vertices);
+    draw_upload_buffer(&r->index_buffer, GL_ELEMENT_ARRAY_BUFFER, s->indices, s->index_count * sizeof *s->indices);
+    draw_point_vertices(r);
     if (s->tangents) {
-        upload_buffer(&r->tangent_buffer, GL_ARRAY_BUFFER, s->tangents, s->vertex_count * sizeof *s->tangents);
+        draw_upload_buffer(&r->tangent_buffer, GL_ARRAY_BUFFER, s->tangents, s->vertex_count * sizeof *s->tangents);
         gl.VertexAttribPointer(ATTRIBUTE_TANGENT, 4, GL_FLOAT, GL_FALSE, sizeof *s->tangents, NULL);
         gl.EnableVertexAttribArray(ATTRIBUTE_TANGENT);
     }
     if (s->more_uvs) {
-        upload_buffer(&r->more_uv_buffer, GL_ARRAY_BUFFER, s->more_uvs, s->vertex_count * sizeof *s->more_uvs);
+        draw_upload_buffer(&r->more_uv_buffer, GL_ARRAY_BUFFER, s->more_uvs, s->vertex_count * sizeof *s->more_uvs);
         gl.VertexAttribPointer(ATTRIBUTE_MORE_UVS, 4, GL_FLOAT, GL_FALSE, sizeof *s->more_uvs, NULL);
         gl.EnableVertexAttribArray(ATTRIBUTE_MORE_UVS);
     }
@@ -254,11 +260,12 @@ void scene_renderer_destroy(scene_renderer *r)
     if (!r)
         return;
     /* GL ignores the name 0, which stands for an object that was not created. */
-    unsigned buffers[] = {r->vertex_buffer, r->tangent_buffer, r->more_uv_buffer, r->index_buffer, r->instance_buffer};
-    unsigned vertex_arrays[] = {r->vertex_array, r->empty_vertex_array};
+    unsigned buffers[] = {r->vertex_buffer,   r->tangent_buffer,     r->more_uv_buffer,      r->index_buffer,
+                          r->instance_buffer, r->last_vertex_buffer, r->last_instance_buffer};
+    unsigned vertex_arrays[] = {r->vertex_array, r->empty_vertex_array, r->motion_vertex_array};
     unsigned samplers[] = {r->linear_sampler, r->nearest_sampler};
-    gl.DeleteBuffers(5, buffers);
-    gl.DeleteVertexArrays(2, vertex_arrays);
+    gl.DeleteBuffers(7, buffers);
+    gl.DeleteVertexArrays(3, vertex_arrays);
     gl.DeleteSamplers(2, samplers);
     gl.DeleteTextures(1, &r->white_texture);
     gl.DeleteTextures(2, r->neutral);
