@@ -43,6 +43,7 @@ static options_result parse(int argc, char **argv, options_program program, opti
                      .quality = GLSSAO_HIGH,
                      .technique = GLSSAO_HORIZON,
                      .blur_rounds = -1,
+                     .history = -1,
                      .cache_mib = 1024};
     const options start = *out;
     const option_set set = options_set(program);
