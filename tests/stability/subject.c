@@ -158,9 +158,8 @@ void subject_frame_free(glssao_frame *frame)
     gl.DeleteTextures(1, &frame->second_texture);
 }
 
-picture subject_shade(fixture *f, int width, int height, const glssao_frame *frame, const glssao_settings *settings)
+picture subject_shade_by(fixture *f, glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
 {
-    glssao_effect *effect = fixture_shared_effect(f, width, height);
     fixture_clear_log(f);
     const glssao_result result = glssao_compute(effect, frame, settings);
     if (result != GLSSAO_OK)
@@ -169,4 +168,9 @@ picture subject_shade(fixture *f, int width, int height, const glssao_frame *fra
     const uint32_t map = glssao_map(effect, GLSSAO_MAP_AMBIENT, &p.width, &p.height);
     p.values = fixture_read_texture(map, p.width, p.height, 1);
     return p;
+}
+
+picture subject_shade(fixture *f, int width, int height, const glssao_frame *frame, const glssao_settings *settings)
+{
+    return subject_shade_by(f, fixture_shared_effect(f, width, height), frame, settings);
 }

@@ -278,7 +278,8 @@ typedef struct glssao_constants {
 } glssao_constants;
 
 typedef enum glssao_pass { /* in the order of the frame */
-    GLSSAO_PASS_INPUTS = 0,  /* copies multisample, larger or logarithmic textures to plain ones */
+    GLSSAO_PASS_INPUTS = 0,  /* copies multisample, larger or logarithmic textures to plain ones. The copy of
+                                glssao_compute_framebuffer counts in its time alone */
     GLSSAO_PASS_NORMALS,     /* rebuilds normals from depth */
     GLSSAO_PASS_DISTANCE,    /* view distance at the estimate's size */
     GLSSAO_PASS_TILES,       /* looks for tiles without any occlusion, which later passes leave out */
