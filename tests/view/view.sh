@@ -105,8 +105,9 @@ save() {
 }
 work_us() { awk '{printf "%d", $1 / 1000}' /proc/$viewer/schedstat; } # the main thread's, on the processor
 draw() { "$render" "$@" 2>/dev/null || fail "glssao-render $*"; }
+# Each frame alone, unless `history` says how many count.
 start() {
-    "$view" "$@" >view.out 2>view.err &
+    "$view" --history "${history:-0}" "$@" >view.out 2>view.err &
     viewer=$!
     local try
     for try in $(seq 200); do # it has the scene's name once the picture is whole
@@ -140,6 +141,23 @@ stop
 read -r frames updates < <(sed -n 's/.*; \([0-9]*\) frames drawn, \([0-9]*\) screen updates.*/\1 \2/p' view.err)
 [ "${frames:-99}" -le 2 ] || fail "$frames frames for a picture that stands still"
 [ "${updates:-99}" -le 25 ] || fail "$updates screen updates while nothing happens"
+
+# With a history, the view at rest comes to the picture of --error, whether it moved before or not, and then rests.
+history=16 start -s 240x160 --scene columns -o saved.png
+press g
+save
+[[ $command = *" --error 0.002 "* ]] || fail "left out: $command"
+press Left Left
+save
+sleep 0.5
+before=$(work_us)
+sleep 1
+work=$(($(work_us) - before))
+[ "$work" -le 50000 ] || fail "at rest it works for $work microseconds in a second"
+stop
+read -r reused rests < <(sed -n 's/.*; \([0-9]*\) frames with a history, \([0-9]*\) steps at rest.*/\1 \2/p' view.err)
+[ "${reused:-0}" -ge 3 ] || fail "$reused frames with a history"
+[ "${rests:-0}" -ge 20 ] || fail "$rests steps at rest"
 
 # Minimised, it does not even blink, and comes back as it was.
 start -s 320x200 --scene plane
