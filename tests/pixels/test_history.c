@@ -299,6 +299,31 @@ static void same_frames_give_the_same_bits(void **state)
     free(results[1]);
 }
 
+/* A mean of a still view, taken in between, changes no bit of the history. */
+static void accumulating_leaves_the_history(void **state)
+{
+    fixture *f = *state;
+    const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
+    float *results[2];
+    for (int between = 0; between < 2; ++between) {
+        glssao_effect *effect = fixture_effect(f, W, H);
+        const shot s = first_shot(PERSPECTIVE);
+        const glssao_frame frame = take(&s);
+        for (int i = 0; i < 5; ++i) {
+            compute(effect, &frame, &settings);
+            for (int k = 0; k < 2 * between; ++k)
+                assert_int_equal(glssao_accumulate(effect, &frame, &settings), GLSSAO_OK);
+        }
+        compute(effect, &frame, &settings);
+        results[between] = read_result(effect);
+        fixture_delete_frame(&frame);
+        glssao_destroy(effect);
+    }
+    assert_memory_equal(results[0], results[1], N * sizeof *results[0]);
+    free(results[0]);
+    free(results[1]);
+}
+
 /* Depth and normals that are not numbers leave no trace once they are gone. */
 static void no_number_is_forgotten(void **state)
 {
@@ -501,6 +526,7 @@ int main(void)
         GL_TEST(first_frames_and_cuts_stand_alone),
         GL_TEST(single_frame_is_as_good_as_without_history),
         GL_TEST(same_frames_give_the_same_bits),
+        GL_TEST(accumulating_leaves_the_history),
         GL_TEST(no_number_is_forgotten),
         GL_TEST(shadows_of_what_moved_away_fade),
         GL_TEST(dispatches_do_as_draws),

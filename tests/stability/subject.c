@@ -143,9 +143,8 @@ glssao_frame subject_frame(const subject *s, depth_store depth, normal_store nor
     return frame;
 }
 
-picture subject_shade(fixture *f, int width, int height, const glssao_frame *frame, const glssao_settings *settings)
+picture subject_shade_by(fixture *f, glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
 {
-    glssao_effect *effect = fixture_shared_effect(f, width, height);
     fixture_clear_log(f);
     const glssao_result result = glssao_compute(effect, frame, settings);
     if (result != GLSSAO_OK)
@@ -153,4 +152,9 @@ picture subject_shade(fixture *f, int width, int height, const glssao_frame *fra
     picture p;
     p.values = fixture_read_ambient(effect, &p.width, &p.height);
     return p;
+}
+
+picture subject_shade(fixture *f, int width, int height, const glssao_frame *frame, const glssao_settings *settings)
+{
+    return subject_shade_by(f, fixture_shared_effect(f, width, height), frame, settings);
 }

@@ -83,16 +83,6 @@ static glssao_result make(host *h, glssao_path path, int width, int height, glss
 
 /* ---- pictures ---- */
 
-static picture shade(fixture *f, glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
-{
-    fixture_clear_log(f);
-    if (glssao_compute(effect, frame, settings) != GLSSAO_OK)
-        fail_msg("glssao_compute: %s", f->log);
-    picture p;
-    p.values = fixture_read_ambient(effect, &p.width, &p.height);
-    return p;
-}
-
 /* Fails unless the two agree as glssao_path promises: RMSE at most 1e-4, at most 1 pixel in 10,000 off by more than
  * 0.02. */
 static void assert_agree(const picture *a, const picture *b, const char *what)
@@ -146,7 +136,7 @@ static void assert_alike(fixture *f, const char *what, int width, int height, co
         for (int k = 0; k < GLSSAO_PASS_COUNT; ++k)
             dispatching += plan.passes[k].compute;
         assert_true((dispatching > 0) == (i == 2));
-        pictures[i] = shade(f, ways[i], frame, settings);
+        pictures[i] = subject_shade_by(f, ways[i], frame, settings);
     }
     assert_true(picture_least(&pictures[0]) < 0.99 || width * height < 100); /* some pixel is occluded */
     for (int i = 1; i < WAYS; ++i)
@@ -345,7 +335,7 @@ static void the_context_and_the_config_decide(void **state)
         const glssao_plan plan = glssao_plan_frame(effect, &frame, &s);
         if (plan.path != wanted_path)
             fail_msg("case %d goes way %d: %s", (int)i, plan.path, plan.path_reason);
-        picture got = shade(f, effect, &frame, &s);
+        picture got = subject_shade_by(f, effect, &frame, &s);
         assert_string_equal(f->log, "");
         if (i == 0)
             wanted = got;
@@ -383,7 +373,7 @@ static void refused_compute_shaders_are_done_without(void **state)
                                   : glssao_prepare(effect, &frame, &s),
                          GLSSAO_OK);
         assert_true(effect != NULL && glssao_plan_frame(effect, &frame, &s).path == GLSSAO_PATH_FRAGMENT);
-        picture p = shade(f, effect, &frame, &s);
+        picture p = subject_shade_by(f, effect, &frame, &s);
         assert_true(picture_least(&p) < 0.99);
         assert_string_equal(f->log, "");
         free(p.values);

@@ -5,6 +5,7 @@
  */
 #include "guest.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -425,6 +426,42 @@ static void hosts_that_restore_state_name_the_part(void **state)
     glssao_destroy(effect);
 }
 
+/* The copy counts in the time of the inputs, of frames that came to something. */
+static void the_copy_is_timed(void **state)
+{
+    fixture *f = *state;
+    glssao_effect *effect = fixture_effect(f, W, H);
+    const glssao_settings settings = make_settings();
+    glssao_frame frame = make_frame(), bad = make_frame();
+    bad.normal_texture = 4242;
+    memcpy(frame.viewport, (const int[4]){0, 0, W, H}, sizeof frame.viewport);
+    memcpy(bad.viewport, frame.viewport, sizeof bad.viewport);
+    host h = make_host(&formats[1], 0, W, H);
+    for (int i = 0; i < 6; ++i) { /* more often than there are sets of timers */
+        assert_int_equal(glssao_compute_framebuffer(effect, h.framebuffer, &frame, &settings), GLSSAO_OK);
+        assert_int_equal(glssao_compute_framebuffer(effect, h.framebuffer, &bad, &settings), GLSSAO_INVALID_ARGUMENT);
+        bad.multisample = !bad.multisample; /* refused before the copy, then after it */
+        gl.Finish();
+        const glssao_stats stats = glssao_get_stats(effect);
+        assert_true(stats.frame == (uint64_t)i + 1 && stats.timed_frame == stats.frame);
+        double sum = 0.0;
+        for (int pass = 0; pass < GLSSAO_PASS_COUNT; ++pass)
+            sum += fmax(stats.passes[pass].gpu_ms, 0.0);
+        assert_true(stats.passes[GLSSAO_PASS_INPUTS].gpu_ms > 0.0);
+        assert_true(fabs(stats.gpu_ms - sum) < 1e-9);
+        assert_int_equal(stats.passes[GLSSAO_PASS_INPUTS].draw_calls, 0);
+    }
+    memset(frame.viewport, 0, sizeof frame.viewport);
+    frame.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT24, W, H, NULL);
+    assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_OK);
+    gl.Finish();
+    assert_true(glssao_get_stats(effect).passes[GLSSAO_PASS_INPUTS].gpu_ms < 0.0); /* no copy */
+    fixture_clear_log(f);
+    gl.DeleteTextures(1, &frame.depth_texture);
+    delete_host(&h);
+    glssao_destroy(effect);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -436,6 +473,7 @@ int main(void)
         GL_TEST(drivers_that_refuse_the_blit_copy_texels),
         GL_TEST(errors_of_the_host_stay),
         GL_TEST(hosts_that_restore_state_name_the_part),
+        GL_TEST(the_copy_is_timed),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
 }
