@@ -95,9 +95,6 @@ static const struct shader {
                          BIT(RAYS) | BIT(CORRECTS),
                      {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                       shader_paired_glsl, shader_rays_frag, shader_entry_glsl}},
-    [SHADER_CORRECT] = {"correct",
-                        BIT(OUTPUT) | BIT(COMPUTE),
-                        {shader_pixel_glsl, shader_paired_glsl, shader_correct_frag, shader_entry_glsl}},
     [SHADER_HISTORY] = {"history",
                         BIT(DENSE) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PERSPECTIVE) | BIT(BRANCHES) |
                             BIT(COMPUTE) | BIT(UPSAMPLE) | BIT(MOTION),
