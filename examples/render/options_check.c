@@ -115,6 +115,28 @@ static bool asks_for_bent_normals(const options *o)
            settings.bent_normals;
 }
 
+/* Options of pictures that follow each other. */
+static bool check_sequence(const options *o, bool is_viewer, failure *why)
+{
+    if (o->fps.given && (!o->frames || !o->time_s.given))
+        return fault_set(why, "--fps %g: needs --frames N and --time SECONDS", (double)o->fps.value);
+    if (o->fps.given && o->scene_path && strcmp(o->scene_path, "-") == 0)
+        return fault_set(why, "--fps %g: reads the file again for each picture, which standard input does not allow",
+                         (double)o->fps.value);
+    if (o->history <= 0)
+        return true;
+    if (!is_viewer && !o->frames && !o->bench)
+        return fault_set(why, "--history %d: needs --frames N or --bench N: one picture has no earlier one",
+                         o->history);
+    const char *other = o->technique == OPTIONS_RAYTRACE                       ? "technique raytrace"
+                        : o->no_ao && !is_viewer                               ? "no-ao"
+                        : (o->error.given || o->budget_ms.given) && !is_viewer ? o->error.given ? "error" : "budget"
+                                                                               : NULL;
+    if (other)
+        return fault_set(why, "--history %d and --%s cannot be used together", o->history, other);
+    return true;
+}
+
 /* Options that need or cannot be used together. */
 static bool check_together(const options *o, bool is_viewer, failure *why)
 {
@@ -208,7 +230,7 @@ static bool check_together(const options *o, bool is_viewer, failure *why)
             why, "nothing to do: give -o FILE, --ao, --normals, --depth, --stats, --bench or --plan (see --help)");
     if (o->frames && !o->output && !o->ao && !o->normals && !o->depth)
         return fault_set(why, "--frames %d: needs an output such as -o FILE", o->frames);
-    return !same_file(o, why);
+    return check_sequence(o, is_viewer, why) && !same_file(o, why);
 }
 
 /* Tries the text of --set on some settings. */

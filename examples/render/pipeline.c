@@ -45,6 +45,8 @@ glssao_settings pipeline_settings_at(const options *o, float radius)
         settings.sample_count = o->rays;
     if (o->blur_rounds >= 0)
         settings.blur_rounds = o->blur_rounds;
+    if (o->history >= 0)
+        settings.history = o->history;
     if (o->set) {
         setting_apply(o->set, &settings, &(failure){0}); /* options_parse made sure that it is valid */
     }
@@ -172,6 +174,7 @@ bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_us
                                            .multi_bounce = o->multi_bounce,
                                            .left_out = o->intensity.given ? 1 - o->intensity.value : 0,
                                            .layers = wants.ao && o->layers == 2,
+                                           .motion = wants.motion,
                                            .no_picture = !wants.picture,
                                            .no_prepass = !wants.prepass};
     p->debug_map = (options_map)o->debug_map;
@@ -222,6 +225,11 @@ bool pipeline_reads_normals(const pipeline *p, const scene_view *view)
     return p->effect && (p->wants.normal_map || pipeline_runs_occlusion(p, view));
 }
 
+static bool reads_motion(const pipeline *p)
+{
+    return p->wants.motion && p->is_posed && p->has_last;
+}
+
 static bool draw_prepass(pipeline *p, const scene_view *view, failure *why)
 {
     if (pipeline_reads_normals(p, view)) {
@@ -234,6 +242,10 @@ static bool draw_prepass(pipeline *p, const scene_view *view, failure *why)
             gl.BindFramebuffer(GL_FRAMEBUFFER, p->layer_framebuffer);
             gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, p->layers[i], 0);
             scene_draw_layer(p->renderer, view, p->depth, i == 0 ? SCENE_LAYER_BACK : SCENE_LAYER_SECOND);
+        }
+        if (reads_motion(p) && pipeline_runs_occlusion(p, view)) {
+            gl.BindFramebuffer(GL_FRAMEBUFFER, p->motion_framebuffer);
+            scene_draw_motion(p->renderer, view, &p->last_view);
         }
         return true;
     }
@@ -252,7 +264,9 @@ glssao_frame pipeline_frame(const pipeline *p, const scene_view *view)
                           .back_texture = p->draw_options.layers ? p->layers[0] : 0,
                           .second_texture = p->draw_options.layers ? p->layers[1] : 0,
                           .normal_texture = glssao_map(p->effect, GLSSAO_MAP_NORMAL, NULL, NULL),
-                          .rays_texture = p->wants.rays ? p->rays.texture : 0};
+                          .rays_texture = p->wants.rays ? p->rays.texture : 0,
+                          .motion_texture = reads_motion(p) ? p->motion : 0,
+                          .cut = !p->has_last};
     memcpy(frame.projection, view->clip_from_view, sizeof frame.projection);
     memcpy(frame.view, view->view_from_world, sizeof frame.view);
     const scene_seen seen = scene_find_seen(p->renderer, view);
@@ -296,11 +310,27 @@ static bool find_accessibility(pipeline *p, const scene_view *view, int index, i
     if (p->wants.rays && pipeline_runs_occlusion(p, view) && !trace_rays(p, view, index, why))
         return false;
     const glssao_frame frame = pipeline_frame(p, view);
-    if (p->goal.error <= 0 && p->goal.budget_ms <= 0)
-        return pipeline_check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", why);
+    if (p->goal.error <= 0 && p->goal.budget_ms <= 0) {
+        p->has_last = pipeline_check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", why);
+        p->last_view = *view;
+        p->is_posed = false;
+        return p->has_last;
+    }
     const progressive_goal share = {p->goal.error * sqrt(count), p->goal.budget_ms / count};
     const glssao_result result = progressive_run(p->effect, &frame, &p->settings, &share, &p->reached);
     return pipeline_check(result, "glssao_accumulate", why);
+}
+
+bool pipeline_occlude(pipeline *p, const scene_view *view, failure *why)
+{
+    return find_accessibility(p, view, 0, 1, why);
+}
+
+bool pipeline_accumulate(pipeline *p, const scene_view *view, const progressive_goal *goal, failure *why)
+{
+    const glssao_frame frame = pipeline_frame(p, view);
+    return pipeline_check(progressive_step(p->effect, &frame, &p->settings, goal, &p->reached), "glssao_accumulate",
+                          why);
 }
 
 GLuint pipeline_ambient_map(const pipeline *p)

@@ -57,6 +57,10 @@ void pipeline_print_plan(const pipeline *p, const scene_view *view)
               layers                   ? "back faces and the next fronts, for thickness"
               : p->draw_options.layers ? "no estimate reads them"
                                        : "not asked for");
+    print_row("motion", p->wants.motion && occludes, -1, p->width, p->height,
+              p->wants.motion && occludes ? "where each point was in the last picture, from the second on"
+              : p->settings.history > 0   ? "nothing moves by itself: the view tells where each point was"
+                                          : "no pass reads it");
     print_row("main", p->wants.picture, -1, p->width, p->height,
               !p->wants.picture             ? "no shaded picture is wanted"
               : occludes || p->wants.traced ? "shades, ambient light scaled by accessibility"

@@ -35,6 +35,7 @@ static const struct {
     {VARIANT_ENVIRONMENT, "ENVIRONMENT"},
     {VARIANT_FLAT, "FLAT"},
     {VARIANT_MORE_UVS, "MORE_UVS"},
+    {VARIANT_MOVES, "MOVES"},
 };
 
 static const struct {
@@ -44,6 +45,8 @@ static const struct {
     {"u_view_from_world", offsetof(draw_program, view_from_world)},
     {"u_clip_from_view", offsetof(draw_program, clip_from_view)},
     {"u_normal_view_from_world", offsetof(draw_program, normal_view_from_world)},
+    {"u_last_view_from_world", offsetof(draw_program, last_view_from_world)},
+    {"u_last_clip_from_view", offsetof(draw_program, last_clip_from_view)},
     {"u_base_color_uv", offsetof(draw_program, base_color_uv)},
     {"u_normal_uv", offsetof(draw_program, normal_uv)},
     {"u_metallic_roughness_uv", offsetof(draw_program, metallic_roughness_uv)},

@@ -3,8 +3,7 @@
  * The horizon technique at each quality level, compared with known answers: a plane is open, and geometry alone gives
  * the occlusion beside a wall, two walls and a sphere.
  */
-#include "analytic.h"
-#include "fixture.h"
+#include "analytic_shot.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -16,41 +15,8 @@ static const double R16_STEP = 1.0 / 65535.0;
 static const char *const level_names[] = {"low", "medium", "high", "ultra"};
 enum { LEVELS = 4, MAX_SHAPES = 3 };
 
-/* A picture of shapes, and the surface that each pixel shows. */
-typedef struct shot {
-    const analytic_shape *shapes;
-    int shape_count;
-    analytic_view view;
-    int width, height;
-    float *depth, *normals;
-    glssao_frame frame;
-} shot;
-
-static shot make_shot(const analytic_shape *shapes, int shape_count, analytic_projection projection, int width,
-                      int height)
-{
-    shot s = {.shapes = shapes,
-              .shape_count = shape_count,
-              .view = analytic_make_view(projection, (double)width / height, 0.5, 40.0, 1.0),
-              .width = width,
-              .height = height};
-    analytic_render(&s.view, shapes, shape_count, width, height, &s.depth, &s.normals);
-    s.frame = (glssao_frame){.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, width, height, s.depth),
-                             .normal_texture = fixture_normal_texture(width, height, s.normals)};
-    memcpy(s.frame.projection, s.view.projection, sizeof s.view.projection);
-    return s;
-}
-
-static void free_shot(shot *s)
-{
-    gl.DeleteTextures(1, &s->frame.depth_texture);
-    gl.DeleteTextures(1, &s->frame.normal_texture);
-    free(s->depth);
-    free(s->normals);
-}
-
 /* Accessibility at full size (LOW is upsampled too) with a level's default settings except the radius. */
-static float *shade(fixture *f, const shot *s, int level, double radius)
+static float *shade(fixture *f, const analytic_shot *s, int level, double radius)
 {
     glssao_effect *effect = fixture_effect(f, s->width, s->height);
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)level);
@@ -63,22 +29,12 @@ static float *shade(fixture *f, const shot *s, int level, double radius)
     return got;
 }
 
-/* View-space position of a pixel's surface. */
-static void position(const shot *s, int x, int y, double out[3])
-{
-    const float *p = s->view.projection;
-    const double ndc = 2.0 * (double)s->depth[y * s->width + x] - 1.0, t = (double)p[14] / ((double)p[10] + ndc);
-    out[0] = (2.0 * (x + 0.5) / s->width - 1.0) * t / (double)p[0];
-    out[1] = (2.0 * (y + 0.5) / s->height - 1.0) * t / (double)p[5];
-    out[2] = -t;
-}
-
 /* Cosine between the normal of a pixel and the direction to the eye. */
-static double facing(const shot *s, int x, int y)
+static double facing(const analytic_shot *s, int x, int y)
 {
     const float *n = s->normals + 3 * (y * s->width + x);
     double at[3], dot = 0.0, length2 = 0.0;
-    position(s, x, y, at);
+    analytic_position(s, x, y, at);
     if (s->view.projection[11] == 0.0f)
         return (double)n[2];
     for (int axis = 0; axis < 3; ++axis) {
@@ -98,7 +54,7 @@ static void plane_is_exactly_open_at_every_level(void **state)
         for (size_t i = 0; i < sizeof degrees / sizeof *degrees; ++i) {
             const double angle = degrees[i] * PI / 180.0;
             const analytic_shape plane = {ANALYTIC_PLANE, {0.0, -0.3, -3.0}, {0.0, sin(angle), cos(angle)}};
-            shot s = make_shot(&plane, 1, orthographic ? ORTHOGRAPHIC : PERSPECTIVE, 121, 80);
+            analytic_shot s = analytic_take(&plane, 1, orthographic ? ORTHOGRAPHIC : PERSPECTIVE, 121, 80);
             for (int level = 0; level < LEVELS; ++level) {
                 float *got = shade(*state, &s, level, 1.0);
                 double least = 1.0, least_grazing = 1.0;
@@ -115,7 +71,7 @@ static void plane_is_exactly_open_at_every_level(void **state)
                              degrees[i], level_names[level], least, least_grazing);
                 assert_true(seen > 200 || degrees[i] > 87.0);
             }
-            free_shot(&s);
+            analytic_free_shot(&s);
         }
 }
 
@@ -131,7 +87,7 @@ static void nothing_far_in_front_casts_a_shade(void **state)
         const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, wall}, {0.0, 0.0, 1.0}},
                                          {ANALYTIC_BOX, {-1.5, 0.0, -6.0}, {0.55, 9.0, 0.2}},
                                          {ANALYTIC_SPHERE, {1.5, 0.3, -5.5}, {0.6, 0.0, 0.0}}};
-        shot s = make_shot(shapes, 3, i % 2 ? ORTHOGRAPHIC : PERSPECTIVE, 240, 160);
+        analytic_shot s = analytic_take(shapes, 3, i % 2 ? ORTHOGRAPHIC : PERSPECTIVE, 240, 160);
         for (int level = 0; level < LEVELS; ++level) {
             float *got = shade(*state, &s, level, 1.0);
             double least = 1.0;
@@ -150,12 +106,12 @@ static void nothing_far_in_front_casts_a_shade(void **state)
             assert_true(seen > 10000);
             assert_true(least >= 0.97);
         }
-        free_shot(&s);
+        analytic_free_shot(&s);
     }
 }
 
 /* One layer behind the surface of a block on the ground: its lower face, and the ground that it stands on. */
-static void add_layers(shot *s, double ground)
+static void add_layers(analytic_shot *s, double ground)
 {
     const float *m = s->view.projection;
     const float depth = (float)(((double)m[10] * ground + (double)m[14] + 1.0) / 2.0);
@@ -179,7 +135,7 @@ static void ground_beside_a_block_is_near_the_integral(void **state)
         const bool layers = i % 2;
         const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, ground}, {0.0, 0.0, 1.0}},
                                          {ANALYTIC_BOX, {0.0, 0.0, ground + 0.5 * height}, {half, half, 0.5 * height}}};
-        shot s = make_shot(shapes, 2, ORTHOGRAPHIC, 240, 160);
+        analytic_shot s = analytic_take(shapes, 2, ORTHOGRAPHIC, 240, 160);
         if (layers)
             add_layers(&s, ground);
         for (int level = 0; level < LEVELS && (layers || height < 5.0); ++level) {
@@ -204,7 +160,7 @@ static void ground_beside_a_block_is_near_the_integral(void **state)
         }
         gl.DeleteTextures(1, &s.frame.back_texture);
         gl.DeleteTextures(1, &s.frame.second_texture);
-        free_shot(&s);
+        analytic_free_shot(&s);
     }
 }
 
@@ -233,7 +189,7 @@ static double beside_walls(double d1, double d2)
 
 /* Accessibility of a point by the closed form. All shapes are planes at right angles with every point in front of
  * them. */
-static double beside_planes(const shot *s, const double at[3], const float normal[3])
+static double beside_planes(const analytic_shot *s, const double at[3], const float normal[3])
 {
     double d[MAX_SHAPES] = {1.0, 1.0, 1.0};
     for (int i = 0, n = 0; i < s->shape_count; ++i) {
@@ -259,12 +215,12 @@ enum { RAYS = 2048 };
 static void compare(fixture *f, const analytic_shape *shapes, int shape_count, bool planes, const limits most[LEVELS])
 {
     enum { W = 300, H = 300, STRIDE = 3 };
-    shot s = make_shot(shapes, shape_count, PERSPECTIVE, W, H);
+    analytic_shot s = analytic_take(shapes, shape_count, PERSPECTIVE, W, H);
     double *truth = malloc(sizeof *truth * W * H);
     for (int y = 0; y < H; y += STRIDE)
         for (int x = 0; x < W; x += STRIDE) {
             double at[3];
-            position(&s, x, y, at);
+            analytic_position(&s, x, y, at);
             const float *n = s.normals + 3 * (y * W + x);
             const double normal[3] = {(double)n[0], (double)n[1], (double)n[2]};
             const bool near = at[0] * at[0] + at[1] * at[1] + (at[2] + 6.0) * (at[2] + 6.0) < 1.5 * 1.5;
@@ -294,7 +250,7 @@ static void compare(fixture *f, const analytic_shape *shapes, int shape_count, b
         assert_true(worst < most[level].worst);
     }
     free(truth);
-    free_shot(&s);
+    analytic_free_shot(&s);
 }
 
 /* A floor and a wall, both seen at 45 degrees. Measured, mean and worst: low 0.0070, 0.0390; medium 0.0062, 0.0418;
@@ -358,7 +314,6 @@ static void closed_forms_agree_with_rays(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(closed_forms_agree_with_rays),    GL_TEST(plane_is_exactly_open_at_every_level),
         GL_TEST(nothing_far_in_front_casts_a_shade),       GL_TEST(ground_beside_a_block_is_near_the_integral),

@@ -46,18 +46,6 @@ static subject room(analytic_projection kind)
     return subject_of(&view, shapes, ANALYTIC_ROOM_SHAPES, W, H);
 }
 
-static picture shade(fixture *f, glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
-{
-    fixture_clear_log(f);
-    if (glssao_compute(effect, frame, settings) != GLSSAO_OK)
-        fail_msg("glssao_compute: %s", f->log);
-    picture p;
-    const uint32_t map = glssao_map(effect, GLSSAO_MAP_AMBIENT, &p.width, &p.height);
-    p.values = fixture_read_texture(map, p.width, p.height, 1);
-    assert_true(picture_is_sound(&p));
-    return p;
-}
-
 static void assert_same(fixture *f, const glssao_frame *plain, const glssao_frame *other, double most, const char *what)
 {
     for (int i = 0; i < NUMBERS * PATHS; ++i) {
@@ -67,7 +55,8 @@ static void assert_same(fixture *f, const glssao_frame *plain, const glssao_fram
         configuration c = configuration_of(numbers[i / PATHS]);
         c.settings = settings_scaled(&c.settings, 2.0);                    /* more occlusion */
         c.settings.tiles = i % PATHS ? GLSSAO_TILES_OFF : GLSSAO_TILES_ON; /* the bounds of tiles read distances too */
-        picture a = shade(f, effect, plain, &c.settings), b = shade(f, effect, other, &c.settings);
+        picture a = subject_shade_by(f, effect, plain, &c.settings),
+                b = subject_shade_by(f, effect, other, &c.settings);
         assert_true(a.width == b.width && a.height == b.height && picture_mean(&a) < 0.999);
         double apart = 0.0;
         for (int k = 0; k < a.width * a.height; ++k)
@@ -114,8 +103,8 @@ static void turned_cameras_see_the_same(void **state)
             char what[32];
             snprintf(what, sizeof what, "%g degrees", degrees[i]);
             assert_same(*state, &plain, &turned, 5e-4, what);
-            subject_frame_free(&plain);
-            subject_frame_free(&turned);
+            fixture_delete_frame(&plain);
+            fixture_delete_frame(&turned);
             subject_free(&s);
         }
 }
@@ -129,7 +118,7 @@ static void rebuilt_normals_are_in_view_space(void **state)
     turn_frame(&s, 30.0, NORMAL_NONE, &frames[1]);
     float *maps[2];
     for (int i = 0; i < 2; ++i) {
-        picture p = shade(*state, effects[0], &frames[i], &settings);
+        picture p = subject_shade_by(*state, effects[0], &frames[i], &settings);
         maps[i] = fixture_read_rebuilt(effects[0], W, H, 2);
         free(p.values);
     }
@@ -146,7 +135,7 @@ static void rebuilt_normals_are_in_view_space(void **state)
     assert_true(off < W * H / 100); /* where two sides predict equally well, rounding decides */
     for (int i = 0; i < 2; ++i) {
         free(maps[i]);
-        subject_frame_free(&frames[i]);
+        fixture_delete_frame(&frames[i]);
     }
     subject_free(&s);
 }
@@ -214,8 +203,8 @@ static void normals_in_world_space_are_turned(void **state)
             turned.view[4 * k + 1] = (float)(n * (double)view[4 * k] + c * (double)view[4 * k + 1]);
         }
         assert_same(*state, &other, &turned, 1e-3, "world space, turned");
-        subject_frame_free(&plain);
-        subject_frame_free(&other);
+        fixture_delete_frame(&plain);
+        fixture_delete_frame(&other);
         subject_free(&s);
         free(world.normals);
     }
@@ -243,7 +232,7 @@ static void views_are_checked_where_they_count(void **state)
         frame.world_normals = false; /* not read */
         assert_int_equal(glssao_compute(effects[0], &frame, &settings), GLSSAO_OK);
     }
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
     subject_free(&s);
 }
 
@@ -260,7 +249,7 @@ static void residues_change_nothing(void **state)
             if (i != 1 || entries[k] % 4 != 2)
                 other.projection[entries[k]] = (k % 2 ? -2.7e-8f : 2.7e-8f) * (i == 2 ? 0.01f : 1.0f);
         assert_same(*state, &plain, &other, 0.0, "residues");
-        subject_frame_free(&plain);
+        fixture_delete_frame(&plain);
         subject_free(&s);
     }
 }
@@ -278,7 +267,7 @@ static void eyes_behind_the_near_plane_see_the_same(void **state)
             char what[48];
             snprintf(what, sizeof what, "an eye that is %g farther%s", moves[i], reversed ? ", reversed" : "");
             assert_same(*state, &plain, &other, 1e-3, what);
-            subject_frame_free(&plain);
+            fixture_delete_frame(&plain);
             subject_free(&s);
         }
 }
@@ -292,14 +281,14 @@ static void far_fades_follow_the_hosts_eye(void **state)
         glssao_frame frame = subject_frame(&s, DEPTH_32F, NORMAL_32F);
         glssao_settings settings = glssao_default_settings(i % 2 ? GLSSAO_HORIZON : GLSSAO_HEMISPHERE, GLSSAO_HIGH);
         settings.radius = 2.0f;
-        picture without = shade(*state, effects[0], &frame, &settings);
+        picture without = subject_shade_by(*state, effects[0], &frame, &settings);
         settings.fade_far_start = 5.0f;
         settings.fade_far_end = 9.0f;
-        picture plain = shade(*state, effects[0], &frame, &settings);
+        picture plain = subject_shade_by(*state, effects[0], &frame, &settings);
         frame.projection[14] -= (float)moves[i / 2] * frame.projection[10];
         settings.fade_far_start -= (float)moves[i / 2];
         settings.fade_far_end -= (float)moves[i / 2];
-        picture moved = shade(*state, effects[0], &frame, &settings);
+        picture moved = subject_shade_by(*state, effects[0], &frame, &settings);
         double apart = 0.0, faded = 0.0;
         for (int k = 0; k < W * H; ++k) {
             apart = fmax(apart, fabs((double)plain.values[k] - (double)moved.values[k]));
@@ -310,7 +299,7 @@ static void far_fades_follow_the_hosts_eye(void **state)
         free(without.values);
         free(plain.values);
         free(moved.values);
-        subject_frame_free(&frame);
+        fixture_delete_frame(&frame);
         subject_free(&s);
     }
 }
@@ -353,8 +342,8 @@ static void oblique_near_planes_change_nothing(void **state)
         make_oblique(&s, planes[i % 2], i == 3);
         glssao_frame other = subject_frame(&s, stores[i / 2], i % 2 ? NORMAL_NONE : NORMAL_32F);
         assert_same(*state, &plain, &other, 2e-3, "an oblique near plane");
-        subject_frame_free(&plain);
-        subject_frame_free(&other);
+        fixture_delete_frame(&plain);
+        fixture_delete_frame(&other);
         subject_free(&s);
     }
 }
@@ -377,12 +366,12 @@ static void planes_stay_open(void **state)
                 frame.projection[14] -= 10.0f * frame.projection[10]; /* the plane lies behind the eye */
             for (int number = 1; number < CONFIGURATIONS; number += 3) {
                 const configuration c = configuration_of(number);
-                picture p = shade(*state, effects[0], &frame, &c.settings);
+                picture p = subject_shade_by(*state, effects[0], &frame, &c.settings);
                 if (picture_least(&p) < 0.995)
                     fail_msg("case %d, %s: %g", i, c.name, picture_least(&p));
                 free(p.values);
             }
-            subject_frame_free(&frame);
+            fixture_delete_frame(&frame);
         }
         subject_free(&s);
     }
@@ -414,13 +403,12 @@ static void doubts_are_told_once(void **state)
     assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_OK);
     assert_string_equal(f->log, "");
     glssao_destroy(effect);
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
     subject_free(&s);
 }
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         GL_TEST(turned_cameras_see_the_same),
         GL_TEST(rebuilt_normals_are_in_view_space),

@@ -87,9 +87,8 @@ static const struct shader {
                          BIT(RADIUS_GROWS) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PERSPECTIVE) |
                              BIT(BRANCHES) | BIT(BENT),
                          {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
-                          shader_bent_glsl, shader_paired_glsl, shader_upsample_glsl, shader_packed_direction_glsl,
-                          shader_upsample_frag}},
-    [SHADER_SPREAD] = {"spread", BIT(BENT), {shader_pixel_glsl, shader_packed_direction_glsl, shader_spread_frag}},
+                          shader_bent_glsl, shader_paired_glsl, shader_upsample_glsl, shader_upsample_frag}},
+    [SHADER_SPREAD] = {"spread", BIT(BENT), {shader_pixel_glsl, shader_spread_frag}},
     [SHADER_RAYS] = {"rays",
                      BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(OUTPUT) | BIT(COMPUTE) | BIT(PERSPECTIVE) |
                          BIT(RAYS) | BIT(CORRECTS),
@@ -242,6 +241,7 @@ char *glssao__shader_source(enum glssao__shader shader, const glssao__variant *v
     append_define(&t, "GROUP_ROWS", group->rows);
     append(&t, shader_values_glsl);
     append(&t, shader_tuned_glsl);
+    append(&t, shader_octahedral_glsl);
     append(&t, "#define UNROLL_IF_SHORT\nlayout(std140) uniform cbSsao {\n");
     append(&t, shader_cb_ssao_glsl);
     append(&t, "};\nlayout(std140) uniform cbFrame {\n");
