@@ -12,7 +12,9 @@ uniform sampler2D u_ambient_map;
 uniform sampler2D u_rays_map;
 #endif
 #if !WIDE
-uniform bool gHorizontalBlur;
+#if !FLAT
+uniform int gHorizontalBlur; // 0 or 1
+#endif
 #endif
 #define RESULT AMBIENT
 
@@ -31,7 +33,7 @@ RESULT result()
     CONTENTS contents =
         blurred_wide(paired_at(uv - x), paired_at(uv - y), center, paired_at(uv + y), paired_at(uv + x));
 #else
-    vec2 way = gHorizontalBlur ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
+    vec2 way = gHorizontalBlur != 0 ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
     vec2 by = float(1 << STRIDE) * way * gInvRenderTargetSize;
     CONTENTS contents = blurred(paired_at(uv - 2.0 * by), paired_at(uv - by), center, paired_at(uv + by),
                                 paired_at(uv + 2.0 * by), way);

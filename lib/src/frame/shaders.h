@@ -96,8 +96,9 @@ void glssao__shader_describe(enum glssao__shader shader, const glssao__variant *
 void glssao__shader_group(enum glssao__shader shader, const glssao__variant *variant, int out_pixels[2]);
 
 /* The source of a stage: fragment or compute, whichever the variant asks for, or the vertex stage that all draws share.
- * `gl_version`: 10 major + minor. NULL where there is no memory; the caller frees. */
-char *glssao__shader_source(enum glssao__shader shader, const glssao__variant *variant, int gl_version);
-char *glssao__shader_vertex_source(void);
+ * `gl_version`: 10 major + minor. `flat`: in draws, uniforms come from the vertex stage as flat inputs; both stages of
+ * a program must agree. NULL where there is no memory; the caller frees. */
+char *glssao__shader_source(enum glssao__shader shader, const glssao__variant *variant, int gl_version, bool flat);
+char *glssao__shader_vertex_source(bool flat);
 
 #endif
