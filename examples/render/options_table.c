@@ -57,9 +57,9 @@ static const option table[] = {
     {0, "blur-rounds", "N", "rounds of blur, 0 to 16", OPTION_INT, AT(blur_rounds), 0, 16,
      "a whole number from 0 to 16", SCOPE_PICTURE},
     {0, "history", "N",
-     "with --frames or --bench: reuse the accessibility of earlier frames; at most N count in a pixel's mean, 0 to 63 "
-     "(default 0)",
-     OPTION_INT, AT(history), 0, 63, "a whole number from 0 to 63", SCOPE_RENDERED},
+     "reuse the accessibility of earlier frames: at most N count in a pixel's mean, 0 to 63 (glssao-render: of a "
+     "turntable, an animation or a benchmark, default 0; glssao-view: while the view changes, default 16)",
+     OPTION_INT, AT(history), 0, 63, "a whole number from 0 to 63", SCOPE_PICTURE},
     {0, "error", "E", "horizon: accumulate estimates until their sampling error is at most E", OPTION_NUMBER, AT(error),
      1e-6, 1, "a number from 0.000001 to 1", SCOPE_PICTURE},
     {0, "budget", "MS", "horizon: accumulate estimates for MS milliseconds a frame", OPTION_NUMBER, AT(budget_ms),

@@ -323,6 +323,18 @@ static bool find_accessibility(pipeline *p, const scene_view *view, int index, i
     return pipeline_check(result, "glssao_accumulate", why);
 }
 
+bool pipeline_occlude(pipeline *p, const scene_view *view, failure *why)
+{
+    return find_accessibility(p, view, 0, 1, why);
+}
+
+bool pipeline_accumulate(pipeline *p, const scene_view *view, const progressive_goal *goal, failure *why)
+{
+    const glssao_frame frame = pipeline_frame(p, view);
+    return pipeline_check(progressive_step(p->effect, &frame, &p->settings, goal, &p->reached), "glssao_accumulate",
+                          why);
+}
+
 GLuint pipeline_ambient_map(const pipeline *p)
 {
     return p->wants.traced ? p->truth.map : glssao_map(p->effect, GLSSAO_MAP_AMBIENT, NULL, NULL);

@@ -103,6 +103,10 @@ void pipeline_destroy(pipeline *p);
 /* Draws everything that is wanted and records the phases in `times`. `view` includes the margin. */
 bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, failure *why);
 
+/* Finds the accessibility of the last frame anew; or one more estimate for its mean, whose count is p->reached. */
+bool pipeline_occlude(pipeline *p, const scene_view *view, failure *why);
+bool pipeline_accumulate(pipeline *p, const scene_view *view, const progressive_goal *goal, failure *why);
+
 /* Draws the picture of the last frame again, with another accessibility map (0: none), into a framebuffer of the
  * pipeline's size whose depth attachment is the pipeline's `depth`. */
 void pipeline_shade(pipeline *p, const scene_view *view, GLuint ambient_map, GLuint framebuffer);

@@ -18,10 +18,15 @@ float line_tolerance(float linear)
 
 // Of the pixel's own value and four others. RAYS 1: of those that are not missing; missing where all are. Later rounds for
 // rays alone (STRIDE above 0, CORRECTS 0) count values less the more they differ: the first has left little noise, so a
-// difference is a shadow's edge.
+// difference is a shadow's edge. The first round for a correction (CORRECTS) trusts a difference less the fewer taps it has,
+// since more of it is noise: a few that say that the estimate is right already count with them.
 float weighted_mean(float own, float weight, vec4 others, vec4 weights)
 {
 #if RAYS
+#if CORRECTS && STRIDE == 0
+    float taps = weight + dot(weights, vec4(1.0));
+    float trust = (1.0 + 0.25 * CORRECTION_PRIOR) * taps / (taps + CORRECTION_PRIOR); // 1 for all 4
+#endif
     weight = own < 0.0 ? 0.0 : weight;
     weights = mix(weights, vec4(0.0), lessThan(others, vec4(0.0)));
 #if STRIDE > 0 && !CORRECTS
@@ -30,7 +35,11 @@ float weighted_mean(float own, float weight, vec4 others, vec4 weights)
 #endif
     float sum = weight * own + dot(weights, others);
     float total = weight + dot(weights, vec4(1.0));
+#if CORRECTS && STRIDE == 0
+    return total > 0.0 ? 0.5 + trust * (sum / total - 0.5) : MISSING;
+#else
     return total > 0.0 ? sum / total : MISSING;
+#endif
 #else
     return (weight * own + dot(weights, others)) / (weight + dot(weights, vec4(1.0)));
 #endif
@@ -39,7 +48,7 @@ float weighted_mean(float own, float weight, vec4 others, vec4 weights)
 // Contents of a pixel from the paired values of itself and of the two on each side along `way`.
 CONTENTS blurred(PAIRED before_2, PAIRED before, PAIRED center, PAIRED after, PAIRED after_2, vec2 way)
 {
-#if BRANCHES
+#if BRANCHES && !CORRECTS
     // Most pixels are surrounded by equal ones, which nothing occludes.
     if (is_same(before_2, center) && is_same(before, center) && is_same(after, center) && is_same(after_2, center))
         return contents_of(center);

@@ -123,9 +123,11 @@ static void run_schedule(glssao_effect *effect, const call *c, const glssao__sch
         glssao__history_fill(&effect->history, &source, c->frames, &effect->uniforms.frame);
         glssao__accumulate_stop(accumulation, &effect->gl);
     }
-    glssao__history_keep(&effect->history, &source, c->frames, delivered);
-    if (!is_sampled) /* no pass drew a history */
-        effect->history.frames = 0;
+    if (c->estimates == 0) { /* a mean of a still view leaves the history as it was */
+        glssao__history_keep(&effect->history, &source, c->frames, delivered);
+        if (!is_sampled) /* no pass drew a history */
+            effect->history.frames = 0;
+    }
     glssao__last_frame *last = &effect->last;
     last->number += 1;
     last->result = schedule->result;

@@ -434,17 +434,15 @@ static void light_follows_up(void **state)
 
 int main(void)
 {
-#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
-        TEST(gradient_lights_as_its_integral_says),
-        TEST(reflection_is_that_of_the_model),
-        TEST(bent_normals_light_as_their_cones_say),
-        TEST(nothing_is_brighter_than_its_surroundings),
-        TEST(punctual_lights_fall_off_as_the_extension_says),
-        TEST(lights_of_the_scene_take_the_suns_place),
-        TEST(a_picture_surrounds_the_scene),
-        TEST(light_follows_up),
+        GL_TEST(gradient_lights_as_its_integral_says),
+        GL_TEST(reflection_is_that_of_the_model),
+        GL_TEST(bent_normals_light_as_their_cones_say),
+        GL_TEST(nothing_is_brighter_than_its_surroundings),
+        GL_TEST(punctual_lights_fall_off_as_the_extension_says),
+        GL_TEST(lights_of_the_scene_take_the_suns_place),
+        GL_TEST(a_picture_surrounds_the_scene),
+        GL_TEST(light_follows_up),
     };
-#undef TEST
     return cmocka_run_group_tests_name("draw light", tests, fixture_setup, fixture_teardown);
 }

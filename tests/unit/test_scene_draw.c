@@ -2,8 +2,8 @@
  *
  * Draws what other scenes do not have: primitives without normals, lines and points, and four uv sets.
  */
-#include "draw.h"
 #include "draw_frame.h"
+#include "draw_internal.h"
 #include "fixture.h"
 #include "small_scene.h"
 
@@ -180,9 +180,47 @@ static void spending_renderer_frees_opaque_texels(void **state)
     free(s);
 }
 
+/* A quad without normals, and in most cases a second one: the buffer holds what either needs. */
+static void vertices_are_uploaded_without_what_no_draw_call_reads(void **state)
+{
+    (void)state;
+    static const uint8_t white[4] = {255, 255, 255, 255};
+    enum { POSITION = 3, NORMAL = 3, UVS = 4, COLOR = 4 };
+    static const struct {
+        bool second, textured, colored;
+        int floats;
+    } cases[] = {{false, false, false, POSITION},
+                 {true, false, false, POSITION + NORMAL},
+                 {true, true, false, POSITION + NORMAL + UVS},
+                 {true, false, true, POSITION + NORMAL + COLOR},
+                 {true, true, true, POSITION + NORMAL + UVS + COLOR}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char error[512];
+        small_scene *s = frame_one_quad(small_scene_material(), NULL);
+        s->primitives[0].flat = true;
+        if (cases[i].second) {
+            scene_material material = small_scene_material();
+            if (cases[i].textured)
+                material.base_color_texture = small_scene_add_texture(s, 1, 1, white);
+            frame_add_quad(s, material, NULL);
+            s->vertices[s->scene.vertex_count - 1].color[2] = cases[i].colored ? 0.5f : 1;
+        }
+        scene_renderer *r = scene_renderer_create(&s->scene, error, sizeof error);
+        assert_non_null(r);
+        GLint size = 0;
+        gl.BindBuffer(GL_ARRAY_BUFFER, r->vertex_buffer);
+        gl.GetBufferParameteriv(GL_ARRAY_BUFFER, GL_BUFFER_SIZE, &size);
+        gl.BindBuffer(GL_ARRAY_BUFFER, 0);
+        assert_int_equal(size, (int)s->scene.vertex_count * cases[i].floats * 4);
+        scene_renderer_destroy(r);
+        free(s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(vertices_are_uploaded_without_what_no_draw_call_reads),
         cmocka_unit_test(flat_primitives_take_the_normal_of_their_triangles),
         cmocka_unit_test(lines_and_points_are_drawn_over_what_is_behind_them),
         cmocka_unit_test(each_map_reads_its_uv_set),
