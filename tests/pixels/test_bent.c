@@ -483,7 +483,6 @@ static void accumulated_directions_near_the_integral(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(closed_form_agrees_with_rays),
         GL_TEST(plane_has_its_normal),
