@@ -24,6 +24,7 @@ export PATH=$build/tests/bench:$build/examples/render:$PATH
 cd "$root"
 
 glssao-bench --scenes "$scenes" "${peers[@]}" --frames 2 --sequence-frames 4 --split-seeds 6 --oracle-step 8 --out "$work" "${options[@]}"
+glssao-bench --bent --scenes "$scenes" --out "$work" "${options[@]}"
 glssao-economy --scenes "$scenes" --time-size 1280x720 --frames 2 --time-scene columns --check --out "$work" "${options[@]}"
 glssao-cost --frames 3 --out "$work" "${options[@]}"
 FRAMES=${FRAMES:-8} "$docs/make-performance.sh" "$work" "$build"

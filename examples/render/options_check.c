@@ -103,8 +103,8 @@ static bool check_picture(const options *o, options_program program, failure *wh
 
 static bool asks_for_bent_normals(const options *o)
 {
-    glssao_settings settings = {.bent_normals = false};
-    return o->technique == GLSSAO_HORIZON && o->set && setting_apply(o->set, &settings, &(failure){0}) &&
+    glssao_settings settings = {.bent_normals = o->bent_normals};
+    return o->technique == GLSSAO_HORIZON && (!o->set || setting_apply(o->set, &settings, &(failure){0})) &&
            settings.bent_normals;
 }
 
@@ -192,7 +192,11 @@ static bool check_together(const options *o, bool is_viewer, failure *why)
         return fault_set(why, "--no-ao and --debug-map %s cannot be used together",
                          words_at(OPTIONS_MAP_WORDS, o->debug_map).text);
     if (o->debug_map == OPTIONS_MAP_BENT && !is_viewer && !asks_for_bent_normals(o))
-        return fault_set(why, "--debug-map bent: needs -t horizon and --set bent-normals=on");
+        return fault_set(why, "--debug-map bent: needs -t horizon, and --bent-normals or --set bent-normals=on");
+    if (o->bent_normals && (!asks_for_bent_normals(o) || o->rays > 0 || o->history > 0))
+        return fault_set(why, "--bent-normals: needs -t horizon, without --rays and --history");
+    if (o->bent_normals && o->no_ao)
+        return fault_set(why, "--no-ao and --bent-normals cannot be used together");
     if (o->debug_map && !o->output && !is_viewer)
         return fault_set(why, "--debug-map: needs a picture, -o FILE");
     if (o->frames && o->bench)

@@ -53,7 +53,7 @@ struct trace_picture {
 typedef struct block {
     int count;
     int texel[BLOCK_TEXELS]; /* index in the picture */
-    int first[BLOCK_TEXELS]; /* of its directions in the pattern */
+    float (*directions[BLOCK_TEXELS])[3];
     int rays[BLOCK_TEXELS], blocked[BLOCK_TEXELS];
     float x[BLOCK_TEXELS], y[BLOCK_TEXELS], distance[BLOCK_TEXELS];
     float origin[3][BLOCK_TEXELS], normal[3][BLOCK_TEXELS]; /* the normal in view space, then a unit one in the world */
@@ -166,30 +166,33 @@ static bool is_within(const trace_picture *p, int x, int y)
     return x >= m && y >= m && x < p->width - m && y < p->height - m;
 }
 
-static void add_texel(const trace_picture *p, int x, int y, block *b)
+/* How many rays a texel of the picture is to get. */
+static int rays_of(const trace_picture *p, int x, int y)
 {
-    const int at = y * p->width + x, side = p->pattern.side;
-    const float *texel = p->seen.rows[y][x];
+    const int at = y * p->width + x;
     const int rays = !is_within(p, x, y) ? 0 : p->counts ? p->counts[at] : p->pattern.rays;
     p->out[at] = -1;
-    if (rays == 0 || !has_surface(texel)) {
-        return;
-    }
-    const int i = b->count++;
+    return !has_surface(p->seen.rows[y][x]) ? 0 : rays < p->pattern.rays ? rays : p->pattern.rays;
+}
+
+static void set_texel(const trace_picture *p, int x, int y, int rays, int i, block *b)
+{
+    const int side = p->pattern.side;
+    const float *texel = p->seen.rows[y][x];
     b->x[i] = (float)x;
     b->y[i] = (float)y;
     b->distance[i] = texel[3];
     for (int k = 0; k < 3; k++) {
         b->normal[k][i] = texel[k];
     }
-    b->texel[i] = at;
-    b->first[i] = (y % side * side + x % side) * p->pattern.rays;
-    b->rays[i] = rays < p->pattern.rays ? rays : p->pattern.rays;
+    b->texel[i] = y * p->width + x;
+    b->directions[i] = p->pattern.directions + (y % side * side + x % side) * p->pattern.rays;
+    b->rays[i] = rays;
     b->blocked[i] = 0;
 }
 
-/* Ray number `k` of up to 16 texels of a block. */
-static void trace_packet(const trace_picture *p, block *b, const int texels[TRACE_PACKET], int count, int k)
+/* Ray number `k` of up to 16 texels of a block, which follow each other. */
+static void trace_packet(const trace_picture *p, block *b, int first, int count, int k)
 {
     trace_query query = {.trace = p->trace};
     struct RTCRay16 rays;
@@ -197,14 +200,14 @@ static void trace_packet(const trace_picture *p, block *b, const int texels[TRAC
     float x[TRACE_PACKET], y[TRACE_PACKET], z[TRACE_PACKET];
     embree_init_context(&query.embree);
     for (int i = 0; i < TRACE_PACKET; i++) {
-        const float *d = p->pattern.directions[b->first[texels[i]] + k];
+        const float *d = b->directions[first + i][k];
         x[i] = d[0];
         y[i] = d[1];
         z[i] = d[2];
         valid[i] = i < count ? -1 : 0;
     }
     for (int i = 0; i < TRACE_PACKET; i++) {
-        const int from = texels[i];
+        const int from = first + i;
         rays.org_x[i] = b->origin[0][from];
         rays.org_y[i] = b->origin[1][from];
         rays.org_z[i] = b->origin[2][from];
@@ -220,46 +223,61 @@ static void trace_packet(const trace_picture *p, block *b, const int texels[TRAC
     }
     embree_occluded(p->trace->world, &query.embree, valid, &rays);
     for (int i = 0; i < count; i++) {
-        b->blocked[texels[i]] += rays.tfar[i] < 0;
+        b->blocked[first + i] += rays.tfar[i] < 0;
     }
 }
 
-/* Ray number `k` of all texels of a block that have so many. */
-static void trace_round(const trace_picture *p, block *b, int k)
+/* Fills the block with the texels that get rays. Those with one place in their 4 x 4 follow each other, since their
+ * rays point nearly the same way; where counts differ, those with most rays come first. Copies of any texel fill up the
+ * last packet, whose lanes are not all valid. */
+static void fill_block(const trace_picture *p, int left, int bottom, block *b)
 {
-    int texels[BLOCK_TEXELS + TRACE_PACKET], count = 0;
-    for (int i = 0; i < b->count; i++) {
-        texels[count] = i;
-        count += k < b->rays[i];
+    uint8_t counts[BLOCK_TEXELS];
+    int most = 0, least = MOST_RAYS, texels = 0;
+    for (int y = bottom; y < bottom + BLOCK && y < p->height; y++) {
+        for (int x = left; x < left + BLOCK && x < p->width; x++) {
+            const int rays = rays_of(p, x, y);
+            counts[(y - bottom) * BLOCK + x - left] = (uint8_t)rays;
+            most = rays > most ? rays : most;
+            least = rays > 0 && rays < least ? rays : least;
+            texels += rays > 0;
+        }
     }
-    for (int i = 0; i < TRACE_PACKET; i++) { /* fills up the last packet, with rays that are not valid */
-        texels[count + i] = 0;
+    b->count = 0;
+    for (int rays = most; rays >= least && b->count < texels; rays--) {
+        for (int place = 0; place < 16; place++) {
+            for (int y = bottom + place / 4; y < bottom + BLOCK && y < p->height; y += 4) {
+                for (int x = left + place % 4; x < left + BLOCK && x < p->width; x += 4) {
+                    if (counts[(y - bottom) * BLOCK + x - left] == rays) {
+                        set_texel(p, x, y, rays, b->count++, b);
+                    }
+                }
+            }
+        }
     }
-    for (int i = 0; i < count; i += TRACE_PACKET) {
-        trace_packet(p, b, texels + i, count - i < TRACE_PACKET ? count - i : TRACE_PACKET, k);
+    for (int i = b->count; i % TRACE_PACKET; i++) {
+        set_texel(p, b->texel[0] % p->width, b->texel[0] / p->width, 0, i, b);
     }
 }
 
 /* The number of rays that were traced. */
 static uint64_t trace_block(const trace_picture *p, int number)
 {
-    const int left = number % p->blocks_across * BLOCK, bottom = number / p->blocks_across * BLOCK;
     block b;
     uint64_t rays = 0;
-    b.count = 0;
-    /* Texels that have the same place in their 4 x 4 follow each other: their rays point nearly the same way. */
-    for (int place = 0; place < 16; place++) {
-        for (int y = bottom + place / 4; y < bottom + BLOCK && y < p->height; y += 4) {
-            for (int x = left + place % 4; x < left + BLOCK && x < p->width; x += 4) {
-                add_texel(p, x, y, &b);
-            }
+    fill_block(p, number % p->blocks_across * BLOCK, number / p->blocks_across * BLOCK, &b);
+    const int lanes = (b.count + TRACE_PACKET - 1) / TRACE_PACKET * TRACE_PACKET;
+    find_origins(&p->lens, p->radius, lanes, &b);
+    turn_normals(&p->lens, lanes, &b);
+    move_origins(lanes, &b);
+    int count = b.count;
+    for (int k = 0; count > 0; k++) {
+        while (count > 0 && b.rays[count - 1] <= k) {
+            count--;
         }
-    }
-    find_origins(&p->lens, p->radius, b.count, &b);
-    turn_normals(&p->lens, b.count, &b);
-    move_origins(b.count, &b);
-    for (int k = 0; b.count > 0 && k < p->pattern.rays; k++) {
-        trace_round(p, &b, k);
+        for (int i = 0; i < count; i += TRACE_PACKET) {
+            trace_packet(p, &b, i, count - i < TRACE_PACKET ? count - i : TRACE_PACKET, k);
+        }
     }
     for (int i = 0; i < b.count; i++) {
         p->out[b.texel[i]] = 1 - (float)b.blocked[i] / (float)b.rays[i];

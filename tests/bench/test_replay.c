@@ -139,8 +139,8 @@ static void wrong_recordings_are_named(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(passes_are_drawn_in_order, fixture_no_gl_error),
-        cmocka_unit_test_teardown(wrong_recordings_are_named, fixture_no_gl_error),
+        GL_TEST(passes_are_drawn_in_order),
+        GL_TEST(wrong_recordings_are_named),
     };
     return cmocka_run_group_tests(tests, make_folder_of_files, remove_folder);
 }

@@ -122,7 +122,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(students_distribution_is_known),
         cmocka_unit_test(tracer_is_unbiased),
-        cmocka_unit_test_teardown(accumulation_is_unbiased, fixture_no_gl_error),
+        GL_TEST(accumulation_is_unbiased),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
 }

@@ -88,16 +88,7 @@ static cached open_cached(void **state)
 {
     cached c = {.f = *state, .folder = "/tmp/glssao-cache-XXXXXX"};
     assert_non_null(mkdtemp(c.folder));
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
-    float *depth, *normals;
-    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, W, H, &depth, &normals);
-    c.frame.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, depth);
-    c.frame.normal_texture = fixture_normal_texture(W, H, normals);
-    memcpy(c.frame.projection, view.projection, sizeof c.frame.projection);
-    free(depth);
-    free(normals);
+    c.frame = fixture_room(PERSPECTIVE, W, H);
     const gl_counts counts = run(&c, NULL);
     assert_true(counts.programs == PROGRAMS && counts.binaries == 0);
     return c;
@@ -107,7 +98,7 @@ static void close_cached(cached *c)
 {
     for_each_file(c->folder, delete_file);
     rmdir(c->folder);
-    gl.DeleteTextures(2, (const GLuint[2]){c->frame.depth_texture, c->frame.normal_texture});
+    fixture_delete_frame(&c->frame);
     free(c->wanted);
 }
 
@@ -234,11 +225,10 @@ static void a_folder_that_is_not_there_does_no_harm(void **state)
 
 int main(void)
 {
-#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
-        TEST(the_second_run_compiles_nothing),         TEST(each_path_has_programs_of_its_own),
-        TEST(damaged_files_are_compiled_anew),         TEST(a_strange_format_is_not_handed_to_the_driver),
-        TEST(a_folder_that_is_not_there_does_no_harm),
+        GL_TEST(the_second_run_compiles_nothing),         GL_TEST(each_path_has_programs_of_its_own),
+        GL_TEST(damaged_files_are_compiled_anew),         GL_TEST(a_strange_format_is_not_handed_to_the_driver),
+        GL_TEST(a_folder_that_is_not_there_does_no_harm),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
 }

@@ -389,20 +389,19 @@ static void few_tiles_are_not_sorted(void **state)
 
 int main(void)
 {
-#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
-        TEST(built_in_scenes_look_the_same),
-        TEST(shared_scenes_look_the_same),
-        TEST(every_projection_looks_the_same),
-        TEST(sky_is_left_out),
-        TEST(a_plane_is_left_out),
-        TEST(a_radius_under_half_a_pixel_is_left_out),
-        TEST(range_within_epsilon_is_left_out),
-        TEST(a_plane_near_an_occluder_is_estimated),
-        TEST(tiles_beside_estimated_ones_look_the_same),
-        TEST(a_plane_is_flat_to_0_0015),
-        TEST(a_line_off_a_plane_is_estimated),
-        TEST(few_tiles_are_not_sorted),
+        GL_TEST(built_in_scenes_look_the_same),
+        GL_TEST(shared_scenes_look_the_same),
+        GL_TEST(every_projection_looks_the_same),
+        GL_TEST(sky_is_left_out),
+        GL_TEST(a_plane_is_left_out),
+        GL_TEST(a_radius_under_half_a_pixel_is_left_out),
+        GL_TEST(range_within_epsilon_is_left_out),
+        GL_TEST(a_plane_near_an_occluder_is_estimated),
+        GL_TEST(tiles_beside_estimated_ones_look_the_same),
+        GL_TEST(a_plane_is_flat_to_0_0015),
+        GL_TEST(a_line_off_a_plane_is_estimated),
+        GL_TEST(few_tiles_are_not_sorted),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
 }

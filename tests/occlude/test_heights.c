@@ -125,13 +125,11 @@ static void test_holes_and_flat_height_maps(void **state)
 
 int main(void)
 {
-#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
-        TEST(test_cliff_of_a_height_map_agrees_with_traced_rays),
-        TEST(test_large_radius_brightens_nothing),
-        TEST(test_extent_is_that_of_the_surfaces),
-        TEST(test_holes_and_flat_height_maps),
+        GL_TEST(test_cliff_of_a_height_map_agrees_with_traced_rays),
+        GL_TEST(test_large_radius_brightens_nothing),
+        GL_TEST(test_extent_is_that_of_the_surfaces),
+        GL_TEST(test_holes_and_flat_height_maps),
     };
-#undef TEST
     return cmocka_run_group_tests(tests, occlude_setup, occlude_teardown);
 }

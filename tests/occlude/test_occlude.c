@@ -210,13 +210,11 @@ static void test_error_ends_the_estimates(void **state)
 
 int main(void)
 {
-#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
-        TEST(test_result_is_the_effects_own),       TEST(test_view_distance_and_window_depth_agree),
-        TEST(test_plane_and_sky_are_open),          TEST(test_corner_agrees_with_traced_rays),
-        TEST(test_any_size_and_any_quality),        TEST(test_hostile_normals_give_finite_results),
-        TEST(test_more_estimates_bring_less_noise), TEST(test_error_ends_the_estimates),
+        GL_TEST(test_result_is_the_effects_own),       GL_TEST(test_view_distance_and_window_depth_agree),
+        GL_TEST(test_plane_and_sky_are_open),          GL_TEST(test_corner_agrees_with_traced_rays),
+        GL_TEST(test_any_size_and_any_quality),        GL_TEST(test_hostile_normals_give_finite_results),
+        GL_TEST(test_more_estimates_bring_less_noise), GL_TEST(test_error_ends_the_estimates),
     };
-#undef TEST
     return cmocka_run_group_tests(tests, occlude_setup, occlude_teardown);
 }

@@ -129,12 +129,10 @@ static void test_callers_context_stays_as_it_is(void **state)
 
 int main(void)
 {
-#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
-        TEST(test_wrong_input_gives_one_line),
-        TEST(test_threads_get_the_same_bits),
-        TEST(test_callers_context_stays_as_it_is),
+        GL_TEST(test_wrong_input_gives_one_line),
+        GL_TEST(test_threads_get_the_same_bits),
+        GL_TEST(test_callers_context_stays_as_it_is),
     };
-#undef TEST
     return cmocka_run_group_tests(tests, occlude_setup, occlude_teardown);
 }

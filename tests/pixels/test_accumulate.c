@@ -19,29 +19,19 @@ typedef struct setup {
 
 static setup make(fixture *f, uint32_t seed)
 {
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
-    float *depth, *normals;
-    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, W, H, &depth, &normals);
-    setup s = {.frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, depth),
-                         .normal_texture = fixture_normal_texture(W, H, normals)},
-               .settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW)};
-    memcpy(s.frame.projection, view.projection, sizeof s.frame.projection);
-    free(depth);
-    free(normals);
-    s.settings.blur = GLSSAO_BLUR_NONE;
     glssao_config config = fixture_config(f, W, H);
     config.seed = seed;
-    assert_int_equal(glssao_create(&config, &s.effect), GLSSAO_OK);
+    setup s = {.frame = fixture_room(PERSPECTIVE, W, H),
+               .settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW),
+               .effect = fixture_effect_of(f, &config)};
+    s.settings.blur = GLSSAO_BLUR_NONE;
     return s;
 }
 
 static void delete (setup *s)
 {
     glssao_destroy(s->effect);
-    gl.DeleteTextures(1, &s->frame.depth_texture);
-    gl.DeleteTextures(1, &s->frame.normal_texture);
+    fixture_delete_frame(&s->frame);
 }
 
 static void accumulate(setup *s, int count)
@@ -53,9 +43,9 @@ static void accumulate(setup *s, int count)
 static float *result(const setup *s)
 {
     int w, h;
-    uint32_t map = glssao_map(s->effect, GLSSAO_MAP_AMBIENT, &w, &h);
+    float *map = fixture_read_ambient(s->effect, &w, &h);
     assert_true(w == W && h == H);
-    return fixture_read_texture(map, W, H, 1);
+    return map;
 }
 
 static glssao_stats stats(const setup *s)
@@ -192,8 +182,7 @@ static void refuses_and_skips(void **state)
     setup s = make(f, 0);
     accumulate(&s, 2);
     glssao_settings classic = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_HIGH);
-    assert_int_equal(glssao_accumulate(s.effect, &s.frame, &classic), GLSSAO_INVALID_ARGUMENT);
-    assert_non_null(strstr(f->log, "only the horizon technique accumulates"));
+    fixture_refused(f, glssao_accumulate(s.effect, &s.frame, &classic), "only the horizon technique accumulates");
     assert_int_equal(glssao_accumulate(s.effect, NULL, &s.settings), GLSSAO_INVALID_ARGUMENT);
     assert_int_equal(glssao_accumulate(NULL, &s.frame, &s.settings), GLSSAO_INVALID_ARGUMENT);
     glssao_restart_accumulation(NULL);
@@ -213,11 +202,8 @@ static void refuses_and_skips(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(error_falls_and_is_told, NULL, fixture_no_gl_error),
-        cmocka_unit_test_setup_teardown(same_seed_same_bits, NULL, fixture_no_gl_error),
-        cmocka_unit_test_setup_teardown(another_view_starts_anew, NULL, fixture_no_gl_error),
-        cmocka_unit_test_setup_teardown(blur_serves_the_first, NULL, fixture_no_gl_error),
-        cmocka_unit_test_setup_teardown(refuses_and_skips, NULL, fixture_no_gl_error),
+        GL_TEST(error_falls_and_is_told), GL_TEST(same_seed_same_bits), GL_TEST(another_view_starts_anew),
+        GL_TEST(blur_serves_the_first),   GL_TEST(refuses_and_skips),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
 }

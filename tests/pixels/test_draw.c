@@ -196,17 +196,15 @@ static void depth_equal_covers_what_the_prepass_covered(void **state)
 
 int main(void)
 {
-#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
-        TEST(normals_are_in_view_space),
-        TEST(instances_have_the_normals_of_baked_triangles),
-        TEST(normals_of_zero_length_face_the_viewer),
-        TEST(fronts_are_drawn_and_backs_culled),
-        TEST(mirrored_instances_keep_their_fronts),
-        TEST(double_sided_backs_show_normals_that_face_the_viewer),
-        TEST(mixed_instances_of_a_mesh_are_all_drawn),
-        TEST(depth_equal_covers_what_the_prepass_covered),
+        GL_TEST(normals_are_in_view_space),
+        GL_TEST(instances_have_the_normals_of_baked_triangles),
+        GL_TEST(normals_of_zero_length_face_the_viewer),
+        GL_TEST(fronts_are_drawn_and_backs_culled),
+        GL_TEST(mirrored_instances_keep_their_fronts),
+        GL_TEST(double_sided_backs_show_normals_that_face_the_viewer),
+        GL_TEST(mixed_instances_of_a_mesh_are_all_drawn),
+        GL_TEST(depth_equal_covers_what_the_prepass_covered),
     };
-#undef TEST
     return cmocka_run_group_tests_name("draw", tests, fixture_setup, fixture_teardown);
 }

@@ -302,19 +302,17 @@ static void everything_on_shows_the_same(void **state)
 
 int main(void)
 {
-#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
-        TEST(shadow_takes_direct_light_and_leaves_ambient),
-        TEST(occlusion_is_left_out_by_its_share),
-        TEST(holes_and_blended_cast_no_shadow),
-        TEST(smooth_surfaces_alone_do_not_shadow_themselves),
-        TEST(normal_map_bends_normals_in_the_tangent_frame),
-        TEST(normal_map_bends_the_light),
-        TEST(sky_is_a_gradient_by_height_and_behind_everything),
-        TEST(outside_the_view_nothing_is_drawn),
-        TEST(effects_are_there_only_where_called_for),
-        TEST(everything_on_shows_the_same),
+        GL_TEST(shadow_takes_direct_light_and_leaves_ambient),
+        GL_TEST(occlusion_is_left_out_by_its_share),
+        GL_TEST(holes_and_blended_cast_no_shadow),
+        GL_TEST(smooth_surfaces_alone_do_not_shadow_themselves),
+        GL_TEST(normal_map_bends_normals_in_the_tangent_frame),
+        GL_TEST(normal_map_bends_the_light),
+        GL_TEST(sky_is_a_gradient_by_height_and_behind_everything),
+        GL_TEST(outside_the_view_nothing_is_drawn),
+        GL_TEST(effects_are_there_only_where_called_for),
+        GL_TEST(everything_on_shows_the_same),
     };
-#undef TEST
     return cmocka_run_group_tests_name("draw effects", tests, fixture_setup, fixture_teardown);
 }

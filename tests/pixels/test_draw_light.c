@@ -7,6 +7,7 @@
 #include "draw.h"
 #include "draw_frame.h"
 #include "fixture.h"
+#include "open_light.h"
 #include "small_scene.h"
 
 #include <math.h>
@@ -123,6 +124,64 @@ static void reflection_is_that_of_the_model(void **state)
 }
 
 /* In uniform light from all directions, no surface sends out more than it receives. */
+/* Linear colour in the middle with a map of bent normals that holds one value. */
+static void bent_color(small_scene *s, const scene_lighting *lighting, const double bent[3], double accessibility,
+                       double left_out, double out[3])
+{
+    GLuint map;
+    const float texel[4] = {(float)bent[0], (float)bent[1], (float)bent[2], (float)accessibility};
+    const scene_draw_options options = {.bent = true, .left_out = (float)left_out};
+    gl.GenTextures(1, &map);
+    gl.BindTexture(GL_TEXTURE_2D, map);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, 1, 1, 0, GL_RGBA, GL_FLOAT, texel);
+    frame f = frame_draw_with(s, &frame_front, lighting, &options, map);
+    for (int i = 0; i < 3; i++) {
+        const double c = f.color[FRAME_MIDDLE][i] / 255.0;
+        out[i] = c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
+    }
+    frame_free(&f);
+    gl.DeleteTextures(1, &map);
+}
+
+/* Matte light of the gradient, whose first harmonic is all that is not even; and the cones of a metal, whose share
+ * shows against the same surface in the open. */
+static void bent_normals_light_as_their_cones_say(void **state)
+{
+    (void)state;
+    const scene_lighting lighting = {
+        .ambient = {0.5f, 0.3f, 0.4f}, .ambient_tilt = {0.3f, -0.2f, 0}, .direction_world = {0, -1, 0}};
+    const double n[3] = {0, 0, 1}, open[3] = {0, 0, 1};
+    int darkened = 0;
+    for (int k = 0; k < 24; k++) {
+        const double turn = 0.3 * (k % 8), accessibility = 0.15 + 0.35 * (k / 8);
+        const double bent[3] = {0, sin(turn - 1), cos(turn - 1)};
+        double bands[2], got[3], even[3], wanted;
+        small_scene *s = frame_one_quad(small_scene_material(), NULL);
+        open_light_bands(accessibility, bands);
+        bent_color(s, &lighting, bent, accessibility, 0, got);
+        wanted = accessibility * (0.5 + 0.3 * 2 / 3 * bands[0] * bent[1]);
+        assert_near(got[0], wanted, 0.006, "matte, red");
+        wanted = accessibility * (0.3 - 0.2 * 2 / 3 * bands[0] * bent[1]);
+        assert_near(got[1], wanted, 0.006, "matte, green");
+        bent_color(s, &lighting, bent, accessibility, 1, got); /* no occlusion is shown */
+        assert_near(got[0], 0.5, 0.006, "matte, left out");
+        free(s);
+
+        scene_material metal = small_scene_material();
+        metal.metallic_roughness = true;
+        metal.metallic = 1;
+        metal.roughness = 0.2f + 0.3f * (float)(k % 3);
+        s = frame_one_quad(metal, NULL);
+        bent_color(s, &lighting, open, 1, 0, even);
+        bent_color(s, &lighting, bent, accessibility, 0, got);
+        const double share = open_light_cone(bent, accessibility, n, (double)metal.roughness);
+        assert_near(got[0], even[0] * share, 0.008, "metal");
+        darkened += share < 0.9 && share > 0.1;
+        free(s);
+    }
+    assert_true(darkened > 4);
+}
+
 static void nothing_is_brighter_than_its_surroundings(void **state)
 {
     (void)state;
@@ -375,16 +434,15 @@ static void light_follows_up(void **state)
 
 int main(void)
 {
-#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
-        TEST(gradient_lights_as_its_integral_says),
-        TEST(reflection_is_that_of_the_model),
-        TEST(nothing_is_brighter_than_its_surroundings),
-        TEST(punctual_lights_fall_off_as_the_extension_says),
-        TEST(lights_of_the_scene_take_the_suns_place),
-        TEST(a_picture_surrounds_the_scene),
-        TEST(light_follows_up),
+        GL_TEST(gradient_lights_as_its_integral_says),
+        GL_TEST(reflection_is_that_of_the_model),
+        GL_TEST(bent_normals_light_as_their_cones_say),
+        GL_TEST(nothing_is_brighter_than_its_surroundings),
+        GL_TEST(punctual_lights_fall_off_as_the_extension_says),
+        GL_TEST(lights_of_the_scene_take_the_suns_place),
+        GL_TEST(a_picture_surrounds_the_scene),
+        GL_TEST(light_follows_up),
     };
-#undef TEST
     return cmocka_run_group_tests_name("draw light", tests, fixture_setup, fixture_teardown);
 }

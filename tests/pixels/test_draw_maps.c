@@ -277,12 +277,10 @@ static void motion_tells_where_points_were(void **state)
 
 int main(void)
 {
-#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
-        TEST(view_distance_is_the_analytic_one),        TEST(map_keeps_its_orientation_and_values),
-        TEST(small_map_is_spread_linearly_and_upright), TEST(passes_leave_the_defaults),
-        TEST(motion_tells_where_points_were),
+        GL_TEST(view_distance_is_the_analytic_one),        GL_TEST(map_keeps_its_orientation_and_values),
+        GL_TEST(small_map_is_spread_linearly_and_upright), GL_TEST(passes_leave_the_defaults),
+        GL_TEST(motion_tells_where_points_were),
     };
-#undef TEST
     return cmocka_run_group_tests_name("draw maps", tests, fixture_setup, fixture_teardown);
 }

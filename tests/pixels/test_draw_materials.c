@@ -214,18 +214,16 @@ static void images_beyond_the_driver_are_refused(void **state)
 
 int main(void)
 {
-#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
-        TEST(mask_draws_where_alpha_reaches_the_cutoff),
-        TEST(blended_adds_colour_but_no_depth_and_no_normal),
-        TEST(blended_is_drawn_back_to_front),
-        TEST(blended_is_hidden_by_opaque_in_front),
-        TEST(accessibility_scales_ambient_light_alone),
-        TEST(texels_are_where_the_uvs_say),
-        TEST(vertex_colour_multiplies_base_colour),
-        TEST(empty_scene_is_all_sky),
-        TEST(images_beyond_the_driver_are_refused),
+        GL_TEST(mask_draws_where_alpha_reaches_the_cutoff),
+        GL_TEST(blended_adds_colour_but_no_depth_and_no_normal),
+        GL_TEST(blended_is_drawn_back_to_front),
+        GL_TEST(blended_is_hidden_by_opaque_in_front),
+        GL_TEST(accessibility_scales_ambient_light_alone),
+        GL_TEST(texels_are_where_the_uvs_say),
+        GL_TEST(vertex_colour_multiplies_base_colour),
+        GL_TEST(empty_scene_is_all_sky),
+        GL_TEST(images_beyond_the_driver_are_refused),
     };
-#undef TEST
     return cmocka_run_group_tests_name("draw materials", tests, fixture_setup, fixture_teardown);
 }

@@ -314,7 +314,6 @@ static void closed_forms_agree_with_rays(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(closed_forms_agree_with_rays),    GL_TEST(plane_is_exactly_open_at_every_level),
         GL_TEST(nothing_far_in_front_casts_a_shade),       GL_TEST(ground_beside_a_block_is_near_the_integral),

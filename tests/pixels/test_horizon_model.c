@@ -185,19 +185,15 @@ static void check_scene(fixture *f, const scene_options *o, const glssao_setting
     float *depth, *normals;
     analytic_render(&view, shapes, count, o->width, o->height, &depth, &normals);
     setup s = {.effect = fixture_effect(f, o->width, o->height),
-               .frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, o->width, o->height, depth),
-                         .clip_zero_to_one = view.clip_zero_to_one},
+               .frame = fixture_maps_frame(&view, o->width, o->height, GL_DEPTH_COMPONENT32F, depth,
+                                           o->rebuilt ? NULL : normals),
                .settings = *settings,
                .width = o->width,
                .height = o->height,
                .normals = o->rebuilt ? NULL : normals};
-    memcpy(s.frame.projection, view.projection, sizeof view.projection);
-    if (!o->rebuilt)
-        s.frame.normal_texture = fixture_normal_texture(o->width, o->height, normals);
     const double occluded = check(&s, depth, o->vague ? &VAGUE : &ORDINARY, what);
     assert_true(occluded > 0.001); /* where a wall is seen edge-on, little is */
-    gl.DeleteTextures(1, &s.frame.depth_texture);
-    gl.DeleteTextures(1, &s.frame.normal_texture);
+    fixture_delete_frame(&s.frame);
     glssao_destroy(s.effect);
     free(depth);
     free(normals);
@@ -348,8 +344,7 @@ static void check_random_frame(fixture *f, const random_options *o, uint32_t *ra
              o->sample_count, o->radius, o->roughness, o->orthographic ? ", orthographic" : "",
              o->layers ? ", layers" : "");
     (void)check(&s, distance, &VAGUE, what);
-    gl.DeleteTextures(1, &s.frame.depth_texture);
-    gl.DeleteTextures(1, &s.frame.normal_texture);
+    fixture_delete_frame(&s.frame);
     gl.DeleteTextures(1, &s.frame.back_texture);
     gl.DeleteTextures(1, &s.frame.second_texture);
     glssao_destroy(s.effect);
@@ -404,10 +399,7 @@ static void agrees_for_each_estimate_of_a_still_view(void **state)
     float *depth, *normals;
     analytic_render(&view, shapes, count, WIDTH, HEIGHT, &depth, &normals);
     glssao_effect *effect = fixture_effect(*state, WIDTH, HEIGHT);
-    glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, WIDTH, HEIGHT, depth),
-                          .normal_texture = fixture_normal_texture(WIDTH, HEIGHT, normals),
-                          .clip_zero_to_one = view.clip_zero_to_one};
-    memcpy(frame.projection, view.projection, sizeof view.projection);
+    const glssao_frame frame = fixture_maps_frame(&view, WIDTH, HEIGHT, GL_DEPTH_COMPONENT32F, depth, normals);
     const glssao_settings settings = bare_settings(12, false, 0.8);
     horizon_input in = {.full_width = WIDTH,
                         .full_height = HEIGHT,
@@ -448,8 +440,7 @@ static void agrees_for_each_estimate_of_a_still_view(void **state)
     print_message("worst outside interval %.2e\n", worst);
     assert_true(worst < 6e-6); /* the driver's pow() */
     assert_true(turned == ESTIMATES / 2);
-    gl.DeleteTextures(1, &frame.depth_texture);
-    gl.DeleteTextures(1, &frame.normal_texture);
+    fixture_delete_frame(&frame);
     glssao_destroy(effect);
     free(before);
     free(distance);
@@ -481,7 +472,6 @@ static void measure_is_near_the_integral(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(measure_is_near_the_integral),
         GL_TEST(agrees_for_every_sample_count_and_size),

@@ -18,36 +18,18 @@
 
 static const double R16_STEP = 1.0 / 65535.0;
 
-static GLuint compile(GLenum stage, const char *text)
-{
-    GLuint shader = gl.CreateShader(stage);
-    gl.ShaderSource(shader, 1, &text, NULL);
-    gl.CompileShader(shader);
-    return shader;
-}
-
 /* The result of the linear wrapping sampler for each ambient pixel. Drivers may filter 8-bit texels with few bits, so
  * the model is fed the filtered vectors. */
 static float *sampled_random_vectors(const glssao_effect *effect, int width, int height)
 {
-    GLuint program = gl.CreateProgram();
-    GLuint vertex = compile(GL_VERTEX_SHADER,
-                            "#version 330\nvoid main() {\n"
-                            "vec2 c[6] = vec2[6](vec2(0,1), vec2(0,0), vec2(1,0), vec2(0,1), vec2(1,0), vec2(1,1));\n"
-                            "gl_Position = vec4(2.0 * c[gl_VertexID] - 1.0, 0.0, 1.0); }\n");
-    GLuint fragment =
-        compile(GL_FRAGMENT_SHADER, "#version 330\nuniform vec2 u_texel;\nuniform sampler2D u_map;\nout vec4 o_color;\n"
-                                    "void main() { o_color = texture(u_map, 4.0 * (gl_FragCoord.xy * u_texel)); }\n");
-    gl.AttachShader(program, vertex);
-    gl.AttachShader(program, fragment);
-    gl.LinkProgram(program);
-    GLuint texture, framebuffer, array;
-    gl.GenTextures(1, &texture);
-    gl.BindTexture(GL_TEXTURE_2D, texture);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width, height, 0, GL_RGBA, GL_FLOAT, NULL);
-    gl.GenFramebuffers(1, &framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    const GLuint program =
+        fixture_program("#version 330\nvoid main() {\n"
+                        "vec2 c[6] = vec2[6](vec2(0,1), vec2(0,0), vec2(1,0), vec2(0,1), vec2(1,0), vec2(1,1));\n"
+                        "gl_Position = vec4(2.0 * c[gl_VertexID] - 1.0, 0.0, 1.0); }\n",
+                        "#version 330\nuniform vec2 u_texel;\nuniform sampler2D u_map;\nout vec4 o_color;\n"
+                        "void main() { o_color = texture(u_map, 4.0 * (gl_FragCoord.xy * u_texel)); }\n");
+    const fixture_target target = fixture_make_target(GL_RGBA32F, width, height);
+    GLuint array;
     gl.GenVertexArrays(1, &array);
     gl.BindVertexArray(array);
     gl.Viewport(0, 0, width, height);
@@ -55,15 +37,11 @@ static float *sampled_random_vectors(const glssao_effect *effect, int width, int
     gl.Uniform2f(gl.GetUniformLocation(program, "u_texel"), 1.0f / (float)width, 1.0f / (float)height);
     gl.BindTexture(GL_TEXTURE_2D, glssao_map(effect, GLSSAO_MAP_RANDOM_VECTOR, NULL, NULL));
     gl.DrawArrays(GL_TRIANGLES, 0, 6);
-    float *vectors = fixture_read_texture(texture, width, height, 3);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    float *vectors = fixture_read_texture(target.texture, width, height, 3);
     gl.UseProgram(0);
     gl.BindVertexArray(0);
-    gl.DeleteFramebuffers(1, &framebuffer);
-    gl.DeleteTextures(1, &texture);
+    fixture_delete_target(&target);
     gl.DeleteVertexArrays(1, &array);
-    gl.DeleteShader(vertex);
-    gl.DeleteShader(fragment);
     gl.DeleteProgram(program);
     return vectors;
 }
@@ -94,10 +72,7 @@ static void set_up(setup *s, fixture *f, const setup_options *o)
     float *depth;
     analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, o->width, o->height, &depth, &s->normals);
     s->effect = fixture_effect(f, o->width, o->height);
-    s->frame.depth_texture = fixture_depth_texture(o->depth_format, o->width, o->height, depth);
-    s->frame.normal_texture = fixture_normal_texture(o->width, o->height, s->normals);
-    memcpy(s->frame.projection, view.projection, sizeof view.projection);
-    s->frame.clip_zero_to_one = view.clip_zero_to_one;
+    s->frame = fixture_maps_frame(&view, o->width, o->height, o->depth_format, depth, s->normals);
     free(depth);
     s->depth = fixture_read_depth(s->frame.depth_texture, o->width, o->height); /* as the format rounds it */
 
@@ -126,8 +101,7 @@ static void set_up(setup *s, fixture *f, const setup_options *o)
 
 static void tear_down(setup *s)
 {
-    gl.DeleteTextures(1, &s->frame.depth_texture);
-    gl.DeleteTextures(1, &s->frame.normal_texture);
+    fixture_delete_frame(&s->frame);
     glssao_destroy(s->effect);
     free(s->depth);
     free(s->normals);
@@ -295,11 +269,8 @@ static void store_distances(setup *s, glssao_depth kind)
     bool alpha = kind == GLSSAO_DEPTH_NORMAL_ALPHA;
     GLuint *texture = alpha ? &s->frame.normal_texture : &s->frame.depth_texture;
     gl.DeleteTextures(1, texture);
-    gl.GenTextures(1, texture);
-    gl.BindTexture(GL_TEXTURE_2D, *texture);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, alpha ? GL_RGBA32F : GL_R32F, s->input.width, s->input.height, 0,
-                  alpha ? GL_RGBA : GL_RED, GL_FLOAT, alpha ? rgba : s->depth);
-    gl.BindTexture(GL_TEXTURE_2D, 0);
+    *texture = fixture_texture(alpha ? GL_RGBA32F : GL_R32F, alpha ? GL_RGBA : GL_RED, GL_FLOAT, s->input.width,
+                               s->input.height, alpha ? rgba : s->depth);
     free(rgba);
 }
 
@@ -499,7 +470,6 @@ static void blur_agrees(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         GL_TEST(estimate_agrees_for_every_projection),
         GL_TEST(estimate_agrees_at_half_size_and_odd_sizes),

@@ -142,7 +142,7 @@ static void random_scenes_have_few_specks(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(random_scenes_have_few_specks, NULL, fixture_no_gl_error),
+        GL_TEST(random_scenes_have_few_specks),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
 }

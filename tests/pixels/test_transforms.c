@@ -113,7 +113,7 @@ static void transformed_instances_shade_like_baked_triangles(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(transformed_instances_shade_like_baked_triangles, NULL, fixture_no_gl_error),
+        GL_TEST(transformed_instances_shade_like_baked_triangles),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
 }

@@ -40,7 +40,7 @@ static void shade(fixture *f, const char *what, const subject *s, depth_store de
     picture p = subject_shade(f, W, H, &frame, &settings);
     write(&p, what);
     free(p.values);
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
 }
 
 static void draw(void **state)

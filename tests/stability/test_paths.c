@@ -58,22 +58,16 @@ static void *load(const char *name, void *user)
 {
     asked = user;
     void *address = context_load(name, asked->f->context);
-    if (strcmp(name, "glGetIntegerv") == 0) {
-        memcpy(&real_get_integerv, &address, sizeof address);
-        memcpy(&address, &(PFNGLGETINTEGERVPROC){get_integerv}, sizeof address);
+#define WRAP(function, type, real, own)                                                                                \
+    if (strcmp(name, function) == 0) {                                                                                 \
+        memcpy(&(real), &address, sizeof address);                                                                     \
+        memcpy(&address, &(type){own}, sizeof address);                                                                \
     }
-    if (strcmp(name, "glGetString") == 0) {
-        memcpy(&real_get_string, &address, sizeof address);
-        memcpy(&address, &(PFNGLGETSTRINGPROC){get_string}, sizeof address);
-    }
-    if (strcmp(name, "glCreateShader") == 0) {
-        memcpy(&real_create_shader, &address, sizeof address);
-        memcpy(&address, &(PFNGLCREATESHADERPROC){create_shader}, sizeof address);
-    }
-    if (strcmp(name, "glGetShaderiv") == 0) {
-        memcpy(&real_get_shader, &address, sizeof address);
-        memcpy(&address, &(PFNGLGETSHADERIVPROC){get_shader}, sizeof address);
-    }
+    WRAP("glGetIntegerv", PFNGLGETINTEGERVPROC, real_get_integerv, get_integerv)
+    WRAP("glGetString", PFNGLGETSTRINGPROC, real_get_string, get_string)
+    WRAP("glCreateShader", PFNGLCREATESHADERPROC, real_create_shader, create_shader)
+    WRAP("glGetShaderiv", PFNGLGETSHADERIVPROC, real_get_shader, get_shader)
+#undef WRAP
     return asked->knows_3_3_alone && !fixture_is_of_3_3(name) ? NULL : address;
 }
 
@@ -179,7 +173,7 @@ static void techniques_and_qualities_agree(void **state)
             continue;
         assert_alike(*state, c.name, 97, 63, &frame, &c.settings);
     }
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
 }
 
 static void blurs_and_sizes_of_the_result_agree(void **state)
@@ -196,7 +190,7 @@ static void blurs_and_sizes_of_the_result_agree(void **state)
             snprintf(what, sizeof what, "blur %d, size %d", blur, size);
             assert_alike(*state, what, 66, 51, &frame, &s);
         }
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
 }
 
 static void odd_and_small_sizes_agree(void **state)
@@ -206,7 +200,7 @@ static void odd_and_small_sizes_agree(void **state)
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; ++i) {
         glssao_frame frame = room_frame(PERSPECTIVE, sizes[i][0], sizes[i][1], DEPTH_32F, NORMAL_32F);
         assert_alike(*state, "size", sizes[i][0], sizes[i][1], &frame, &s);
-        subject_frame_free(&frame);
+        fixture_delete_frame(&frame);
     }
 }
 
@@ -224,7 +218,7 @@ static void ways_to_hand_over_agree(void **state)
     for (size_t i = 0; i < sizeof stores / sizeof *stores; ++i) {
         glssao_frame frame = room_frame(stores[i].projection, 64, 48, stores[i].depth, stores[i].normal);
         assert_alike(*state, subject_depth_name(stores[i].depth), 64, 48, &frame, &s);
-        subject_frame_free(&frame);
+        fixture_delete_frame(&frame);
     }
 }
 
@@ -253,8 +247,8 @@ static void margins_layers_and_viewports_agree(void **state)
         memcpy(changed.viewport, (const int[4]){3, 5, 80, 60}, sizeof changed.viewport);
         assert_alike(*state, "viewport", 80, 60, &changed, &s);
     }
-    subject_frame_free(&frame);
-    subject_frame_free(&second);
+    fixture_delete_frame(&frame);
+    fixture_delete_frame(&second);
     subject_free(&behind);
 }
 
@@ -273,14 +267,12 @@ static void rays_agree(void **state)
         s.upsample = i % 3 != 0;
         s.power = 1.0f + (float)(i % 2);
         frame.margin = margin ? 8 : 0;
-        gl.GenTextures(1, &frame.rays_texture);
-        gl.BindTexture(GL_TEXTURE_2D, frame.rays_texture);
-        gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, width, height, 0, GL_RED, GL_FLOAT, values);
-        gl.BindTexture(GL_TEXTURE_2D, 0);
+        frame.rays_texture = fixture_texture(GL_R32F, GL_RED, GL_FLOAT, width, height, values);
         assert_alike(*state, "rays", 66, 51, &frame, &s);
         gl.DeleteTextures(1, &frame.rays_texture);
+        frame.rays_texture = 0;
     }
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
 }
 
 /* Estimates are added by drawing; the passes before and after may be dispatched. */
@@ -295,14 +287,13 @@ static void accumulated_estimates_agree(void **state)
         assert_int_equal(make(h, i ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT, 64, 48, &effect), GLSSAO_OK);
         for (int k = 0; k < 3; ++k)
             assert_int_equal(glssao_accumulate(effect, &frame, &s), GLSSAO_OK);
-        const uint32_t map = glssao_map(effect, GLSSAO_MAP_AMBIENT, &pictures[i].width, &pictures[i].height);
-        pictures[i].values = fixture_read_texture(map, 64, 48, 1);
+        pictures[i].values = fixture_read_ambient(effect, &pictures[i].width, &pictures[i].height);
         glssao_destroy(effect);
     }
     assert_agree(&pictures[0], &pictures[1], "accumulated");
     free(pictures[0].values);
     free(pictures[1].values);
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
 }
 
 /* Which way a host's frames take, and the bits of the picture where they are drawn. */
@@ -355,7 +346,7 @@ static void the_context_and_the_config_decide(void **state)
         glssao_destroy(effect);
     }
     free(wanted.values);
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
 }
 
 static void an_unknown_path_is_refused(void **state)
@@ -392,7 +383,7 @@ static void refused_compute_shaders_are_done_without(void **state)
     assert_int_equal(make(&h, GLSSAO_PATH_COMPUTE, 64, 48, &required), GLSSAO_OK);
     assert_int_equal(glssao_compute(required, &frame, &s), GLSSAO_SHADER_ERROR);
     glssao_destroy(required);
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
 }
 
 int main(int argc, char **argv)

@@ -103,8 +103,8 @@ static void turned_cameras_see_the_same(void **state)
             char what[32];
             snprintf(what, sizeof what, "%g degrees", degrees[i]);
             assert_same(*state, &plain, &turned, 5e-4, what);
-            subject_frame_free(&plain);
-            subject_frame_free(&turned);
+            fixture_delete_frame(&plain);
+            fixture_delete_frame(&turned);
             subject_free(&s);
         }
 }
@@ -135,7 +135,7 @@ static void rebuilt_normals_are_in_view_space(void **state)
     assert_true(off < W * H / 100); /* where two sides predict equally well, rounding decides */
     for (int i = 0; i < 2; ++i) {
         free(maps[i]);
-        subject_frame_free(&frames[i]);
+        fixture_delete_frame(&frames[i]);
     }
     subject_free(&s);
 }
@@ -203,8 +203,8 @@ static void normals_in_world_space_are_turned(void **state)
             turned.view[4 * k + 1] = (float)(n * (double)view[4 * k] + c * (double)view[4 * k + 1]);
         }
         assert_same(*state, &other, &turned, 1e-3, "world space, turned");
-        subject_frame_free(&plain);
-        subject_frame_free(&other);
+        fixture_delete_frame(&plain);
+        fixture_delete_frame(&other);
         subject_free(&s);
         free(world.normals);
     }
@@ -232,7 +232,7 @@ static void views_are_checked_where_they_count(void **state)
         frame.world_normals = false; /* not read */
         assert_int_equal(glssao_compute(effects[0], &frame, &settings), GLSSAO_OK);
     }
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
     subject_free(&s);
 }
 
@@ -249,7 +249,7 @@ static void residues_change_nothing(void **state)
             if (i != 1 || entries[k] % 4 != 2)
                 other.projection[entries[k]] = (k % 2 ? -2.7e-8f : 2.7e-8f) * (i == 2 ? 0.01f : 1.0f);
         assert_same(*state, &plain, &other, 0.0, "residues");
-        subject_frame_free(&plain);
+        fixture_delete_frame(&plain);
         subject_free(&s);
     }
 }
@@ -267,7 +267,7 @@ static void eyes_behind_the_near_plane_see_the_same(void **state)
             char what[48];
             snprintf(what, sizeof what, "an eye that is %g farther%s", moves[i], reversed ? ", reversed" : "");
             assert_same(*state, &plain, &other, 1e-3, what);
-            subject_frame_free(&plain);
+            fixture_delete_frame(&plain);
             subject_free(&s);
         }
 }
@@ -299,7 +299,7 @@ static void far_fades_follow_the_hosts_eye(void **state)
         free(without.values);
         free(plain.values);
         free(moved.values);
-        subject_frame_free(&frame);
+        fixture_delete_frame(&frame);
         subject_free(&s);
     }
 }
@@ -342,8 +342,8 @@ static void oblique_near_planes_change_nothing(void **state)
         make_oblique(&s, planes[i % 2], i == 3);
         glssao_frame other = subject_frame(&s, stores[i / 2], i % 2 ? NORMAL_NONE : NORMAL_32F);
         assert_same(*state, &plain, &other, 2e-3, "an oblique near plane");
-        subject_frame_free(&plain);
-        subject_frame_free(&other);
+        fixture_delete_frame(&plain);
+        fixture_delete_frame(&other);
         subject_free(&s);
     }
 }
@@ -371,7 +371,7 @@ static void planes_stay_open(void **state)
                     fail_msg("case %d, %s: %g", i, c.name, picture_least(&p));
                 free(p.values);
             }
-            subject_frame_free(&frame);
+            fixture_delete_frame(&frame);
         }
         subject_free(&s);
     }
@@ -403,13 +403,12 @@ static void doubts_are_told_once(void **state)
     assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_OK);
     assert_string_equal(f->log, "");
     glssao_destroy(effect);
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
     subject_free(&s);
 }
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         GL_TEST(turned_cameras_see_the_same),
         GL_TEST(rebuilt_normals_are_in_view_space),

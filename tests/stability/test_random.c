@@ -156,7 +156,7 @@ static void random_case(fixture *f, uint64_t seed)
     free(again.values);
     if (below(&s, 3) == 0)
         random_walk(f, &s, &frame, &settings, width, height, scale, seed);
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
     subject_free(&seen);
 }
 
@@ -179,7 +179,7 @@ int main(int argc, char **argv)
     if (argc < 2 || (argc == 3 && !strcmp(argv[1], "--cases")))
         first_seed += fixture_hides_newer() ? 100000 : 0;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(random_cases, NULL, fixture_no_gl_error),
+        GL_TEST(random_cases),
     };
     return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
 }

@@ -54,7 +54,7 @@ static picture shade_room(fixture *f, const analytic_view *view, int width, int 
     const glssao_settings scaled = settings_scaled(settings, scale);
     picture p = subject_shade(f, width, height, &frame, &scaled);
     assert_true(picture_is_sound(&p));
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
     subject_free(&s);
     return p;
 }
@@ -253,7 +253,6 @@ static void greater_power_never_brightens(void **state)
 int main(int argc, char **argv)
 {
     stride = configuration_stride(argc, argv);
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         GL_TEST(runs_repeat),
         GL_TEST(scale_changes_nothing),

@@ -466,7 +466,6 @@ static void texts_are_never_null(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         GL_TEST(each_missing_function_is_named),
         GL_TEST(functions_newer_than_3_3_are_optional),

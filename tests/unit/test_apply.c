@@ -315,7 +315,6 @@ static void unusual_targets_get_the_same_picture(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         GL_TEST(each_option_follows_its_formula),
         GL_TEST(sRGB_framebuffers_multiply_light_while_the_host_has_them_on),

@@ -306,7 +306,6 @@ static void bad_options_are_named_and_change_nothing(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         GL_TEST(rectangle_places_and_stretches),
         GL_TEST(four_views_in_one_framebuffer),

@@ -124,10 +124,7 @@ static void put_depth(GLuint texture, const host *h, int x, int y)
 static void the_result_is_that_of_the_depth_as_a_texture(void **state)
 {
     fixture *f = *state;
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
-    glssao_frame frame = fixture_frame(&view, room, ANALYTIC_ROOM_SHAPES, W, H);
+    glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
     const GLuint normals = frame.normal_texture;
     host h = make_host(&formats[4], 0, 2 * W, 2 * H);
     put_depth(frame.depth_texture, &h, W, H / 2);
@@ -142,7 +139,7 @@ static void the_result_is_that_of_the_depth_as_a_texture(void **state)
         copied.depth_texture = 0;
         memcpy(copied.viewport, (const int[4]){W, H / 2, W, H}, sizeof copied.viewport);
         assert_int_equal(glssao_compute_framebuffer(window, h.framebuffer, &copied, &settings), GLSSAO_OK);
-        float *got = fixture_read_texture(glssao_map(window, GLSSAO_MAP_AMBIENT, &w, &height), W, H, 1);
+        float *got = fixture_read_ambient(window, &w, &height);
         assert_true(w == W && height == H);
         assert_memory_equal(got, wanted, W * H * sizeof *got);
         free(got);
@@ -162,11 +159,7 @@ static void viewport_and_size_of_the_host_are_followed(void **state)
     const glssao_settings settings = make_settings();
     const glssao_frame frame = make_frame();
     host h = make_host(&formats[2], 0, W, H);
-    GLuint color;
-    gl.GenTextures(1, &color);
-    gl.BindTexture(GL_TEXTURE_2D, color);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, W, H, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
-    gl.BindTexture(GL_TEXTURE_2D, 0);
+    const GLuint color = fixture_texture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, W, H, NULL);
     gl.BindFramebuffer(GL_FRAMEBUFFER, h.framebuffer);
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
     gl.DrawBuffer(GL_COLOR_ATTACHMENT0);
@@ -184,9 +177,8 @@ static void viewport_and_size_of_the_host_are_followed(void **state)
         options.show = true;
         assert_int_equal(glssao_apply_with(effect, &options), GLSSAO_OK);
         int w, height;
-        const GLuint map = glssao_map(effect, GLSSAO_MAP_AMBIENT, &w, &height);
+        float *access = fixture_read_ambient(effect, &w, &height), *got = fixture_read_texture(color, W, H, 1);
         assert_true(w == p[2] && height == p[3]);
-        float *access = fixture_read_texture(map, w, height, 1), *got = fixture_read_texture(color, W, H, 1);
         for (int k = 0; k < W * H; ++k) {
             const int x = k % W - p[0], y = k / W - p[1];
             const bool inside = x >= 0 && y >= 0 && x < p[2] && y < p[3];
@@ -472,7 +464,6 @@ static void the_copy_is_timed(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         GL_TEST(every_depth_format_arrives),
         GL_TEST(the_result_is_that_of_the_depth_as_a_texture),

@@ -131,7 +131,7 @@ static void every_unit_is_restored(void **state)
 {
     guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     GLuint textures[UNITS], samplers[UNITS], multisample;
-    guest_target white = guest_make_white();
+    const fixture_target white = guest_make_white();
     gl.GenTextures(UNITS, textures);
     gl.GenSamplers(UNITS, samplers);
     gl.GenTextures(1, &multisample);
@@ -170,13 +170,12 @@ static void every_unit_is_restored(void **state)
     gl.DeleteTextures(UNITS, textures);
     gl.DeleteSamplers(UNITS, samplers);
     gl.DeleteTextures(1, &multisample);
-    guest_delete_white(&white);
+    fixture_delete_target(&white);
     guest_close(&g);
 }
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         GL_TEST(maps_may_stay_bound_when_a_setting_changes),
         GL_TEST(every_unit_is_restored),

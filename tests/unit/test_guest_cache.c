@@ -287,7 +287,6 @@ static void what_another_user_owns_is_not_used(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         GL_TEST(links_that_lie_in_wait_are_not_written_through),
         GL_TEST(files_that_lie_in_wait_are_not_written_to),

@@ -438,7 +438,6 @@ static void a_debug_context_has_nothing_to_say(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         GL_TEST(apply_asks_only_for_what_it_changes),
         GL_TEST(timers_never_make_the_cpu_wait),

@@ -149,7 +149,6 @@ static void a_size_that_the_driver_refuses_leaves_no_error(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         GL_TEST(a_map_without_memory_is_told_as_such),
         GL_TEST(a_size_that_the_driver_refuses_leaves_no_error),

@@ -263,7 +263,6 @@ static void active_transform_feedback_is_refused(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         GL_TEST(clamped_fragment_colours_change_nothing),
         GL_TEST(pixel_transfer_changes_nothing),

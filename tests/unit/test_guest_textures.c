@@ -166,7 +166,6 @@ static void integer_formats_are_refused(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         GL_TEST(parameters_of_host_textures_change_nothing),
         GL_TEST(integer_formats_are_refused),

@@ -284,7 +284,6 @@ static void wrong_arguments_are_named(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         GL_TEST(rays_agree_with_the_truth),           GL_TEST(no_surface_blocks_its_own_rays),
         GL_TEST(alpha_tests_let_rays_through),        GL_TEST(threads_change_nothing),
