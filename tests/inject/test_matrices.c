@@ -2,9 +2,17 @@
  *
  * glssao-inject's search for a projection among the matrices that a program sets.
  */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
 
 #include "inject.h"
-#include "testing.h"
+
+#include <math.h>
+#include <string.h>
 
 typedef float matrix[16];
 
@@ -63,8 +71,9 @@ static void assert_alike(const matrix a, const matrix b)
         assert_float_equal(a[i], b[i], 2e-4f * (1.0f + fabsf(a[i])));
 }
 
-TEST(a_projection_is_its_own)
+static void a_projection_is_its_own(void **state)
 {
+    (void)state;
     matrix p, found;
     frustum(0.0f, 0.1f, 100.0f, p);
     assert_true(inject_perspective_of(p, false, found));
@@ -74,8 +83,9 @@ TEST(a_projection_is_its_own)
     assert_alike(p, found);
 }
 
-TEST(a_projection_is_found_in_a_product)
+static void a_projection_is_found_in_a_product(void **state)
 {
+    (void)state;
     static const float scales[] = {1.0f, 0.02f, 40.0f};
     for (int i = 0; i < 3; ++i) {
         matrix p, v, product, found;
@@ -87,8 +97,9 @@ TEST(a_projection_is_found_in_a_product)
     }
 }
 
-TEST(other_matrices_are_refused)
+static void other_matrices_are_refused(void **state)
 {
+    (void)state;
     const matrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     const matrix orthographic = {0.1f, 0, 0, 0, 0, 0.1f, 0, 0, 0, 0, -0.02f, 0, 0, 0, -1.0f, 1};
     matrix p, v, product, found;
@@ -105,8 +116,9 @@ TEST(other_matrices_are_refused)
     assert_false(inject_perspective_of(p, false, found));
 }
 
-TEST(reversed_depth_is_told)
+static void reversed_depth_is_told(void **state)
 {
+    (void)state;
     matrix p, v, product, found;
     frustum(0.1f, 60.0f, 0.1f, p); /* near and far exchanged */
     model_view(2.0f, 2.0f, 2.0f, v);
@@ -131,8 +143,9 @@ static void orthographic(float half_width, float half_height, float depth, bool 
     out[15] = 1.0f;
 }
 
-TEST(orthographic_projections_are_told)
+static void orthographic_projections_are_told(void **state)
 {
+    (void)state;
     for (int i = 0; i < 4; ++i) {
         const bool zero_to_one = i & 1, reversed = i == 3;
         matrix p, v, product, found;
@@ -146,8 +159,9 @@ TEST(orthographic_projections_are_told)
     }
 }
 
-TEST(interfaces_and_models_are_no_orthographic_scene)
+static void interfaces_and_models_are_no_orthographic_scene(void **state)
 {
+    (void)state;
     const matrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     matrix flat, v, found;
     assert_false(inject_orthographic_of(identity, false, found));
@@ -163,8 +177,9 @@ TEST(interfaces_and_models_are_no_orthographic_scene)
     assert_false(inject_orthographic_of(v, false, found));
 }
 
-TEST(matrices_in_a_uniform_buffer_are_found)
+static void matrices_in_a_uniform_buffer_are_found(void **state)
 {
+    (void)state;
     struct {
         float color[4], light[4];
         matrix view, row_major;
@@ -186,8 +201,9 @@ TEST(matrices_in_a_uniform_buffer_are_found)
     inject_end_frame();
 }
 
-TEST(perspective_goes_before_orthographic)
+static void perspective_goes_before_orthographic(void **state)
 {
+    (void)state;
     matrix p, box;
     inject_projection found;
     frustum(0.0f, 0.5f, 60.0f, p);
@@ -207,8 +223,9 @@ TEST(perspective_goes_before_orthographic)
     inject_end_frame();
 }
 
-TEST(the_projection_of_most_matrices_is_taken_and_kept)
+static void the_projection_of_most_matrices_is_taken_and_kept(void **state)
 {
+    (void)state;
     matrix rare, usual;
     inject_projection found;
     assert_false(inject_get_projection(at(0), &found));
@@ -229,8 +246,9 @@ TEST(the_projection_of_most_matrices_is_taken_and_kept)
     assert_alike(usual, found.matrix);
 }
 
-TEST(each_framebuffer_has_its_own)
+static void each_framebuffer_has_its_own(void **state)
 {
+    (void)state;
     matrix in_7, in_window;
     inject_projection found;
     frustum(0.0f, 0.1f, 10.0f, in_7);
@@ -249,8 +267,9 @@ TEST(each_framebuffer_has_its_own)
 }
 
 /* A program that draws on demand draws few frames, but seconds pass. */
-TEST(orthographic_takes_over_after_a_second)
+static void orthographic_takes_over_after_a_second(void **state)
 {
+    (void)state;
     matrix p, box;
     inject_projection found;
     frustum(0.0f, 0.5f, 60.0f, p);
@@ -270,8 +289,9 @@ TEST(orthographic_takes_over_after_a_second)
 }
 
 /* An icon in a corner sets more matrices than the scene. */
-TEST(the_projection_of_most_depth_goes_before_that_of_most_matrices)
+static void the_projection_of_most_depth_goes_before_that_of_most_matrices(void **state)
 {
+    (void)state;
     matrix icon, scene;
     inject_projection found;
     frustum(0.0f, 0.1f, 10.0f, icon);
@@ -289,8 +309,9 @@ TEST(the_projection_of_most_depth_goes_before_that_of_most_matrices)
 }
 
 /* A window's projection is its context's, and goes with it. */
-TEST(contexts_do_not_mix)
+static void contexts_do_not_mix(void **state)
 {
+    (void)state;
     matrix first, second;
     inject_projection found;
     const inject_place other = {&contexts[1], 0}, third = {&contexts[2], 0};
@@ -313,5 +334,20 @@ TEST(contexts_do_not_mix)
 
 int main(void)
 {
-    return test_run(NULL, NULL, NULL);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_projection_is_its_own),
+        cmocka_unit_test(a_projection_is_found_in_a_product),
+        cmocka_unit_test(other_matrices_are_refused),
+        cmocka_unit_test(reversed_depth_is_told),
+        cmocka_unit_test(orthographic_projections_are_told),
+        cmocka_unit_test(interfaces_and_models_are_no_orthographic_scene),
+        cmocka_unit_test(the_projection_of_most_matrices_is_taken_and_kept),
+        cmocka_unit_test(each_framebuffer_has_its_own),
+        cmocka_unit_test(matrices_in_a_uniform_buffer_are_found),
+        cmocka_unit_test(perspective_goes_before_orthographic),
+        cmocka_unit_test(orthographic_takes_over_after_a_second),
+        cmocka_unit_test(the_projection_of_most_depth_goes_before_that_of_most_matrices),
+        cmocka_unit_test(contexts_do_not_mix),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }

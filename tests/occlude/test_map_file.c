@@ -9,6 +9,7 @@
 
 #include <errno.h>
 #include <png.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #if HAS_OPENEXR
@@ -161,7 +162,12 @@ TEST(test_damaged_headers_give_one_line)
     static const struct {
         const char *bytes, *line;
     } files[] = {
-        {"", "empty, or no file"},
+        {"", "it is empty"},
+        {"version https://git-lfs.github.com/spec/v1\n",
+         "this is a Git LFS pointer, not the file itself: fetch it with "
+         "\"git lfs pull\""},
+        {"\x1f\x8b\x08", "this is compressed with gzip: unpack it first"},
+        {"<!DOCTYPE html>", "this is an HTML page: the download was probably answered by a web page"},
         {"hello, world", "neither PFM, PNG, .npy nor OpenEXR"},
         {"Pf\n2 x\n-1.0\n", "a damaged PFM header"},
         {"Pf\n2 2\n0.0\n", "a damaged PFM header"},
@@ -187,6 +193,8 @@ TEST(test_damaged_headers_give_one_line)
     expect_refusal("a map of 1 x 9223372036854775807 is outside 1 to 65536");
     remove(path);
     expect_refusal(strerror(ENOENT));
+    assert_int_equal(mkfifo(path, 0600), 0); /* does not block */
+    expect_refusal("not a regular file");
 }
 
 /* Of each format: every length that a cut may leave, and many damaged bytes. Sanitizers see what goes wrong. */
