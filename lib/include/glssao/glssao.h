@@ -162,7 +162,7 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     uint32_t noise_index;          /* another pattern of noise for each value, for instance the number of the frame where
                                       the host averages frames itself (TAA); 0: the pattern of docs/decisions/0028 */
     int history;                   /* 0 to 63: earlier frames are reused, and at most so many count in a pixel's mean; 0:
-                                      none. The result has the full size. Needs frame.view; not with rays or bent normals.
+                                      none. The result has the full size. Needs frame.view; not with bent normals.
                                       docs/integration.md has more */
     /* How far occlusion reaches: */
     float thickness;               /* horizon: multiplies the thickness that is estimated for occluders, 0.001 to 1000; 0: 1.
