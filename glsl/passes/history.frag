@@ -155,8 +155,13 @@ RESULT result()
     float frames = min(floor(last.z + 0.5) + 1.0, gHistory.x);
     // What changes for longer than noise does is taken over at once, and what was known before is soon forgotten.
     float change = frames > 1.0 ? mix(last.w, now.y - last.y, LATELY) : 0.0;
-    float jump = clamp(abs(change) / (NOISE + min(DETAIL * abs(last.x - last.y), NOISE)) - 1.0, 0.0, 1.0);
-    frames = jump > 0.0 ? min(frames, FORGET) : frames;
+    float noise = NOISE + min(DETAIL * abs(last.x - last.y), NOISE);
+    // Where nothing occludes the pixel or its neighbours, there is little noise.
+    noise *= min(now.x, now.y) < 1.0 ? 1.0 : 0.5;
+    float share_of_noise = abs(change) / noise;
+    float jump = clamp(share_of_noise - 1.0, 0.0, 1.0);
+    float doubt = clamp(2.0 * share_of_noise - 1.0, 0.0, 1.0);
+    frames = min(frames, max(FORGET, floor(gHistory.x * (1.0 - doubt))));
     vec2 means = clamp(last.xy + jump * change, 0.0, 1.0);
     change -= jump * change;
 #if UPSAMPLE && !RAYS
