@@ -344,8 +344,9 @@ static bool run(motion *m, const char *paths)
         !make_folder(m->options.out))
         return false;
     const int count = bench_scenes_list(&m->options, scenes);
-    printf("# %s\n# %s\n", m->options.command, context_description(m->context));
-    printf("scene\tmotion\tsetting\tRMSE\tSSIM\tFLIP\tchange\tnew\tlag\tCPU ms\n");
+    printf("# %s\n# context=%s\tsize=%dx%d\trays=%d\n", m->options.command, context_description(m->context),
+           m->options.size[0], m->options.size[1], m->options.rays);
+    printf("scene\tmotion\tsetting\trmse\tssim\tflip\tframe_change\tnew_rmse\tlag\tcpu_ms\n");
     for (int i = 0; i < count; i++)
         for (int p = 0; p < PATH_COUNT; p++) {
             const bool has_things = strcmp(scenes[i].name, "columns") == 0;
