@@ -41,7 +41,7 @@ typedef struct options {
     int frames, bench; /* 0: not given */
     option_number fps; /* given: the frames show an animation */
     uint32_t seed;
-    bool no_shadows, mapped_normals, specular_occlusion, multi_bounce;
+    bool no_shadows, mapped_normals, specular_occlusion, multi_bounce, bent_normals;
     int shadow_size; /* texels; 0: not given */
     int debug_map;   /* options_map; OPTIONS_MAP_NONE: not given */
     bool radius_in_pixels;

@@ -51,6 +51,25 @@ bool trace_accessibility(const trace_scene *t, const scene_view *view, const tra
                          float *out_accessibility, uint8_t *out_foreground, trace_stats *out_stats, char *error,
                          size_t error_size);
 
+/* Some of the rays of one pixel. */
+typedef struct trace_fan {
+    size_t pixel;                 /* its number, rows bottom to top */
+    const double *normal;         /* unit, world space: they are cosine-weighted about it */
+    const float (*directions)[3]; /* unit, world space */
+    const bool *blocked;          /* by something within the radius */
+    int count;
+} trace_fan;
+/* Called on any thread; all rays of a pixel come from one thread, one fan after another. */
+typedef void (*trace_fan_fn)(const trace_fan *fan, void *user);
+
+/* The rays of trace_accessibility, handed to a function instead of counted. Pixels that see nothing have none. */
+bool trace_fans(const trace_scene *t, const scene_view *view, const trace_options *options, trace_fan_fn take,
+                void *user, trace_stats *out_stats, char *error, size_t error_size);
+/* Of each pixel, the mean of the open directions in view space, not of unit length: 2/3 of the normal where all is
+ * open. 0 where nothing is seen. Cosine-weighted rays make it the mean weighted by the cosine (H. Landis, 2002). */
+bool trace_open_directions(const trace_scene *t, const scene_view *view, const trace_options *options, float (*out)[3],
+                           trace_stats *out_stats, char *error, size_t error_size);
+
 /* What a rasteriser saw of a view: a normal in view space, of any length, and in the fourth component a view distance.
  * Where nothing is seen the distance is 0. A texel stands for the lower left of `step` x `step` pixels of the view;
  * there are (width + step - 1) / step of them in a row. */

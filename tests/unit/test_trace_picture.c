@@ -10,10 +10,6 @@
 
 #include "fixture.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { W = 150, H = 90, ERROR_LENGTH = 512 };
 
 typedef struct setup {
@@ -112,9 +108,8 @@ static void assert_near_truth(setup *t, const char *what)
     assert_true(elsewhere * 100 < W * H);
 }
 
-static void rays_agree_with_the_truth(void **state)
+TEST_GL(rays_agree_with_the_truth)
 {
-    (void)state;
     static const char *const names[] = {"steps", "columns", "cornell"};
     for (int i = 0; i < 6; i++) {
         setup t;
@@ -125,9 +120,8 @@ static void rays_agree_with_the_truth(void **state)
 }
 
 /* An open plane, seen ever more from the side and from ever farther, blocks none of its rays. */
-static void no_surface_blocks_its_own_rays(void **state)
+TEST_GL(no_surface_blocks_its_own_rays)
 {
-    (void)state;
     for (int i = 0; i < 12; i++) {
         const float distance = powf(10, (float)(i / 4)), height = distance * powf(0.25f, (float)(i % 4));
         small_scene *s = small_scene_create();
@@ -153,9 +147,8 @@ static void no_surface_blocks_its_own_rays(void **state)
 }
 
 /* Holes that an alpha test cuts are holes for rays, too: a roof whose texels are all holes darkens nothing. */
-static void alpha_tests_let_rays_through(void **state)
+TEST_GL(alpha_tests_let_rays_through)
 {
-    (void)state;
     for (int hole = 0; hole < 2; hole++) {
         small_scene *s = small_scene_create();
         scene_material roof = small_scene_material();
@@ -182,9 +175,8 @@ static void alpha_tests_let_rays_through(void **state)
     }
 }
 
-static void threads_change_nothing(void **state)
+TEST_GL(threads_change_nothing)
 {
-    (void)state;
     setup t;
     set_up(&t, "steps", false);
     float *alone = malloc(sizeof(float) * W * H);
@@ -196,9 +188,8 @@ static void threads_change_nothing(void **state)
 }
 
 /* At half size a texel stands for the lower left of four pixels. */
-static void half_size_takes_every_other_surface(void **state)
+TEST_GL(half_size_takes_every_other_surface)
 {
-    (void)state;
     setup t;
     set_up(&t, "steps", false);
     uint8_t *full = malloc(W * H);
@@ -215,9 +206,8 @@ static void half_size_takes_every_other_surface(void **state)
 }
 
 /* Counts of 0 to N, fed by and by: texels without rays are negative, and the others unbiased whatever their count. */
-static void counts_are_kept(void **state)
+TEST_GL(counts_are_kept)
 {
-    (void)state;
     setup t;
     set_up(&t, "columns", false);
     static float truth[W * H], out[W * H], (*texels)[4];
@@ -299,9 +289,8 @@ static mean_error measure_means(setup *t, bool adaptive, const float truth[W * H
 
 /* Fewer rays than a fixed count's, no more error of what a blur makes of them, no bias, and the same bits by any
  * threads. */
-static void adaptive_counts_pay(void **state)
+TEST_GL(adaptive_counts_pay)
 {
-    (void)state;
     setup t;
     static float truth[W * H], first[W * H];
     static uint8_t seen[W * H];
@@ -332,9 +321,8 @@ static void adaptive_counts_pay(void **state)
     tear_down(&t);
 }
 
-static void wrong_arguments_are_named(void **state)
+TEST_GL(wrong_arguments_are_named)
 {
-    (void)state;
     setup t;
     char error[ERROR_LENGTH] = "";
     failure why = {.text = error, .size = sizeof error};
@@ -358,15 +346,5 @@ static void wrong_arguments_are_named(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(rays_agree_with_the_truth),
-        GL_TEST(no_surface_blocks_its_own_rays),
-        GL_TEST(alpha_tests_let_rays_through),
-        GL_TEST(threads_change_nothing),
-        GL_TEST(half_size_takes_every_other_surface),
-        GL_TEST(counts_are_kept),
-        GL_TEST(adaptive_counts_pay),
-        GL_TEST(wrong_arguments_are_named),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

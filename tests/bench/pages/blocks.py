@@ -112,6 +112,26 @@ def traced(folder, use="tuning"):
     return table(["configuration", "CPU ms", "of `horizon-high`'s", "RMSE", "mean of the scenes' RMSE", "SSIM", "grain"], rows)
 
 
+def bent(folder, use="tuning"):
+    """Bent normals of each level, in degrees off the traced mean open direction; each scene counts the same."""
+    t, scenes = load(folder, "bent"), load(folder, "scenes")
+    if not t or not scenes:
+        return None
+    uses = {row["scene"]: row["use"] for row in scenes.rows}
+    rows = []
+    for c in t.values("configuration"):
+        cells = [f"`{c}`"]
+        for inputs in ("normals", "depth"):
+            own = [r for r in t.where(configuration=c, inputs=inputs) if uses.get(r["scene"]) == use]
+            for column in ("mean", "occluded_mean", "p95"):
+                values = [r[column] for r in own if r[column] is not None]
+                cells.append(number(combine(values, "mean"), 1))
+        rows.append(cells)
+    head = ["configuration"] + [f"{text}{inputs}" for inputs in ("", ", depth alone")
+                                for text in ("mean", "where occluded", "95th percentile")]
+    return table(head, rows)
+
+
 def rays(folder):
     a = Accuracy(folder)
     rows = []
