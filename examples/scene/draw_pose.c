@@ -44,7 +44,7 @@ static void upload_pose(scene_renderer *r, const draw_instance *instances)
     swap(&r->instance_buffer, &r->last_instance_buffer);
     gl.BindVertexArray(r->vertex_array);
     draw_upload_buffer(&r->instance_buffer, GL_ARRAY_BUFFER, instances, s->instance_count * sizeof *instances);
-    draw_upload_buffer(&r->vertex_buffer, GL_ARRAY_BUFFER, s->vertices, s->vertex_count * sizeof *s->vertices);
+    draw_upload_vertices(r);
     draw_point_vertices(r);
     if (s->tangents)
         draw_upload_buffer(&r->tangent_buffer, GL_ARRAY_BUFFER, s->tangents, s->vertex_count * sizeof *s->tangents);
@@ -83,8 +83,8 @@ static void bind_motion_array(scene_renderer *r)
     gl.BindVertexArray(r->motion_vertex_array);
     draw_point_vertices(r);
     gl.BindBuffer(GL_ARRAY_BUFFER, r->last_vertex_buffer ? r->last_vertex_buffer : r->vertex_buffer);
-    gl.VertexAttribPointer(ATTRIBUTE_NORMAL, 3, GL_FLOAT, GL_FALSE, sizeof(scene_vertex),
-                           (const void *)offsetof(scene_vertex, position));
+    gl.VertexAttribPointer(ATTRIBUTE_NORMAL, 3, GL_FLOAT, GL_FALSE, (GLsizei)r->layout.stride, NULL);
+    gl.EnableVertexAttribArray(ATTRIBUTE_NORMAL);
     if (!first)
         return;
     gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, r->index_buffer);

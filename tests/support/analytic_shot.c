@@ -5,7 +5,6 @@
 #include "analytic_shot.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 analytic_shot analytic_take(const analytic_shape *shapes, int shape_count, analytic_projection projection, int width,
                             int height)
@@ -16,10 +15,7 @@ analytic_shot analytic_take(const analytic_shape *shapes, int shape_count, analy
                        .width = width,
                        .height = height};
     analytic_render(&s.view, shapes, shape_count, width, height, &s.depth, &s.normals);
-    s.frame = (glssao_frame){.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, width, height, s.depth),
-                             .normal_texture = fixture_normal_texture(width, height, s.normals),
-                             .clip_zero_to_one = s.view.clip_zero_to_one};
-    memcpy(s.frame.projection, s.view.projection, sizeof s.view.projection);
+    s.frame = fixture_maps_frame(&s.view, width, height, GL_DEPTH_COMPONENT32F, s.depth, s.normals);
     return s;
 }
 

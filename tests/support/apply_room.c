@@ -14,10 +14,8 @@ enum { W = APPLY_W, H = APPLY_H };
 
 GLuint apply_make_texture(GLenum format, int width, int height, GLenum components, const float *texels)
 {
-    GLuint texture;
-    gl.GenTextures(1, &texture);
+    const GLuint texture = fixture_texture(format, components, GL_FLOAT, width, height, texels);
     gl.BindTexture(GL_TEXTURE_2D, texture);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)format, width, height, 0, components, GL_FLOAT, texels);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     gl.BindTexture(GL_TEXTURE_2D, 0);
@@ -35,18 +33,13 @@ glssao_effect *apply_make_effect(fixture *f, glssao_path path, int width, int he
     gl_counter_start(config.load, config.load_user);
     config.load = gl_counter_load;
     config.path = path;
-    glssao_effect *effect = NULL;
-    assert_int_equal(glssao_create(&config, &effect), GLSSAO_OK);
-    return effect;
+    return fixture_effect_of(f, &config);
 }
 
 apply_room apply_open_room(fixture *f, glssao_path path)
 {
     apply_room r = {.f = f, .settings = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_HIGH)};
-    analytic_shape shapes[ANALYTIC_ROOM_SHAPES];
-    analytic_room(shapes, 1.0);
-    const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
-    r.frame = fixture_frame(&view, shapes, ANALYTIC_ROOM_SHAPES, W, H);
+    r.frame = fixture_room(PERSPECTIVE, W, H);
     r.settings.half_resolution = false;
     r.effect = apply_make_effect(f, path, W, H);
     int w, h;
