@@ -47,6 +47,7 @@ glssao_settings pipeline_settings_at(const options *o, float radius)
         settings.blur_rounds = o->blur_rounds;
     if (o->history >= 0)
         settings.history = o->history;
+    settings.bent_normals = o->bent_normals;
     if (o->set) {
         setting_apply(o->set, &settings, &(failure){0}); /* options_parse made sure that it is valid */
     }
@@ -172,6 +173,7 @@ bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_us
                                            .mapped_normals = o->mapped_normals,
                                            .specular_occlusion = o->specular_occlusion,
                                            .multi_bounce = o->multi_bounce,
+                                           .bent = o->bent_normals && wants.ao,
                                            .left_out = o->intensity.given ? 1 - o->intensity.value : 0,
                                            .layers = wants.ao && o->layers == 2,
                                            .motion = wants.motion,
@@ -180,6 +182,7 @@ bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_us
     p->debug_map = (options_map)o->debug_map;
     if (!scene_renderer_configure(p->renderer, &p->lighting, &p->draw_options, why->text, why->size))
         return false;
+    p->adaptive_rays = o->adaptive_rays;
     p->ray_count = o->technique == GLSSAO_RAYS ? p->settings.sample_count : o->rays;
     if (wants.rays && (!stage_trace(st, why) || !rays_open(&p->rays, p->width, p->height, ray_step(p), why)))
         return false;
@@ -293,6 +296,7 @@ static bool trace_rays(pipeline *p, const scene_view *view, int index, failure *
                           .step = ray_step(p),
                           .options = {.radius = p->settings.radius,
                                       .samples = p->ray_count,
+                                      .adaptive = p->adaptive_rays,
                                       .seed = p->seed + (uint32_t)index * 0x9e3779b9u,
                                       .stopped = is_stopped}};
     return rays_trace(&p->rays, p->traced, &job, why);
@@ -336,6 +340,14 @@ bool pipeline_accumulate(pipeline *p, const scene_view *view, const progressive_
 GLuint pipeline_ambient_map(const pipeline *p)
 {
     return p->wants.traced ? p->truth.map : glssao_map(p->effect, GLSSAO_MAP_AMBIENT, NULL, NULL);
+}
+
+/* What ambient light is scaled by: accessibility, or with --bent-normals that and directions. 0: nothing. */
+static GLuint find_light_map(const pipeline *p)
+{
+    if (!p->wants.ao)
+        return 0;
+    return p->draw_options.bent ? glssao_map(p->effect, GLSSAO_MAP_BENT_NORMAL, NULL, NULL) : pipeline_ambient_map(p);
 }
 
 static void shade(pipeline *p, const scene_view *view, GLuint ambient_map, GLuint framebuffer)
@@ -387,7 +399,7 @@ bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, failur
         const scene_view shifted = samples_view(view, i, count);
         if (!draw_maps(p, &shifted, i, count, times, why))
             return false;
-        shade(p, &shifted, p->wants.ao ? pipeline_ambient_map(p) : 0, p->samples.framebuffer);
+        shade(p, &shifted, find_light_map(p), p->samples.framebuffer);
         samples_add(&p->samples, i == 0);
         stopwatch_lap(times, PHASE_MAIN);
     }
@@ -398,7 +410,7 @@ bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, failur
     if (!has_maps && !draw_maps(p, view, 0, 1, times, why))
         return false;
     if (p->wants.picture && !averages)
-        shade(p, view, p->wants.ao ? pipeline_ambient_map(p) : 0, p->color_framebuffer);
+        shade(p, view, find_light_map(p), p->color_framebuffer);
     if (p->wants.picture) {
         draw_debug_map(p, view, p->color_framebuffer);
         stopwatch_lap(times, PHASE_MAIN);

@@ -52,6 +52,7 @@ typedef struct pipeline {
     truth truth; /* only if wants.traced */
     rays rays;   /* only if wants.rays */
     const trace_scene *traced;
+    bool adaptive_rays;
     int ray_count; /* from each traced pixel */
     glssao_settings settings;
     scene_view last_view;  /* of the last occlusion passes that may be reused */

@@ -78,6 +78,7 @@ typedef struct scene_draw_options { /* zero is the plainest */
      * nothing culled, and shadow map and sky drawn in each frame. Matte and unlit materials then look otherwise. */
     bool everything;
     bool multi_bounce; /* occluded ambient light takes on the surface's colour */
+    bool bent;         /* the ambient map is that of bent normals: ambient light comes from where surfaces are open */
     float left_out;    /* the share of occlusion, 0 to 1, that the picture does not show */
 } scene_draw_options;
 

@@ -48,7 +48,7 @@ static unsigned normals_variant(const draw_item *item, const scene_material *m, 
         variant |= VARIANT_MASKED | (item->colored ? VARIANT_COLORED : 0u);
         variant |= m->base_color_texture >= 0 ? VARIANT_BASE_MAPPED | VARIANT_TEXTURED : 0u;
     }
-    if (options->mapped_normals && m->normal_map.used && has_tangents && m->normal_scale != 0)
+    if ((options->mapped_normals || options->bent) && m->normal_map.used && has_tangents && m->normal_scale != 0)
         variant |= VARIANT_NORMAL_MAPPED | VARIANT_TEXTURED;
     return variant;
 }
@@ -66,7 +66,8 @@ static unsigned main_variant(const draw_item *item, const scene_lighting *lighti
            (lighting->environment ? VARIANT_ENVIRONMENT : 0u) |
            (options->specular_occlusion && occluded && item->variant & VARIANT_REFLECTIVE ? VARIANT_SPECULAR_OCCLUSION
                                                                                           : 0u) |
-           (options->multi_bounce && occluded ? VARIANT_MULTI_BOUNCE : 0u);
+           (options->multi_bounce && occluded ? VARIANT_MULTI_BOUNCE : 0u) |
+           (options->bent && occluded ? VARIANT_BENT : 0u);
 }
 
 /* The shadow map, the layers and motion need depth alone, after the alpha test. */

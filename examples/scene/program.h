@@ -31,7 +31,8 @@ enum {
     VARIANT_ENVIRONMENT = 262144,       /* ambient light, or the sky, from a picture */
     VARIANT_FLAT = 524288,              /* normals from the triangle itself */
     VARIANT_MORE_UVS = 1048576,         /* a map reads the third or fourth uv set */
-    VARIANT_MOVES = 2097152             /* the motion pass: where each point was in the last frame */
+    VARIANT_MOVES = 2097152,            /* the motion pass: where each point was in the last frame */
+    VARIANT_BENT = 4194304              /* where not BLENDED: ambient light by bent normals */
 };
 
 /* Every bit that a material and its light can need, except those of other kinds of surface. */

@@ -16,7 +16,6 @@ float line_tolerance(float linear)
     return max(BLUR_TOLERANCE * radius_in_linear(linear), linear_step(linear));
 }
 
-#if !BENT
 // Of the pixel's own value and four others. RAYS 1: of those that are not missing; missing where all are. Later rounds for
 // rays alone (STRIDE above 0, CORRECTS 0) count values less the more they differ: the first has left little noise, so a
 // difference is a shadow's edge. The first round for a correction (CORRECTS) trusts a difference less the fewer taps it has,
@@ -45,7 +44,6 @@ float weighted_mean(float own, float weight, vec4 others, vec4 weights)
     return (weight * own + dot(weights, others)) / (weight + dot(weights, vec4(1.0)));
 #endif
 }
-#endif
 
 // Contents of a pixel from the paired values of itself and of the two on each side along `way`.
 CONTENTS blurred(PAIRED before_2, PAIRED before, PAIRED center, PAIRED after, PAIRED after_2, vec2 way)
@@ -122,19 +120,14 @@ CONTENTS blurred_wide(PAIRED left, PAIRED below, PAIRED center, PAIRED above, PA
     vec4 weights = mix(vec4(0.0), vec4(0.1875), joins);
     float own = accessibility_of(center);
     float most = 1.0 / float(gSampleCount);
-#if BENT
-    CONTENTS sum = 0.25 * contents_of(center) + weighted(weights, left, below, above, right);
-    CONTENTS mean = sum / (0.25 + dot(weights, vec4(1.0)));
-    // Two slices leave little noise in directions, and in a crease they differ more than by noise.
-    vec3 direction = gSampleCount > 16 ? contents_of(center).yzw : mean.yzw;
-    return vec4(clamp(mean.x, own - most, own + most), direction);
-#else
     vec4 taps = vec4(accessibility_of(left), accessibility_of(below), accessibility_of(above), accessibility_of(right));
     float mean = weighted_mean(own, 0.25, taps, weights);
 #if RAYS
     return mean;
+#elif BENT
+    // The first round leaves little noise in directions, and in a crease they differ more than by noise.
+    return vec4(clamp(mean, own - most, own + most), contents_of(center).yzw);
 #else
     return clamp(mean, own - most, own + most);
-#endif
 #endif
 }

@@ -7,11 +7,6 @@
 #include "fixture.h"
 #include "views.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { LEVELS = GLSSAO_ULTRA + 1 };
 
 typedef struct shot {
@@ -63,7 +58,7 @@ static void shade(shot *s, int level, float radius, bool two_layers)
 }
 
 /* The wall is two radii behind everything, so nothing occludes it. */
-static void a_wall_has_no_aura_of_what_is_in_front(void **state)
+TEST(a_wall_has_no_aura_of_what_is_in_front)
 {
     const float in_front = 4;
     const camera from = {.target = {0, 0, -3}, .up = {0, 1, 0}, .fov_y_rad = 50 * 3.14159265f / 180};
@@ -83,7 +78,7 @@ static void a_wall_has_no_aura_of_what_is_in_front(void **state)
 }
 
 /* A block two radii high seen straight from above, so that its sides are not in the picture. Its floor had 0.92. */
-static void the_floor_beside_a_block_is_shaded(void **state)
+TEST(the_floor_beside_a_block_is_shaded)
 {
     const camera from = {.eye = {0, 20, 0}, .up = {0, 0, -1}, .half_height = 4, .fov_y_rad = 1};
     shot s = take(*state, "block-straight-down", &from, 1, 640, 360, 64);
@@ -113,7 +108,7 @@ static void the_floor_beside_a_block_is_shaded(void **state)
 }
 
 /* Grain is looked for where the truth is smooth and something occludes; half a step of an 8-bit picture is not seen. */
-static void a_bowl_has_no_grain_and_less_error_with_quality(void **state)
+TEST(a_bowl_has_no_grain_and_less_error_with_quality)
 {
     double last = 1;
     shot s = take(*state, "bowl", NULL, 0, 1280, 720, 32);
@@ -136,7 +131,7 @@ static void a_bowl_has_no_grain_and_less_error_with_quality(void **state)
 }
 
 /* From 100 to a million times the distance of what is seen: beyond the scene's size nothing changes. */
-static void a_huge_radius_does_not_brighten(void **state)
+TEST(a_huge_radius_does_not_brighten)
 {
     const float size = 20;
     shot s = take(*state, "radius-huge", NULL, size, 320, 180, 64);
@@ -161,14 +156,8 @@ static void a_huge_radius_does_not_brighten(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_wall_has_no_aura_of_what_is_in_front),
-        cmocka_unit_test(the_floor_beside_a_block_is_shaded),
-        cmocka_unit_test(a_bowl_has_no_grain_and_less_error_with_quality),
-        cmocka_unit_test(a_huge_radius_does_not_brighten),
-    };
     if (argc != 2)
         return 2;
     folder = argv[1];
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

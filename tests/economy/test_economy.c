@@ -11,10 +11,6 @@
 #include "options.h"
 #include "pipeline.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { W = 64, H = 48 };
 
 static glssao_effect *counted_effect(fixture *f, glssao_path path)
@@ -149,13 +145,13 @@ static void check_row(fixture *f, const struct row *row, glssao_path path)
     fixture_delete_frame(&frame);
 }
 
-static void each_setting_causes_these_calls(void **state)
+TEST_GL(each_setting_causes_these_calls)
 {
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)
         check_row(*state, &rows[i], GLSSAO_PATH_FRAGMENT);
 }
 
-static void each_setting_causes_these_dispatches(void **state)
+TEST_GL(each_setting_causes_these_dispatches)
 {
     if (fixture_hides_newer()) {
         print_message("the loader hides compute shaders\n");
@@ -184,7 +180,7 @@ static void *gpu_load(const char *name, void *user)
 }
 
 /* Sorting tiles pays off on software rasterisers, compute shaders on GPUs. */
-static void tiles_and_path_depend_on_the_driver(void **state)
+TEST_GL(tiles_and_path_depend_on_the_driver)
 {
     fixture *f = *state;
     const glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
@@ -210,7 +206,7 @@ static void tiles_and_path_depend_on_the_driver(void **state)
 }
 
 /* After glssao_prepare a frame compiles and allocates nothing; preparing draws nothing. */
-static void prepared_frames_make_nothing(void **state)
+TEST_GL(prepared_frames_make_nothing)
 {
     glssao_effect *effect = counted_effect(*state, GLSSAO_PATH_AUTO);
     const glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
@@ -291,7 +287,7 @@ static gl_counts count_frame(const scene *s, const struct scene_row *row)
     return counts;
 }
 
-static void each_scene_causes_these_calls(void **state)
+TEST_GL(each_scene_causes_these_calls)
 {
     fixture *f = *state;
     char error[1024] = "";
@@ -338,7 +334,7 @@ static int drawn_normals(fixture *f, const scene *s, bool wanted)
     return drawn;
 }
 
-static void normals_are_drawn_where_they_are_read(void **state)
+TEST_GL(normals_are_drawn_where_they_are_read)
 {
     fixture *f = *state;
     char error[1024] = "";
@@ -352,9 +348,8 @@ static void normals_are_drawn_where_they_are_read(void **state)
 
 /* A wall that fills the view hides the sky, which is then drawn once only. From farther away it is drawn every
  * frame. */
-static void hidden_sky_is_not_drawn_again(void **state)
+TEST_GL(hidden_sky_is_not_drawn_again)
 {
-    (void)state;
     char error[1024];
     scene *s = scene_make("cornell", error, sizeof error);
     scene_renderer *r = scene_renderer_create(s, error, sizeof error);
@@ -395,11 +390,5 @@ static void hidden_sky_is_not_drawn_again(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(each_setting_causes_these_calls),     GL_TEST(each_setting_causes_these_dispatches),
-        GL_TEST(tiles_and_path_depend_on_the_driver), GL_TEST(prepared_frames_make_nothing),
-        GL_TEST(each_scene_causes_these_calls),       GL_TEST(normals_are_drawn_where_they_are_read),
-        GL_TEST(hidden_sky_is_not_drawn_again),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -153,7 +153,7 @@ size="-s 65x37"
     done
 
     # The picture's own options, which leave accessibility as it is. The columns are matte and have no normal map.
-    for options in "--sky-up 0,0,1" "--no-shadows" "--intensity 0.5" "--shadow-size 64" "--multi-bounce" "--debug-map ao" "--debug-map normals" \
+    for options in "--sky-up 0,0,1" "--no-shadows" "--intensity 0.5" "--shadow-size 64" "--multi-bounce" "--bent-normals" "--debug-map ao" "--debug-map normals" \
         "--debug-map depth" "--debug-map random" "--debug-map shadow"; do
         want 0 "" $size --seed=7 -o p3.png --ao p3.pfm $options
         ! cmp -s a1.png p3.png || fail "$options changes nothing"
@@ -167,6 +167,10 @@ size="-s 65x37"
     want 2 "--debug-map" --debug-map ao --no-ao -o b.png
     want 2 "--debug-map" --debug-map ao --ao b.png
     want 2 "bent-normals=on" --debug-map bent -o b.png
+    for options in "-t classic" "--rays 2" "--set bent-normals=off" "--history 4 --frames 2"; do
+        want 2 "--bent-normals: needs -t horizon" --bent-normals -o b.png $options
+    done
+    want 2 "--no-ao and --bent-normals" --bent-normals --no-ao -o b.png
     want 2 '"stencil"' --debug-map stencil -o b.png
 
     # A picture of the surroundings, of one colour: it lights the scene, without the built-in sun.
