@@ -52,8 +52,7 @@ static void tear_down(setup *t)
     scene_destroy(t->scene);
 }
 
-/* Accessibility of each texel; the rays' own memory. */
-static const float *trace(setup *t, int samples, int step, int threads, uint32_t seed)
+static const float *trace_by(setup *t, const trace_options *options, int step)
 {
     char error[ERROR_LENGTH] = "";
     failure why = {.text = error, .size = sizeof error};
@@ -62,10 +61,17 @@ static const float *trace(setup *t, int samples, int step, int threads, uint32_t
                           .normals = t->gbuffer.normals,
                           .view = &t->gbuffer.view,
                           .step = step,
-                          .options = {.radius = t->radius, .samples = samples, .threads = threads, .seed = seed}};
+                          .options = *options};
     if (!rays_trace(&t->rays, t->traced, &job, &why))
         fail_msg("%s", error);
     return t->rays.accessibility;
+}
+
+/* Accessibility of each texel; the rays' own memory. */
+static const float *trace(setup *t, int samples, int step, int threads, uint32_t seed)
+{
+    const trace_options options = {.radius = t->radius, .samples = samples, .threads = threads, .seed = seed};
+    return trace_by(t, &options, step);
 }
 
 static void truth_of(const setup *t, float truth[W * H], uint8_t seen[W * H])
@@ -250,6 +256,71 @@ TEST_GL(counts_are_kept)
     tear_down(&t);
 }
 
+typedef struct mean_error {
+    double bias, rmse, rays;
+} mean_error;
+
+/* Of means over 4 x 4 pixels, as a blur takes them; rays a run. */
+static mean_error measure_means(setup *t, bool adaptive, const float truth[W * H], const uint8_t seen[W * H])
+{
+    enum { RUNS = 8 };
+    mean_error e = {0, 0, 0};
+    double pixels = 0, means = 0;
+    t->rays.stats.rays = 0;
+    for (uint32_t seed = 0; seed < RUNS; seed++) {
+        const trace_options options = {.radius = t->radius, .samples = 4, .adaptive = adaptive, .seed = seed};
+        const float *got = trace_by(t, &options, 1);
+        for (int y = 0; y + 4 <= H; y += 4)
+            for (int x = 0; x + 4 <= W; x += 4) {
+                double sum = 0, count = 0;
+                for (int i = 0; i < 16; i++) {
+                    const int at = (y + i / 4) * W + x + i % 4;
+                    sum += got[at] >= 0 && seen[at] ? (double)got[at] - (double)truth[at] : 0;
+                    count += got[at] >= 0 && seen[at];
+                }
+                e.bias += sum;
+                pixels += count;
+                e.rmse += count > 0 ? sum * sum / count / count : 0;
+                means += count > 0;
+            }
+    }
+    return (mean_error){e.bias / pixels, sqrt(e.rmse / means), (double)t->rays.stats.rays / RUNS};
+}
+
+/* Fewer rays than a fixed count's, no more error of what a blur makes of them, no bias, and the same bits by any
+ * threads. */
+TEST_GL(adaptive_counts_pay)
+{
+    setup t;
+    static float truth[W * H], first[W * H];
+    static uint8_t seen[W * H];
+    set_up(&t, "columns", false);
+    truth_of(&t, truth, seen);
+    const mean_error fixed = measure_means(&t, false, truth, seen), adaptive = measure_means(&t, true, truth, seen);
+    print_message("fixed: %.0f rays, RMSE %.4f; adaptive: %.0f rays, bias %+.4f, RMSE %.4f\n", fixed.rays, fixed.rmse,
+                  adaptive.rays, adaptive.bias, adaptive.rmse);
+    assert_true(adaptive.rays < 0.9 * fixed.rays);
+    assert_true(adaptive.rmse <= fixed.rmse);
+    assert_true(fabs(adaptive.bias) < 0.004);
+    for (int threads = 1; threads <= 3; threads += 2) {
+        const trace_options options = {.radius = t.radius, .samples = 2, .adaptive = true, .threads = threads};
+        const float *got = trace_by(&t, &options, 1);
+        if (threads == 1)
+            memcpy(first, got, sizeof first);
+        assert_memory_equal(first, got, sizeof first);
+    }
+    tear_down(&t);
+    set_up(&t, "plane", false); /* nothing is occluded */
+    const float *open = trace_by(&t, &(trace_options){.radius = t.radius, .samples = 12, .adaptive = true}, 1);
+    int surfaces = 0;
+    for (int i = 0; i < W * H; i++) {
+        surfaces += open[i] >= 0;
+        assert_true(open[i] < 0 || open[i] > 0.999f);
+    }
+    assert_true(t.rays.stats.rays < 5 * (uint64_t)surfaces); /* 3 where 16 x 16 agree */
+    tear_down(&t);
+}
+
 TEST_GL(wrong_arguments_are_named)
 {
     setup t;
@@ -265,6 +336,8 @@ TEST_GL(wrong_arguments_are_named)
     assert_false(rays_trace(&t.rays, t.traced, &job, &why));
     assert_string_equal(error, "65 rays within a radius of 1: out of range");
     job.options.samples = 0;
+    assert_false(rays_trace(&t.rays, t.traced, &job, &why));
+    job.options = (trace_options){.radius = 1, .samples = 17, .adaptive = true};
     assert_false(rays_trace(&t.rays, t.traced, &job, &why));
     job.options.samples = 1;
     assert_true(rays_trace(&t.rays, t.traced, &job, &why));

@@ -147,7 +147,7 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     uint32_t noise_index;          /* another pattern of noise for each value, for instance the number of the frame where
                                       the host averages frames itself (TAA); 0: the pattern of docs/decisions/0028 */
     int history;                   /* 0 to 63: earlier frames that count in a pixel's mean at most; 0: none. The result has the
-                                      full size. Needs frame.view; not with rays or bent normals. See docs/integration.md */
+                                      full size. Needs frame.view; not with bent normals. See docs/integration.md */
     /* How far occlusion reaches: */
     float thickness;               /* horizon: multiplies the estimated thickness of occluders, 0.001 to 1000; 0: 1. A second
                                       layer's is kept */
