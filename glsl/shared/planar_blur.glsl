@@ -7,8 +7,8 @@
 //
 // After the first round the only noise left is that of twice the tile's period. Later rounds remove it in one pass each: a
 // quarter of the pixel and 3/16 of each of the four at three pixels from it, where they lie on a line or in a hollow. In a
-// hollow both sides darken, and the rest of the noise would show along it. What is left of the noise is less than the share of
-// one sample, so no round changes a pixel by more: larger differences are shade.
+// hollow both sides darken, and the rest of the noise would show along it. What is left of the noise is about the share of one
+// sample, so a neighbour counts less the more it differs, and not at all from twice that share on: such a difference is shade.
 // BRANCHES 1: a branch that all pixels of a warp take alike spares work.
 
 float line_tolerance(float linear)
@@ -112,20 +112,20 @@ CONTENTS blurred_wide(PAIRED left, PAIRED below, PAIRED center, PAIRED above, PA
     }
     vec4 weights = mix(vec4(0.0), vec4(0.1875), joins);
     float own = accessibility_of(center);
-    float most = 1.0 / float(gSampleCount);
-#if BENT
-    CONTENTS sum = 0.25 * contents_of(center) + weighted(weights, left, below, above, right);
-    CONTENTS mean = sum / (0.25 + dot(weights, vec4(1.0)));
-    // Two slices leave little noise in directions, and in a crease they differ more than by noise.
-    vec3 direction = gSampleCount > 16 ? contents_of(center).yzw : mean.yzw;
-    return vec4(clamp(mean.x, own - most, own + most), direction);
-#else
     vec4 taps = vec4(accessibility_of(left), accessibility_of(below), accessibility_of(above), accessibility_of(right));
-    float mean = weighted_mean(own, 0.25, taps, weights);
-#if RAYS
-    return mean;
-#else
-    return clamp(mean, own - most, own + most);
+#if BENT
+    // Two slices leave little noise in directions, and in a crease they differ more than by noise.
+    vec3 direction = contents_of(center).yzw;
+    if (gSampleCount <= 16)
+        direction = (0.25 * direction + weighted(weights, left, below, above, right).yzw) / (0.25 + dot(weights, vec4(1.0)));
 #endif
+#if !RAYS
+    vec4 apart = (taps - own) * (float(gSampleCount) / BLUR_ALIKE);
+    weights *= max(vec4(0.0), 1.0 - apart * apart);
+#endif
+#if BENT
+    return vec4((0.25 * own + dot(weights, taps)) / (0.25 + dot(weights, vec4(1.0))), direction);
+#else
+    return weighted_mean(own, 0.25, taps, weights);
 #endif
 }
