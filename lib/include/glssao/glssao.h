@@ -142,7 +142,8 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     float fade_start, fade_end;    /* scene units of view distance, 0 <= start <= end (classic): an occluder that is nearer
                                       than the point by start counts fully, by end not at all */
     float surface_epsilon;         /* scene units, >= 0: an occluder counts only if it is nearer than the point (classic) or
-                                      than the sample (hemisphere) by more than this */
+                                      than the sample (hemisphere) by more than this. horizon, rays: depths that differ by
+                                      less are taken for one surface (noise of scans, point clouds, edge lines); 0 */
     float power;                   /* 0 to 64: accessibility is raised to this; more is darker */
     int sample_count;              /* classic: 1 to 14 offset vectors, the 8 cube corners first; hemisphere: 1 to 64; rays: 1
                                       to 64, how many a texel of rays_texture stands for, which only the host reads;
