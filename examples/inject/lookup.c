@@ -132,8 +132,10 @@ void *inject_real(const char *name, void *user)
     if (hook && hook->real)
         return hook->real;
     void *address = search(name);
+    /* EGL makes up a function for every name that begins with "gl", those of GLX too. */
     static const char *const lookups[] = {"glXGetProcAddressARB", "eglGetProcAddress"};
-    for (int i = 0; !address && strncmp(name, "gl", 2) == 0 && i < 2; ++i) {
+    const int count = strncmp(name, "gl", 2) != 0 ? 0 : strncmp(name, "glX", 3) == 0 ? 1 : 2;
+    for (int i = 0; !address && i < count; ++i) {
         void *lookup = search(lookups[i]);
         function (*get)(const char *);
         memcpy(&get, &lookup, sizeof lookup);

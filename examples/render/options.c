@@ -43,6 +43,7 @@ static options_result parse(int argc, char **argv, options_program program, opti
                      .quality = GLSSAO_HIGH,
                      .technique = GLSSAO_HORIZON,
                      .blur_rounds = -1,
+                     .history = -1,
                      .cache_mib = 1024};
     const options start = *out;
     const option_set set = options_set(program);
@@ -72,7 +73,9 @@ options_result options_parse(int argc, char **argv, options *out, failure *why)
 
 options_result options_parse_for_viewer(int argc, char **argv, options *out, failure *why)
 {
-    return parse(argc, argv, OPTIONS_VIEWER, out, why);
+    const options_result result = parse(argc, argv, OPTIONS_VIEWER, out, why);
+    out->history = out->history < 0 ? 16 : out->history;
+    return result;
 }
 
 bool options_parse_job(const options *defaults, int argc, char **argv, options *out, failure *why)

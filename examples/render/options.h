@@ -30,15 +30,18 @@ typedef struct options {
     option_pair fade_far;
     option_vector eye, target, up, sky_up;
     int sample_count;  /* 0: the default of the quality */
+    bool adaptive_rays;
     int rays;          /* a traced pixel; 0: the default of the quality with -t rays, none with another technique */
     int blur_rounds;   /* -1: the default of the quality */
+    int history;       /* -1: not given */
     int margin;        /* pixels on each side */
     int layers;        /* 1 or 2; 0: not given */
     int camera;        /* of the file, counted from 1; 0: not given; -1: none */
     const char *view;  /* direction to see the scene from; NULL: not given */
     int frames, bench; /* 0: not given */
+    option_number fps; /* given: the frames show an animation */
     uint32_t seed;
-    bool no_shadows, mapped_normals, specular_occlusion, multi_bounce;
+    bool no_shadows, mapped_normals, specular_occlusion, multi_bounce, bent_normals;
     int shadow_size; /* texels; 0: not given */
     int debug_map;   /* options_map; OPTIONS_MAP_NONE: not given */
     bool radius_in_pixels;

@@ -84,13 +84,6 @@ static bool check_extent(const options *o, failure *why)
     return true;
 }
 
-/* Whether the name of a file ends in `end`. */
-static bool ends_in(const char *path, const char *end)
-{
-    const size_t length = strlen(path), end_length = strlen(end);
-    return length > end_length && strcmp(path + length - end_length, end) == 0;
-}
-
 static bool check_picture(const options *o, options_program program, failure *why)
 {
     float color[4];
@@ -99,9 +92,9 @@ static bool check_picture(const options *o, options_program program, failure *wh
     if (!o->output)
         return true;
     const bool is_transparent = o->background && strcmp(o->background, "none") == 0;
-    if (is_transparent && (ends_in(o->output, ".jpg") || ends_in(o->output, ".jpeg")))
+    if (is_transparent && words_find_ending(".jpg|.jpeg", o->output) >= 0)
         return fault_set(why, "--background none: a JPEG (%s) has no transparency; .png and .webp have", o->output);
-    if (ends_in(o->output, ".webp") && !picture_has_webp())
+    if (words_find_ending(".webp", o->output) >= 0 && !picture_has_webp())
         return fault_set(why, "--output %s: this program was built without libwebp", o->output);
     if (strcmp(o->output, "-") == 0 && (program != OPTIONS_RENDER || o->frames || o->plan || o->bench))
         return fault_set(why, "--output -: standard output takes one picture, and nothing else");
@@ -110,9 +103,31 @@ static bool check_picture(const options *o, options_program program, failure *wh
 
 static bool asks_for_bent_normals(const options *o)
 {
-    glssao_settings settings = {.bent_normals = false};
-    return o->technique == GLSSAO_HORIZON && o->set && setting_apply(o->set, &settings, &(failure){0}) &&
+    glssao_settings settings = {.bent_normals = o->bent_normals};
+    return o->technique == GLSSAO_HORIZON && (!o->set || setting_apply(o->set, &settings, &(failure){0})) &&
            settings.bent_normals;
+}
+
+/* Options of pictures that follow each other. */
+static bool check_sequence(const options *o, bool is_viewer, failure *why)
+{
+    if (o->fps.given && (!o->frames || !o->time_s.given))
+        return fault_set(why, "--fps %g: needs --frames N and --time SECONDS", (double)o->fps.value);
+    if (o->fps.given && o->scene_path && strcmp(o->scene_path, "-") == 0)
+        return fault_set(why, "--fps %g: reads the file again for each picture, which standard input does not allow",
+                         (double)o->fps.value);
+    if (o->history <= 0)
+        return true;
+    if (!is_viewer && !o->frames && !o->bench)
+        return fault_set(why, "--history %d: needs --frames N or --bench N: one picture has no earlier one",
+                         o->history);
+    const char *other = o->technique == OPTIONS_RAYTRACE                       ? "technique raytrace"
+                        : o->no_ao && !is_viewer                               ? "no-ao"
+                        : (o->error.given || o->budget_ms.given) && !is_viewer ? o->error.given ? "error" : "budget"
+                                                                               : NULL;
+    if (other)
+        return fault_set(why, "--history %d and --%s cannot be used together", o->history, other);
+    return true;
 }
 
 /* Options that need or cannot be used together. */
@@ -132,6 +147,11 @@ static bool check_together(const options *o, bool is_viewer, failure *why)
     if (o->rays && (o->error.given || o->budget_ms.given))
         return fault_set(why, "--rays %d and --%s cannot be used together: a mean of many estimates needs no rays",
                          o->rays, o->error.given ? "error" : "budget");
+    if (o->adaptive_rays && !o->rays && o->technique != GLSSAO_RAYS)
+        return fault_set(why, "--adaptive-rays: no rays are traced without --rays or --technique rays");
+    if (o->adaptive_rays && o->rays > 16)
+        return fault_set(why, "--rays %d: at most 16 with --adaptive-rays, which traces up to four times as many",
+                         o->rays);
     if (o->technique == GLSSAO_RAYS && o->sample_count)
         return fault_set(why, "--samples %d: --rays sets how many rays are traced", o->sample_count);
     if (traced && o->bench)
@@ -177,7 +197,11 @@ static bool check_together(const options *o, bool is_viewer, failure *why)
         return fault_set(why, "--no-ao and --debug-map %s cannot be used together",
                          words_at(OPTIONS_MAP_WORDS, o->debug_map).text);
     if (o->debug_map == OPTIONS_MAP_BENT && !is_viewer && !asks_for_bent_normals(o))
-        return fault_set(why, "--debug-map bent: needs -t horizon and --set bent-normals=on");
+        return fault_set(why, "--debug-map bent: needs -t horizon, and --bent-normals or --set bent-normals=on");
+    if (o->bent_normals && (!asks_for_bent_normals(o) || o->rays > 0 || o->history > 0))
+        return fault_set(why, "--bent-normals: needs -t horizon, without --rays and --history");
+    if (o->bent_normals && o->no_ao)
+        return fault_set(why, "--no-ao and --bent-normals cannot be used together");
     if (o->debug_map && !o->output && !is_viewer)
         return fault_set(why, "--debug-map: needs a picture, -o FILE");
     if (o->frames && o->bench)
@@ -208,7 +232,7 @@ static bool check_together(const options *o, bool is_viewer, failure *why)
             why, "nothing to do: give -o FILE, --ao, --normals, --depth, --stats, --bench or --plan (see --help)");
     if (o->frames && !o->output && !o->ao && !o->normals && !o->depth)
         return fault_set(why, "--frames %d: needs an output such as -o FILE", o->frames);
-    return !same_file(o, why);
+    return check_sequence(o, is_viewer, why) && !same_file(o, why);
 }
 
 /* Tries the text of --set on some settings. */

@@ -45,6 +45,9 @@ glssao_settings pipeline_settings_at(const options *o, float radius)
         settings.sample_count = o->rays;
     if (o->blur_rounds >= 0)
         settings.blur_rounds = o->blur_rounds;
+    if (o->history >= 0)
+        settings.history = o->history;
+    settings.bent_normals = o->bent_normals;
     if (o->set) {
         setting_apply(o->set, &settings, &(failure){0}); /* options_parse made sure that it is valid */
     }
@@ -170,13 +173,16 @@ bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_us
                                            .mapped_normals = o->mapped_normals,
                                            .specular_occlusion = o->specular_occlusion,
                                            .multi_bounce = o->multi_bounce,
+                                           .bent = o->bent_normals && wants.ao,
                                            .left_out = o->intensity.given ? 1 - o->intensity.value : 0,
                                            .layers = wants.ao && o->layers == 2,
+                                           .motion = wants.motion,
                                            .no_picture = !wants.picture,
                                            .no_prepass = !wants.prepass};
     p->debug_map = (options_map)o->debug_map;
     if (!scene_renderer_configure(p->renderer, &p->lighting, &p->draw_options, why->text, why->size))
         return false;
+    p->adaptive_rays = o->adaptive_rays;
     p->ray_count = o->technique == GLSSAO_RAYS ? p->settings.sample_count : o->rays;
     if (wants.rays && (!stage_trace(st, why) || !rays_open(&p->rays, p->width, p->height, ray_step(p), why)))
         return false;
@@ -222,6 +228,11 @@ bool pipeline_reads_normals(const pipeline *p, const scene_view *view)
     return p->effect && (p->wants.normal_map || pipeline_runs_occlusion(p, view));
 }
 
+static bool reads_motion(const pipeline *p)
+{
+    return p->wants.motion && p->is_posed && p->has_last;
+}
+
 static bool draw_prepass(pipeline *p, const scene_view *view, failure *why)
 {
     if (pipeline_reads_normals(p, view)) {
@@ -234,6 +245,10 @@ static bool draw_prepass(pipeline *p, const scene_view *view, failure *why)
             gl.BindFramebuffer(GL_FRAMEBUFFER, p->layer_framebuffer);
             gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, p->layers[i], 0);
             scene_draw_layer(p->renderer, view, p->depth, i == 0 ? SCENE_LAYER_BACK : SCENE_LAYER_SECOND);
+        }
+        if (reads_motion(p) && pipeline_runs_occlusion(p, view)) {
+            gl.BindFramebuffer(GL_FRAMEBUFFER, p->motion_framebuffer);
+            scene_draw_motion(p->renderer, view, &p->last_view);
         }
         return true;
     }
@@ -252,7 +267,9 @@ glssao_frame pipeline_frame(const pipeline *p, const scene_view *view)
                           .back_texture = p->draw_options.layers ? p->layers[0] : 0,
                           .second_texture = p->draw_options.layers ? p->layers[1] : 0,
                           .normal_texture = glssao_map(p->effect, GLSSAO_MAP_NORMAL, NULL, NULL),
-                          .rays_texture = p->wants.rays ? p->rays.texture : 0};
+                          .rays_texture = p->wants.rays ? p->rays.texture : 0,
+                          .motion_texture = reads_motion(p) ? p->motion : 0,
+                          .cut = !p->has_last};
     memcpy(frame.projection, view->clip_from_view, sizeof frame.projection);
     memcpy(frame.view, view->view_from_world, sizeof frame.view);
     const scene_seen seen = scene_find_seen(p->renderer, view);
@@ -279,6 +296,7 @@ static bool trace_rays(pipeline *p, const scene_view *view, int index, failure *
                           .step = ray_step(p),
                           .options = {.radius = p->settings.radius,
                                       .samples = p->ray_count,
+                                      .adaptive = p->adaptive_rays,
                                       .seed = p->seed + (uint32_t)index * 0x9e3779b9u,
                                       .stopped = is_stopped}};
     return rays_trace(&p->rays, p->traced, &job, why);
@@ -296,16 +314,40 @@ static bool find_accessibility(pipeline *p, const scene_view *view, int index, i
     if (p->wants.rays && pipeline_runs_occlusion(p, view) && !trace_rays(p, view, index, why))
         return false;
     const glssao_frame frame = pipeline_frame(p, view);
-    if (p->goal.error <= 0 && p->goal.budget_ms <= 0)
-        return pipeline_check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", why);
+    if (p->goal.error <= 0 && p->goal.budget_ms <= 0) {
+        p->has_last = pipeline_check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", why);
+        p->last_view = *view;
+        p->is_posed = false;
+        return p->has_last;
+    }
     const progressive_goal share = {p->goal.error * sqrt(count), p->goal.budget_ms / count};
     const glssao_result result = progressive_run(p->effect, &frame, &p->settings, &share, &p->reached);
     return pipeline_check(result, "glssao_accumulate", why);
 }
 
+bool pipeline_occlude(pipeline *p, const scene_view *view, failure *why)
+{
+    return find_accessibility(p, view, 0, 1, why);
+}
+
+bool pipeline_accumulate(pipeline *p, const scene_view *view, const progressive_goal *goal, failure *why)
+{
+    const glssao_frame frame = pipeline_frame(p, view);
+    return pipeline_check(progressive_step(p->effect, &frame, &p->settings, goal, &p->reached), "glssao_accumulate",
+                          why);
+}
+
 GLuint pipeline_ambient_map(const pipeline *p)
 {
     return p->wants.traced ? p->truth.map : glssao_map(p->effect, GLSSAO_MAP_AMBIENT, NULL, NULL);
+}
+
+/* What ambient light is scaled by: accessibility, or with --bent-normals that and directions. 0: nothing. */
+static GLuint find_light_map(const pipeline *p)
+{
+    if (!p->wants.ao)
+        return 0;
+    return p->draw_options.bent ? glssao_map(p->effect, GLSSAO_MAP_BENT_NORMAL, NULL, NULL) : pipeline_ambient_map(p);
 }
 
 static void shade(pipeline *p, const scene_view *view, GLuint ambient_map, GLuint framebuffer)
@@ -357,7 +399,7 @@ bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, failur
         const scene_view shifted = samples_view(view, i, count);
         if (!draw_maps(p, &shifted, i, count, times, why))
             return false;
-        shade(p, &shifted, p->wants.ao ? pipeline_ambient_map(p) : 0, p->samples.framebuffer);
+        shade(p, &shifted, find_light_map(p), p->samples.framebuffer);
         samples_add(&p->samples, i == 0);
         stopwatch_lap(times, PHASE_MAIN);
     }
@@ -368,7 +410,7 @@ bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, failur
     if (!has_maps && !draw_maps(p, view, 0, 1, times, why))
         return false;
     if (p->wants.picture && !averages)
-        shade(p, view, p->wants.ao ? pipeline_ambient_map(p) : 0, p->color_framebuffer);
+        shade(p, view, find_light_map(p), p->color_framebuffer);
     if (p->wants.picture) {
         draw_debug_map(p, view, p->color_framebuffer);
         stopwatch_lap(times, PHASE_MAIN);

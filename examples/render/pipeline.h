@@ -26,6 +26,7 @@ typedef struct pipeline_wants {
     bool ao;         /* accessibility, from the occlusion passes or: */
     bool traced;     /* from rays through each pixel, without occlusion passes */
     bool rays;       /* a few rays from the pre-pass's surfaces go into the occlusion passes */
+    bool motion;     /* the scene is posed anew for each frame, and the occlusion passes reuse earlier ones */
     bool prepass;    /* depth */
     bool maps;       /* a map is read back or shown in the picture's corner */
     int samples;     /* for each pixel of the picture */
@@ -51,8 +52,12 @@ typedef struct pipeline {
     truth truth; /* only if wants.traced */
     rays rays;   /* only if wants.rays */
     const trace_scene *traced;
+    bool adaptive_rays;
     int ray_count; /* from each traced pixel */
     glssao_settings settings;
+    scene_view last_view;  /* of the last occlusion passes that may be reused */
+    bool has_last;         /* false: none may */
+    bool is_posed;         /* the scene was posed anew since then, and scene_draw_motion knows how */
     progressive_goal goal; /* all 0: one estimate with the settings */
     progressive_report reached;
     scene_draw_options draw_options;
@@ -64,6 +69,7 @@ typedef struct pipeline {
     samples samples;     /* only with several samples or a transparent background */
     GLuint depth, depth_framebuffer, color, color_framebuffer;
     GLuint layers[2], layer_framebuffer; /* back faces and second front faces, only if draw_options.layers */
+    GLuint motion, motion_framebuffer;   /* only if wants.motion */
     GLuint scratch, scratch_framebuffer; /* owned by map_view.c */
     GLuint maps[PIXEL_KIND_COUNT],
         map_framebuffers[PIXEL_KIND_COUNT]; /* maps are drawn here before they are read back */
@@ -97,6 +103,10 @@ void pipeline_destroy(pipeline *p);
 
 /* Draws everything that is wanted and records the phases in `times`. `view` includes the margin. */
 bool pipeline_draw(pipeline *p, const scene_view *view, stopwatch *times, failure *why);
+
+/* Finds the accessibility of the last frame anew; or one more estimate for its mean, whose count is p->reached. */
+bool pipeline_occlude(pipeline *p, const scene_view *view, failure *why);
+bool pipeline_accumulate(pipeline *p, const scene_view *view, const progressive_goal *goal, failure *why);
 
 /* Draws the picture of the last frame again, with another accessibility map (0: none), into a framebuffer of the
  * pipeline's size whose depth attachment is the pipeline's `depth`. */

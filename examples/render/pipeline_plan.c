@@ -37,7 +37,8 @@ void pipeline_print_plan(const pipeline *p, const scene_view *view)
         const glssao_frame frame = pipeline_frame(p, view);
         const glssao_plan plan = glssao_plan_frame(p->effect, &frame, &p->settings);
         char traced[96];
-        snprintf(traced, sizeof traced, "%d rays from each pixel of the estimate, on the processor", p->ray_count);
+        snprintf(traced, sizeof traced, "%s%d rays from each pixel of the estimate, on the processor",
+                 p->adaptive_rays ? "about " : "", p->ray_count);
         print_row("tracing", p->wants.rays && occludes, 0, p->rays.width, p->rays.height,
                   !p->wants.rays ? "no rays are asked for"
                   : occludes     ? traced
@@ -57,6 +58,10 @@ void pipeline_print_plan(const pipeline *p, const scene_view *view)
               layers                   ? "back faces and the next fronts, for thickness"
               : p->draw_options.layers ? "no estimate reads them"
                                        : "not asked for");
+    print_row("motion", p->wants.motion && occludes, -1, p->width, p->height,
+              p->wants.motion && occludes ? "where each point was in the last picture, from the second on"
+              : p->settings.history > 0   ? "nothing moves by itself: the view tells where each point was"
+                                          : "no pass reads it");
     print_row("main", p->wants.picture, -1, p->width, p->height,
               !p->wants.picture             ? "no shaded picture is wanted"
               : occludes || p->wants.traced ? "shades, ambient light scaled by accessibility"

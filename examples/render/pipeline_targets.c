@@ -51,13 +51,15 @@ void pipeline_free_targets(pipeline *p)
     gl.DeleteFramebuffers(1, &p->depth_framebuffer);
     gl.DeleteFramebuffers(1, &p->color_framebuffer);
     gl.DeleteFramebuffers(1, &p->layer_framebuffer);
+    gl.DeleteFramebuffers(1, &p->motion_framebuffer);
     gl.DeleteFramebuffers(PIXEL_KIND_COUNT, p->map_framebuffers);
     gl.DeleteTextures(1, &p->depth);
     gl.DeleteTextures(1, &p->color);
     gl.DeleteTextures(2, p->layers);
+    gl.DeleteTextures(1, &p->motion);
     gl.DeleteTextures(PIXEL_KIND_COUNT, p->maps);
     p->depth_framebuffer = p->color_framebuffer = p->layer_framebuffer = p->depth = p->color = 0;
-    p->layers[0] = p->layers[1] = 0;
+    p->layers[0] = p->layers[1] = p->motion = p->motion_framebuffer = 0;
     for (int i = 0; i < PIXEL_KIND_COUNT; i++)
         p->maps[i] = p->map_framebuffers[i] = 0;
     map_view_free(p);
@@ -79,6 +81,10 @@ bool pipeline_make_targets(pipeline *p, failure *why)
         for (int i = 0; i < 2; i++)
             p->layers[i] = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, p->width, p->height);
         complete = make_framebuffer(0, p->layers[0], &p->layer_framebuffer) && complete;
+    }
+    if (p->wants.motion && !p->motion_framebuffer) {
+        p->motion = make_texture(GL_RG32F, GL_RG, GL_FLOAT, p->width, p->height);
+        complete = make_framebuffer(p->motion, p->depth, &p->motion_framebuffer) && complete;
     }
     if (p->wants.picture && (p->wants.samples > 1 || p->transparent) &&
         !samples_open(&p->samples, p->width, p->height, p->depth, why))

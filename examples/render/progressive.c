@@ -17,6 +17,21 @@ static bool is_done(const progressive_report *r, const progressive_goal *goal)
     return goal->error > 0 && r->sampling_error >= 0 && r->sampling_error <= goal->error;
 }
 
+glssao_result progressive_step(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
+                               const progressive_goal *goal, progressive_report *out)
+{
+    if (out->estimates == 0) /* the camera may have moved with the same projection */
+        glssao_restart_accumulation(effect);
+    const glssao_result result = glssao_accumulate(effect, frame, settings);
+    gl.Finish();
+    const glssao_stats stats = glssao_get_stats(effect);
+    out->estimates = stats.estimates;
+    out->sampling_error = stats.sampling_error;
+    out->reached = goal->error <= 0 || is_done(out, goal);
+    out->ended = result != GLSSAO_OK || is_done(out, goal) || out->estimates >= MOST_ESTIMATES;
+    return result;
+}
+
 glssao_result progressive_run(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
                               const progressive_goal *goal, progressive_report *out)
 {
@@ -25,23 +40,16 @@ glssao_result progressive_run(glssao_effect *effect, const glssao_frame *frame, 
     const double start = clock_wall_ms();
     double dearest_ms = 0;
     bool time_is_left = true;
-    glssao_restart_accumulation(effect); /* the camera may have moved with the same projection */
     glssao_result result = GLSSAO_OK;
-    for (int i = 0; i < MOST_ESTIMATES && result == GLSSAO_OK && time_is_left && !stop_signal() && !is_done(out, goal);
-         i++) {
+    for (int i = 0; !out->ended && time_is_left && !stop_signal(); i++) {
         const double before = clock_wall_ms();
-        result = glssao_accumulate(effect, frame, settings);
-        gl.Finish();
-        const glssao_stats stats = glssao_get_stats(effect);
+        result = progressive_step(effect, frame, settings, goal, out);
         const double now = clock_wall_ms();
-        out->estimates = stats.estimates;
-        out->sampling_error = stats.sampling_error;
         out->ms = now - start;
         if (i > 0 && now - before > dearest_ms) /* the first estimate compiles shaders */
             dearest_ms = now - before;
         time_is_left = goal->budget_ms <= 0 || out->ms + dearest_ms <= goal->budget_ms;
     }
-    out->reached = goal->error <= 0 || is_done(out, goal);
     return result;
 }
 

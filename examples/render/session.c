@@ -57,6 +57,7 @@ static pipeline_wants choose_wants(const session *s)
     wants.ao_map = o->ao || o->debug_map == OPTIONS_MAP_AO || o->debug_map == OPTIONS_MAP_TILES ||
                    o->debug_map == OPTIONS_MAP_BENT;
     wants.traced = wants.ao && o->technique == OPTIONS_RAYTRACE;
+    wants.motion = wants.ao && o->fps.given && pipeline_settings(o, s->scene).history > 0;
     wants.rays = wants.ao && (o->rays || o->technique == GLSSAO_RAYS);
     wants.normal_map = o->normals || o->debug_map == OPTIONS_MAP_NORMALS;
     wants.normals = (wants.ao && !wants.traced) || wants.normal_map || o->debug_map == OPTIONS_MAP_RANDOM;
@@ -82,6 +83,7 @@ bool session_begin(session *s, const options *o, stage *st, failure *why)
 {
     s->options = o;
     s->scene = st->scene;
+    s->stage = st;
     s->frames_drawn = 0;
     s->times.finish = o->stats || o->bench;
     for (int i = 0; i < 16 && gl.GetError() != GL_NO_ERROR;
@@ -97,6 +99,7 @@ bool session_begin(session *s, const options *o, stage *st, failure *why)
         pipeline_destroy(&s->pipeline);
         return false;
     }
+    s->pipeline.has_last = s->pipeline.is_posed = false;
     stopwatch_lap(&s->times, PHASE_SETUP);
     if (o->plan)
         pipeline_print_plan(&s->pipeline, &view);
@@ -143,7 +146,27 @@ bool session_bench(session *s, failure *why)
     return true;
 }
 
-bool session_draw(session *s, bool shows_progress, writer_slip *slip, failure *why)
+/* Shows the animation that many pictures after its start. A camera of the file moves with it. */
+static bool pose(session *s, int frame, failure *why)
+{
+    const options *o = s->options;
+    pipeline *p = &s->pipeline;
+    if (!animation_step(&s->animation, o, frame, s->stage, &p->is_posed, why))
+        return false;
+    s->scene = s->animation.scene;
+    stopwatch_lap(&s->times, PHASE_LOAD);
+    const bool follows = s->scene->camera_count > 0 && o->camera >= 0 && !o->view;
+    if (follows && !viewpoint_choose(o, s->scene, 0, &s->viewpoint, why))
+        return false;
+    if (!pipeline_prepare(p, &s->animation.stage, context_load, s->context, o, p->wants, why)) {
+        pipeline_destroy(p);
+        return false;
+    }
+    stopwatch_lap(&s->times, PHASE_SETUP);
+    return true;
+}
+
+static bool draw_frames(session *s, bool shows_progress, writer_slip *slip, failure *why)
 {
     const float full_turn = 6.283185307f;
     const options *o = s->options;
@@ -151,10 +174,11 @@ bool session_draw(session *s, bool shows_progress, writer_slip *slip, failure *w
     progress shown = progress_start("frame");
     for (int i = 0; i < count; i++) {
         scene_view view;
+        const float angle_rad = o->fps.given ? 0 : full_turn * (float)i / (float)count;
         stopwatch_start(&s->times);
         if (stop_signal())
             return fault_set(why, "stopped");
-        if (!draw(s, full_turn * (float)i / (float)count, &view, why) ||
+        if ((o->fps.given && i > 0 && !pose(s, i, why)) || !draw(s, angle_rad, &view, why) ||
             !outputs_take(o, &s->pipeline, &view, o->frames ? i + 1 : 0, s->readback, slip, why))
             return false;
         if (s->times.finish) /* the whole read-back belongs to this phase */
@@ -169,6 +193,14 @@ bool session_draw(session *s, bool shows_progress, writer_slip *slip, failure *w
             progress_count(&shown, i + 1, count);
     }
     return true;
+}
+
+bool session_draw(session *s, bool shows_progress, writer_slip *slip, failure *why)
+{
+    const bool done = draw_frames(s, shows_progress, slip, why);
+    s->scene = s->stage->scene;
+    animation_close(&s->animation);
+    return done;
 }
 
 bool session_finish(session *s, writer_slip *slip, failure *why)

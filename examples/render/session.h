@@ -5,6 +5,7 @@
 #ifndef GLSSAO_EXAMPLES_SESSION_H
 #define GLSSAO_EXAMPLES_SESSION_H
 
+#include "animation.h"
 #include "context.h"
 #include "fault.h"
 #include "options.h"
@@ -22,6 +23,8 @@ typedef struct session {
     /* These belong to the job that is being drawn. */
     const options *options;
     const scene *scene;
+    stage *stage;
+    animation animation; /* only with --fps, from the second frame on */
     viewpoint viewpoint;
     stopwatch times;
     bench bench;

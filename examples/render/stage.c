@@ -4,17 +4,22 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+scene *stage_load_pose(const options *o, double time_s, failure *why)
+{
+    scene_load_options file = o->file;
+    file.timed = o->time_s.given;
+    file.time_s = time_s;
+    file.memory_bytes = (uint64_t)o->memory_mib << 20;
+    return scene_load_with(o->scene_path, &file, why->text, why->size);
+}
+
 scene *stage_load_scene(const options *o, inputs *out_inputs, failure *why)
 {
     *out_inputs = (inputs){0};
     if (!o->scene_path)
         return scene_make(o->scene_name, why->text, why->size);
     inputs_record(out_inputs);
-    scene_load_options file = o->file;
-    file.timed = o->time_s.given;
-    file.time_s = (double)o->time_s.value;
-    file.memory_bytes = (uint64_t)o->memory_mib << 20;
-    scene *s = scene_load_with(o->scene_path, &file, why->text, why->size);
+    scene *s = stage_load_pose(o, (double)o->time_s.value, why);
     inputs_record(NULL);
     for (size_t i = 0; s && i < s->warning_count; i++)
         fprintf(stderr, "%s: warning: %s\n", o->scene_path, s->warnings[i]);
@@ -43,6 +48,16 @@ bool stage_open_spending(stage *st, scene *s, const stage *like, failure *why)
     if (open(st, s, why))
         st->renderer = scene_renderer_create_spending(s, like ? like->renderer : NULL, why->text, why->size);
     return st->renderer;
+}
+
+bool stage_pose(stage *st, const scene *next, failure *why)
+{
+    const stage before = *st;
+    const bool done = open(st, next, why);
+    trace_scene_destroy(before.traced);
+    free(before.lights);
+    st->renderer = before.renderer;
+    return done;
 }
 
 void stage_close(stage *st)

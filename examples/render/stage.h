@@ -32,6 +32,12 @@ bool stage_open(stage *st, const scene *s, failure *why);
 bool stage_open_spending(stage *st, scene *s, const stage *like, failure *why);
 void stage_close(stage *st);
 
+/* The scene of the options' file at a time, without its warnings. NULL, with one line in `why`, on failure. */
+scene *stage_load_pose(const options *o, double time_s, failure *why);
+/* Follows the stage's renderer, whose scene is now `next`. False, with one line in `why`, if memory is short; the stage
+ * is then only good to be closed. */
+bool stage_pose(stage *st, const scene *next, failure *why);
+
 /* Builds Embree's acceleration structure unless it exists. */
 bool stage_trace(stage *st, failure *why);
 

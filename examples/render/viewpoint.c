@@ -70,7 +70,7 @@ static void fit_scene(const options *o, const scene *s, float free_left, viewpoi
         how.fov_y_rad = o->fov_deg.value * rad_per_deg;
     how.free_left = free_left;
     how.orthographic = o->orthographic;
-    how.turns = o->frames > 0;
+    how.turns = o->frames > 0 && !o->fps.given;
     out->base = camera_frame(s, &how);
     out->fitted = true;
     for (int i = 0; i < 3; i++)

@@ -60,6 +60,7 @@ draw_pass draw_begin(const scene_renderer *r, const scene_view *view, draw_kind 
     gl.Viewport(0, 0, view->width, view->height);
     gl.Enable(GL_DEPTH_TEST);
     gl.BindVertexArray(r->vertex_array);
+    gl.VertexAttrib4f(ATTRIBUTE_COLOR, 1, 1, 1, 1); /* read where no vertex has a colour, with options.everything */
     return pass;
 }
 
@@ -71,6 +72,10 @@ static void use_program(draw_pass *pass, const draw_program *p)
     gl.UniformMatrix4fv(p->clip_from_view, 1, GL_FALSE, view->clip_from_view);
     gl.Uniform1f(p->depth_offset, pass->depth_offset);
     gl.UniformMatrix3fv(p->normal_view_from_world, 1, GL_FALSE, &pass->normal_view_from_world[0][0]);
+    if (pass->last) {
+        gl.UniformMatrix4fv(p->last_view_from_world, 1, GL_FALSE, pass->last->view_from_world);
+        gl.UniformMatrix4fv(p->last_clip_from_view, 1, GL_FALSE, pass->last->clip_from_view);
+    }
     if (pass->kind == DRAW_MAIN) {
         gl.Uniform1f(p->intensity, 1.0f - pass->renderer->options.left_out);
         gl.Uniform3fv(p->ambient, 1, pass->ambient);
@@ -155,17 +160,25 @@ static void use_material(draw_pass *pass, int index, unsigned own)
     pass->material = index;
 }
 
+static void point_columns(unsigned location, unsigned count, size_t at)
+{
+    for (unsigned c = 0; c < count; c++)
+        gl.VertexAttribPointer(location + c, 3, GL_FLOAT, GL_FALSE, sizeof(draw_instance),
+                               (const void *)(at + c * sizeof(float[3])));
+}
+
 static void use_instances(draw_pass *pass, uint32_t first)
 {
-    size_t base = first * sizeof(draw_instance);
-    gl.BindBuffer(GL_ARRAY_BUFFER, pass->renderer->instance_buffer);
-    for (unsigned c = 0; c < 4; c++)
-        gl.VertexAttribPointer(ATTRIBUTE_WORLD_FROM_MESH + c, 3, GL_FLOAT, GL_FALSE, sizeof(draw_instance),
-                               (const void *)(base + offsetof(draw_instance, world_from_mesh) + c * sizeof(float[3])));
-    for (unsigned c = 0; c < 3; c++)
-        gl.VertexAttribPointer(
-            ATTRIBUTE_NORMAL_WORLD_FROM_MESH + c, 3, GL_FLOAT, GL_FALSE, sizeof(draw_instance),
-            (const void *)(base + offsetof(draw_instance, normal_world_from_mesh) + c * sizeof(float[3])));
+    const scene_renderer *r = pass->renderer;
+    const size_t base = first * sizeof(draw_instance);
+    gl.BindBuffer(GL_ARRAY_BUFFER, r->instance_buffer);
+    point_columns(ATTRIBUTE_WORLD_FROM_MESH, 4, base + offsetof(draw_instance, world_from_mesh));
+    if (pass->last) { /* in the place of the normals */
+        gl.BindBuffer(GL_ARRAY_BUFFER, r->last_instance_buffer ? r->last_instance_buffer : r->instance_buffer);
+        point_columns(ATTRIBUTE_NORMAL_WORLD_FROM_MESH, 4, base + offsetof(draw_instance, world_from_mesh));
+    } else {
+        point_columns(ATTRIBUTE_NORMAL_WORLD_FROM_MESH, 3, base + offsetof(draw_instance, normal_world_from_mesh));
+    }
     pass->first_instance = first;
 }
 

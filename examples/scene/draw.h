@@ -71,12 +71,14 @@ typedef struct scene_draw_options { /* zero is the plainest */
     bool mapped_normals;     /* the pre-pass applies normal maps, so that occlusion sees them; else it does not */
     bool specular_occlusion; /* accessibility darkens ambient reflections by their lobe; else like the rest */
     bool layers;             /* scene_draw_layer will be called */
+    bool motion;             /* scene_draw_motion will be called */
     bool no_picture;         /* the main pass is not drawn: neither its programs nor a shadow map are made */
     bool no_prepass; /* scene_draw_normals will not be called: the main pass finds the nearest surfaces itself */
     /* For measuring what leaving out spares: every part of the shaders on every surface, whatever the scene holds,
      * nothing culled, and shadow map and sky drawn in each frame. Matte and unlit materials then look otherwise. */
     bool everything;
     bool multi_bounce; /* occluded ambient light takes on the surface's colour */
+    bool bent;         /* the ambient map is that of bent normals: ambient light comes from where surfaces are open */
     float left_out;    /* the share of occlusion, 0 to 1, that the picture does not show */
 } scene_draw_options;
 
@@ -133,6 +135,16 @@ void scene_draw_normals(scene_renderer *r, const scene_view *view);
  * face; or the nearest front face behind it. Needs options.layers. */
 typedef enum scene_layer { SCENE_LAYER_BACK, SCENE_LAYER_SECOND } scene_layer;
 void scene_draw_layer(scene_renderer *r, const scene_view *view, unsigned depth_texture, scene_layer layer);
+
+/* Poses the scene anew: `s` is the same file at another time, and takes the place of the renderer's scene, which must
+ * live until this returns. What the renderer drew so far becomes the last pose. False, and nothing changed, where the
+ * two differ in more than the places of vertices and instances, or memory is short. */
+bool scene_renderer_pose(scene_renderer *r, const scene *s);
+
+/* For each opaque pixel, its uv minus the uv that its point had in the view `last` and the last pose, to output 0 (red
+ * and green) of the bound framebuffer, whose depth buffer holds the pre-pass's depth; 1e4 where the point was behind
+ * that eye, and where nothing is. Needs options.motion. */
+void scene_draw_motion(scene_renderer *r, const scene_view *view, const scene_view *last);
 
 /* Draws the picture into the bound framebuffer, whose depth buffer holds the pre-pass's depth: clears colour to
  * the sky at the horizon, opaque with depth EQUAL (with options.no_prepass: clears depth, opaque with depth LEQUAL),

@@ -13,8 +13,8 @@
 /* Index of the program, built on first use; -1 on failure. */
 static int find_program(draw_pool *pool, draw_kind kind, unsigned variant, char *error, size_t error_size)
 {
-    static const char *const what[] = {"scene normals pass", "scene main pass", "shadow pass", "layer pass",
-                                       "sky pass"};
+    static const char *const what[] = {"scene normals pass", "scene main pass", "shadow pass",
+                                       "layer pass",         "motion pass",     "sky pass"};
     const bool is_sky = kind == DRAW_SKY;
     for (int i = 0; i < pool->variant_count; i++)
         if (pool->variants[i].kind == kind && pool->variants[i].variant == variant)
@@ -48,7 +48,7 @@ static unsigned normals_variant(const draw_item *item, const scene_material *m, 
         variant |= VARIANT_MASKED | (item->colored ? VARIANT_COLORED : 0u);
         variant |= m->base_color_texture >= 0 ? VARIANT_BASE_MAPPED | VARIANT_TEXTURED : 0u;
     }
-    if (options->mapped_normals && m->normal_map.used && has_tangents && m->normal_scale != 0)
+    if ((options->mapped_normals || options->bent) && m->normal_map.used && has_tangents && m->normal_scale != 0)
         variant |= VARIANT_NORMAL_MAPPED | VARIANT_TEXTURED;
     return variant;
 }
@@ -66,10 +66,11 @@ static unsigned main_variant(const draw_item *item, const scene_lighting *lighti
            (lighting->environment ? VARIANT_ENVIRONMENT : 0u) |
            (options->specular_occlusion && occluded && item->variant & VARIANT_REFLECTIVE ? VARIANT_SPECULAR_OCCLUSION
                                                                                           : 0u) |
-           (options->multi_bounce && occluded ? VARIANT_MULTI_BOUNCE : 0u);
+           (options->multi_bounce && occluded ? VARIANT_MULTI_BOUNCE : 0u) |
+           (options->bent && occluded ? VARIANT_BENT : 0u);
 }
 
-/* The shadow map and the layers need depth alone, after the alpha test. */
+/* The shadow map, the layers and motion need depth alone, after the alpha test. */
 static unsigned depth_variant(unsigned normals)
 {
     const unsigned test = VARIANT_MASKED | VARIANT_COLORED | VARIANT_BASE_MAPPED | VARIANT_TEXTURED;
@@ -98,7 +99,7 @@ static bool choose_programs(scene_renderer *r, const scene_lighting *lighting, c
         draw_item *item = &r->items[i];
         const scene_material *m = &r->scene->materials[item->material];
         const unsigned normals = normals_variant(item, m, options, r->scene->tangents != NULL);
-        int chosen[DRAW_KIND_COUNT] = {-1, -1, -1, -1};
+        int chosen[DRAW_KIND_COUNT] = {-1, -1, -1, -1, -1};
         const bool casts = !item->blended && item->topology == SCENE_TRIANGLES;
         bool done = true;
         if (!options->no_picture) {
@@ -118,6 +119,11 @@ static bool choose_programs(scene_renderer *r, const scene_lighting *lighting, c
             chosen[DRAW_LAYER] =
                 find_program(r->pool, DRAW_LAYER, depth_variant(normals) | VARIANT_BEHIND, error, error_size);
             done = chosen[DRAW_LAYER] >= 0;
+        }
+        if (done && casts && options->motion) {
+            chosen[DRAW_MOTION] =
+                find_program(r->pool, DRAW_MOTION, depth_variant(normals) | VARIANT_MOVES, error, error_size);
+            done = chosen[DRAW_MOTION] >= 0;
         }
         if (!done)
             return false;

@@ -10,11 +10,68 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void upload_buffer(unsigned *name, GLenum target, const void *data, size_t size)
+void draw_upload_buffer(unsigned *name, GLenum target, const void *data, size_t size)
 {
-    gl.GenBuffers(1, name);
+    if (!*name)
+        gl.GenBuffers(1, name);
     gl.BindBuffer(target, *name);
     gl.BufferData(target, (GLsizeiptr)size, data, GL_STATIC_DRAW);
+}
+
+static void lay_out_vertices(scene_renderer *r)
+{
+    bool normals = false, uvs = false, colors = false;
+    for (uint32_t i = 0; i < r->item_count; i++) {
+        normals = normals || !r->items[i].flat;
+        uvs = uvs || r->items[i].variant & VARIANT_TEXTURED;
+        colors = colors || r->items[i].colored;
+    }
+    const struct {
+        bool read;
+        draw_vertex_part part;
+    } parts[] = {
+        {true, {ATTRIBUTE_POSITION, 3, offsetof(scene_vertex, position), 0}},
+        {normals, {ATTRIBUTE_NORMAL, 3, offsetof(scene_vertex, normal), 0}},
+        {uvs, {ATTRIBUTE_UVS, 4, offsetof(scene_vertex, uv), 0}},
+        {colors, {ATTRIBUTE_COLOR, 4, offsetof(scene_vertex, color), 0}},
+    };
+    draw_vertex_layout *to = &r->layout;
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
+        if (parts[i].read) {
+            to->parts[to->count] = parts[i].part;
+            to->parts[to->count++].offset = to->stride;
+            to->stride += parts[i].part.components * sizeof(float);
+        }
+}
+
+void draw_upload_vertices(scene_renderer *r)
+{
+    enum { BLOCK = 1024 }; /* vertices packed at a time, so that a large scene needs no packed copy */
+    const scene *s = r->scene;
+    const draw_vertex_layout *layout = &r->layout;
+    char block[BLOCK * sizeof(scene_vertex)];
+    draw_upload_buffer(&r->vertex_buffer, GL_ARRAY_BUFFER, NULL, s->vertex_count * layout->stride);
+    for (size_t first = 0; first < s->vertex_count; first += BLOCK) {
+        const size_t count = s->vertex_count - first < BLOCK ? s->vertex_count - first : BLOCK;
+        for (size_t i = 0; i < count; i++)
+            for (size_t k = 0; k < layout->count; k++)
+                memcpy(block + i * layout->stride + layout->parts[k].offset,
+                       (const char *)&s->vertices[first + i] + layout->parts[k].from,
+                       layout->parts[k].components * sizeof(float));
+        gl.BufferSubData(GL_ARRAY_BUFFER, (GLintptr)(first * layout->stride), (GLsizeiptr)(count * layout->stride),
+                         block);
+    }
+}
+
+void draw_point_vertices(const scene_renderer *r)
+{
+    gl.BindBuffer(GL_ARRAY_BUFFER, r->vertex_buffer);
+    for (size_t k = 0; k < r->layout.count; k++) {
+        const draw_vertex_part *part = &r->layout.parts[k];
+        gl.VertexAttribPointer(part->location, (GLint)part->components, GL_FLOAT, GL_FALSE, (GLsizei)r->layout.stride,
+                               (const void *)part->offset);
+        gl.EnableVertexAttribArray(part->location);
+    }
 }
 
 static void upload_geometry(scene_renderer *r, const draw_instance *instances)
@@ -23,33 +80,19 @@ static void upload_geometry(scene_renderer *r, const draw_instance *instances)
     gl.GenVertexArrays(1, &r->empty_vertex_array);
     gl.GenVertexArrays(1, &r->vertex_array);
     gl.BindVertexArray(r->vertex_array);
-    upload_buffer(&r->instance_buffer, GL_ARRAY_BUFFER, instances, s->instance_count * sizeof *instances);
-    upload_buffer(&r->vertex_buffer, GL_ARRAY_BUFFER, s->vertices, s->vertex_count * sizeof *s->vertices);
-    upload_buffer(&r->index_buffer, GL_ELEMENT_ARRAY_BUFFER, s->indices, s->index_count * sizeof *s->indices);
-
     /* Which instances is set before each draw call: 3.3 has no base instance. */
-    static const struct {
-        unsigned location;
-        int components;
-        size_t offset;
-    } attributes[] = {
-        {ATTRIBUTE_POSITION, 3, offsetof(scene_vertex, position)},
-        {ATTRIBUTE_NORMAL, 3, offsetof(scene_vertex, normal)},
-        {ATTRIBUTE_UVS, 4, offsetof(scene_vertex, uv)},
-        {ATTRIBUTE_COLOR, 4, offsetof(scene_vertex, color)},
-    };
-    for (size_t i = 0; i < sizeof attributes / sizeof attributes[0]; i++) {
-        gl.VertexAttribPointer(attributes[i].location, attributes[i].components, GL_FLOAT, GL_FALSE,
-                               sizeof(scene_vertex), (const void *)attributes[i].offset);
-        gl.EnableVertexAttribArray(attributes[i].location);
-    }
+    draw_upload_buffer(&r->instance_buffer, GL_ARRAY_BUFFER, instances, s->instance_count * sizeof *instances);
+    draw_upload_buffer(&r->index_buffer, GL_ELEMENT_ARRAY_BUFFER, s->indices, s->index_count * sizeof *s->indices);
+    lay_out_vertices(r);
+    draw_upload_vertices(r);
+    draw_point_vertices(r);
     if (s->tangents) {
-        upload_buffer(&r->tangent_buffer, GL_ARRAY_BUFFER, s->tangents, s->vertex_count * sizeof *s->tangents);
+        draw_upload_buffer(&r->tangent_buffer, GL_ARRAY_BUFFER, s->tangents, s->vertex_count * sizeof *s->tangents);
         gl.VertexAttribPointer(ATTRIBUTE_TANGENT, 4, GL_FLOAT, GL_FALSE, sizeof *s->tangents, NULL);
         gl.EnableVertexAttribArray(ATTRIBUTE_TANGENT);
     }
     if (s->more_uvs) {
-        upload_buffer(&r->more_uv_buffer, GL_ARRAY_BUFFER, s->more_uvs, s->vertex_count * sizeof *s->more_uvs);
+        draw_upload_buffer(&r->more_uv_buffer, GL_ARRAY_BUFFER, s->more_uvs, s->vertex_count * sizeof *s->more_uvs);
         gl.VertexAttribPointer(ATTRIBUTE_MORE_UVS, 4, GL_FLOAT, GL_FALSE, sizeof *s->more_uvs, NULL);
         gl.EnableVertexAttribArray(ATTRIBUTE_MORE_UVS);
     }
@@ -254,11 +297,12 @@ void scene_renderer_destroy(scene_renderer *r)
     if (!r)
         return;
     /* GL ignores the name 0, which stands for an object that was not created. */
-    unsigned buffers[] = {r->vertex_buffer, r->tangent_buffer, r->more_uv_buffer, r->index_buffer, r->instance_buffer};
-    unsigned vertex_arrays[] = {r->vertex_array, r->empty_vertex_array};
+    unsigned buffers[] = {r->vertex_buffer,   r->tangent_buffer,     r->more_uv_buffer,      r->index_buffer,
+                          r->instance_buffer, r->last_vertex_buffer, r->last_instance_buffer};
+    unsigned vertex_arrays[] = {r->vertex_array, r->empty_vertex_array, r->motion_vertex_array};
     unsigned samplers[] = {r->linear_sampler, r->nearest_sampler};
-    gl.DeleteBuffers(5, buffers);
-    gl.DeleteVertexArrays(2, vertex_arrays);
+    gl.DeleteBuffers(7, buffers);
+    gl.DeleteVertexArrays(3, vertex_arrays);
     gl.DeleteSamplers(2, samplers);
     gl.DeleteTextures(1, &r->white_texture);
     gl.DeleteTextures(2, r->neutral);

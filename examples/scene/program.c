@@ -35,6 +35,8 @@ static const struct {
     {VARIANT_ENVIRONMENT, "ENVIRONMENT"},
     {VARIANT_FLAT, "FLAT"},
     {VARIANT_MORE_UVS, "MORE_UVS"},
+    {VARIANT_MOVES, "MOVES"},
+    {VARIANT_BENT, "BENT"},
 };
 
 static const struct {
@@ -44,6 +46,8 @@ static const struct {
     {"u_view_from_world", offsetof(draw_program, view_from_world)},
     {"u_clip_from_view", offsetof(draw_program, clip_from_view)},
     {"u_normal_view_from_world", offsetof(draw_program, normal_view_from_world)},
+    {"u_last_view_from_world", offsetof(draw_program, last_view_from_world)},
+    {"u_last_clip_from_view", offsetof(draw_program, last_clip_from_view)},
     {"u_base_color_uv", offsetof(draw_program, base_color_uv)},
     {"u_normal_uv", offsetof(draw_program, normal_uv)},
     {"u_metallic_roughness_uv", offsetof(draw_program, metallic_roughness_uv)},
@@ -114,17 +118,17 @@ static void say_failure(const char *what, const char *step, char *log, char *err
     snprintf(error, error_size, "%s, %s: %s", what, step, *log ? log : "the driver gives no reason");
 }
 
-static unsigned compile(GLenum type, const char *macros, const char *const shared[2], const char *source,
+static unsigned compile(GLenum type, const char *macros, const char *const shared[3], const char *source,
                         const char *what, char *error, size_t error_size)
 {
     /* #version has to come first; it is the first line of each shader file. */
     size_t version_length = strcspn(source, "\n") + 1;
     /* Line numbers in the driver's log are then those of the file. */
-    const char *parts[] = {source, macros, shared[0], shared[1], "#line 2\n", source + version_length};
-    const GLint lengths[] = {(GLint)version_length, -1, -1, -1, -1, -1};
+    const char *parts[] = {source, macros, shared[0], shared[1], shared[2], "#line 2\n", source + version_length};
+    const GLint lengths[] = {(GLint)version_length, -1, -1, -1, -1, -1, -1};
 
     unsigned shader = gl.CreateShader(type);
-    gl.ShaderSource(shader, 6, parts, lengths);
+    gl.ShaderSource(shader, 7, parts, lengths);
     gl.CompileShader(shader);
     GLint compiled = GL_FALSE;
     gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
@@ -172,8 +176,9 @@ bool draw_program_build(draw_program *p, const char *what, const char *vertex_so
         length += (size_t)snprintf(macros + length, sizeof macros - length, "#define %s %d\n", variant_macros[i].macro,
                                    (variant & variant_macros[i].bit) != 0);
 
-    const char *const none[2] = {"", ""};
-    const char *const shared[2] = {shared_source, variant & VARIANT_ENVIRONMENT ? shader_environment_glsl : ""};
+    const char *const none[3] = {"", "", ""};
+    const char *const shared[3] = {shared_source, variant & VARIANT_ENVIRONMENT ? shader_environment_glsl : "",
+                                   variant & VARIANT_BENT ? shader_bent_glsl : ""};
     unsigned vertex = compile(GL_VERTEX_SHADER, macros, none, vertex_source, what, error, error_size);
     if (!vertex)
         return false;

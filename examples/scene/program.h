@@ -30,7 +30,9 @@ enum {
     VARIANT_BEHIND = 131072,            /* a layer: depth of the surfaces behind those of the pre-pass */
     VARIANT_ENVIRONMENT = 262144,       /* ambient light, or the sky, from a picture */
     VARIANT_FLAT = 524288,              /* normals from the triangle itself */
-    VARIANT_MORE_UVS = 1048576          /* a map reads the third or fourth uv set */
+    VARIANT_MORE_UVS = 1048576,         /* a map reads the third or fourth uv set */
+    VARIANT_MOVES = 2097152,            /* the motion pass: where each point was in the last frame */
+    VARIANT_BENT = 4194304              /* where not BLENDED: ambient light by bent normals */
 };
 
 /* Every bit that a material and its light can need, except those of other kinds of surface. */
@@ -62,6 +64,7 @@ enum { MOST_LIGHTS = 16 }; /* in main.frag too */
 typedef struct draw_program {
     unsigned name; /* 0: not built */
     int view_from_world, clip_from_view, normal_view_from_world;
+    int last_view_from_world, last_clip_from_view;
     int base_color_uv, normal_uv, metallic_roughness_uv, occlusion_uv, emission_uv;
     int base_color, alpha_cutoff;
     int handedness, normal_scale, metallic_roughness, occlusion_strength, emission;

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdatomic.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { TILE = 8, POINTS_A_JOB = 64, MOST_SAMPLES = 1 << 24 };
 
@@ -21,6 +22,8 @@ typedef struct work {
     int width, height;
     size_t tiles_across;
     uint8_t *foreground;
+    trace_fan_fn take; /* instead of `out` */
+    void *take_user;
 
     const float (*positions)[3], (*normals)[3]; /* points */
     size_t count;
@@ -31,7 +34,11 @@ typedef struct work {
 
 static void trace_one(work *w, uint64_t number, const trace_point *point)
 {
-    w->out[number] = trace_point_accessibility(w->trace, &w->samples, w->radius, number, point);
+    const float open =
+        trace_point_accessibility(w->trace, &w->samples, w->radius, number, point, w->take, w->take_user);
+    if (w->out) {
+        w->out[number] = open;
+    }
     atomic_fetch_add_explicit(&w->rays, (uint_fast64_t)w->samples.count, memory_order_relaxed);
 }
 
@@ -74,7 +81,7 @@ static void trace_tile(size_t tile, void *user)
             const bool seen = find_point(w, x, y, &point);
             if (seen) {
                 trace_one(w, pixel, &point);
-            } else {
+            } else if (w->out) {
                 w->out[pixel] = 1;
             }
             if (w->foreground) {
@@ -124,20 +131,59 @@ static bool run(work *w, trace_distribution distribution, const trace_options *o
     return true;
 }
 
+static bool run_view(work *w, const scene_view *view, const trace_options *options, trace_stats *out_stats, char *error,
+                     size_t error_size)
+{
+    w->width = view->width;
+    w->height = view->height;
+    w->tiles_across = ((size_t)view->width + TILE - 1) / TILE;
+    if (!trace_eye_open(view, &w->eye)) {
+        snprintf(error, error_size, "the view's matrices have no inverse");
+        return false;
+    }
+    const size_t tiles = w->tiles_across * (((size_t)view->height + TILE - 1) / TILE);
+    return run(w, TRACE_COSINE, options, tiles, trace_tile, out_stats, error, error_size);
+}
+
 bool trace_accessibility(const trace_scene *t, const scene_view *view, const trace_options *options,
                          float *out_accessibility, uint8_t *out_foreground, trace_stats *out_stats, char *error,
                          size_t error_size)
 {
     work w = {.trace = t, .out = out_accessibility, .foreground = out_foreground};
-    w.width = view->width;
-    w.height = view->height;
-    w.tiles_across = ((size_t)view->width + TILE - 1) / TILE;
-    if (!trace_eye_open(view, &w.eye)) {
-        snprintf(error, error_size, "the view's matrices have no inverse");
-        return false;
+    return run_view(&w, view, options, out_stats, error, error_size);
+}
+
+bool trace_fans(const trace_scene *t, const scene_view *view, const trace_options *options, trace_fan_fn take,
+                void *user, trace_stats *out_stats, char *error, size_t error_size)
+{
+    work w = {.trace = t, .take = take, .take_user = user};
+    return run_view(&w, view, options, out_stats, error, error_size);
+}
+
+typedef struct open_sum {
+    const float *view_from_world;
+    int samples;
+    float (*out)[3];
+} open_sum;
+
+static void add_open(const trace_fan *fan, void *user)
+{
+    const open_sum *s = user;
+    const float *m = s->view_from_world;
+    for (int i = 0; i < fan->count; i++) {
+        const float *d = fan->directions[i];
+        for (int k = 0; k < 3 && !fan->blocked[i]; k++) {
+            s->out[fan->pixel][k] += (m[k] * d[0] + m[4 + k] * d[1] + m[8 + k] * d[2]) / (float)s->samples;
+        }
     }
-    const size_t tiles = w.tiles_across * (((size_t)view->height + TILE - 1) / TILE);
-    return run(&w, TRACE_COSINE, options, tiles, trace_tile, out_stats, error, error_size);
+}
+
+bool trace_open_directions(const trace_scene *t, const scene_view *view, const trace_options *options, float (*out)[3],
+                           trace_stats *out_stats, char *error, size_t error_size)
+{
+    open_sum sum = {view->view_from_world, options->samples, out};
+    memset(out, 0, sizeof *out * (size_t)view->width * (size_t)view->height);
+    return trace_fans(t, view, options, add_open, &sum, out_stats, error, error_size);
 }
 
 bool trace_points(const trace_scene *t, const float (*positions)[3], const float (*normals)[3], size_t count,

@@ -28,6 +28,7 @@ typedef void (*trace_progress_fn)(double done, void *user);
 typedef struct trace_options {
     float radius;               /* scene units: a hit farther away does not block (hard cut) */
     int samples;                /* rays a pixel or point, >= 1 */
+    bool adaptive;              /* trace_picture alone: see trace_picture_begin */
     uint32_t seed;              /* the same seed gives the same bits for any number of threads */
     int threads;                /* 0: as many as there are cores */
     trace_progress_fn progress; /* may be NULL */
@@ -50,6 +51,25 @@ bool trace_accessibility(const trace_scene *t, const scene_view *view, const tra
                          float *out_accessibility, uint8_t *out_foreground, trace_stats *out_stats, char *error,
                          size_t error_size);
 
+/* Some of the rays of one pixel. */
+typedef struct trace_fan {
+    size_t pixel;                 /* its number, rows bottom to top */
+    const double *normal;         /* unit, world space: they are cosine-weighted about it */
+    const float (*directions)[3]; /* unit, world space */
+    const bool *blocked;          /* by something within the radius */
+    int count;
+} trace_fan;
+/* Called on any thread; all rays of a pixel come from one thread, one fan after another. */
+typedef void (*trace_fan_fn)(const trace_fan *fan, void *user);
+
+/* The rays of trace_accessibility, handed to a function instead of counted. Pixels that see nothing have none. */
+bool trace_fans(const trace_scene *t, const scene_view *view, const trace_options *options, trace_fan_fn take,
+                void *user, trace_stats *out_stats, char *error, size_t error_size);
+/* Of each pixel, the mean of the open directions in view space, not of unit length: 2/3 of the normal where all is
+ * open. 0 where nothing is seen. Cosine-weighted rays make it the mean weighted by the cosine (H. Landis, 2002). */
+bool trace_open_directions(const trace_scene *t, const scene_view *view, const trace_options *options, float (*out)[3],
+                           trace_stats *out_stats, char *error, size_t error_size);
+
 /* What a rasteriser saw of a view: a normal in view space, of any length, and in the fourth component a view distance.
  * Where nothing is seen the distance is 0. A texel stands for the lower left of `step` x `step` pixels of the view;
  * there are (width + step - 1) / step of them in a row. */
@@ -68,7 +88,11 @@ typedef struct trace_picture trace_picture;
 
 /* Starts to trace a picture. `out`: accessibility of each texel, negative where there is no surface. `counts`: NULL, or
  * rays for each texel, at most options->samples; those with 0 become negative. All must live until trace_picture_end.
- * options->samples is 1 to 64. `seed` turns the pattern. NULL, with one line in `error`, on failure. */
+ * options->samples is 1 to 64. `seed` turns the pattern. NULL, with one line in `error`, on failure.
+ *
+ * options->adaptive (no `counts`, at most 16 samples): as many rays as a blur over 4 x 4 needs. Texels get two or four
+ * times options->samples where few neighbours lie on their surface, and only the first quarter of them (at least one)
+ * where those of all 16 x 16 texels say the same. */
 trace_picture *trace_picture_begin(const trace_scene *t, const scene_view *view, const trace_seen *seen,
                                    const uint8_t *counts, const trace_options *options, float *out, char *error,
                                    size_t error_size);

@@ -32,6 +32,20 @@ bool trace_accessibility(const trace_scene *t, const scene_view *view, const tra
     return absent(error, error_size);
 }
 
+bool trace_fans(const trace_scene *t, const scene_view *view, const trace_options *options, trace_fan_fn take,
+                void *user, trace_stats *out_stats, char *error, size_t error_size)
+{
+    (void)t, (void)view, (void)options, (void)take, (void)user, (void)out_stats;
+    return absent(error, error_size);
+}
+
+bool trace_open_directions(const trace_scene *t, const scene_view *view, const trace_options *options, float (*out)[3],
+                           trace_stats *out_stats, char *error, size_t error_size)
+{
+    (void)t, (void)view, (void)options, (void)out, (void)out_stats;
+    return absent(error, error_size);
+}
+
 bool trace_points(const trace_scene *t, const float (*positions)[3], const float (*normals)[3], size_t count,
                   trace_distribution distribution, float offset, const trace_options *options, float *out_accessibility,
                   trace_stats *out_stats, char *error, size_t error_size)

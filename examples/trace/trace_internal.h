@@ -125,9 +125,9 @@ typedef struct trace_pattern {
 bool trace_pattern_open(trace_pattern *p, int rays, uint32_t seed);
 void trace_pattern_close(trace_pattern *p);
 
-/* trace_rays.c: the share of a point's rays that get through. */
+/* trace_rays.c: the share of a point's rays that get through. `take` (may be NULL) is handed all of them. */
 float trace_point_accessibility(const trace_scene *t, const trace_samples *samples, float radius, uint64_t number,
-                                const trace_point *point);
+                                const trace_point *point, trace_fan_fn take, void *user);
 
 /* trace_jobs.c: threads. */
 

@@ -20,8 +20,23 @@ static void make_frame(const double n[3], double u[3], double v[3])
     v[2] = -n[1];
 }
 
+static void hand_over(const struct RTCRay16 *rays, int count, uint64_t number, const trace_point *point,
+                      trace_fan_fn take, void *user)
+{
+    float directions[TRACE_PACKET][3];
+    bool blocked[TRACE_PACKET];
+    for (int i = 0; i < count; i++) {
+        directions[i][0] = rays->dir_x[i];
+        directions[i][1] = rays->dir_y[i];
+        directions[i][2] = rays->dir_z[i];
+        blocked[i] = rays->tfar[i] < 0;
+    }
+    const trace_fan fan = {(size_t)number, point->normal, (const float(*)[3])directions, blocked, count};
+    take(&fan, user);
+}
+
 float trace_point_accessibility(const trace_scene *t, const trace_samples *samples, float radius, uint64_t number,
-                                const trace_point *point)
+                                const trace_point *point, trace_fan_fn take, void *user)
 {
     trace_query query = {.trace = t};
     embree_init_context(&query.embree);
@@ -59,6 +74,9 @@ float trace_point_accessibility(const trace_scene *t, const trace_samples *sampl
         embree_occluded(t->world, &query.embree, valid, &rays);
         for (int i = 0; i < count; i++) {
             blocked += rays.tfar[i] < 0;
+        }
+        if (take) {
+            hand_over(&rays, count, number, point, take, user);
         }
     }
     return 1 - (float)blocked / (float)samples->count;

@@ -64,6 +64,8 @@ static bool needs_off(const viewer *v)
 static glssao_settings frame_settings(const viewer *v)
 {
     glssao_settings s = v->settings;
+    if (!rest_reuses(v))
+        s.history = 0;
     if (v->shown == SHOWN_RAW) {
         s.blur = GLSSAO_BLUR_NONE;
         s.blur_rounds = 0;
@@ -93,10 +95,11 @@ static bool compiles_quickly(viewer *v)
            glfwGetTime() - start < quick_seconds;
 }
 
-/* Only the horizon technique accumulates estimates. The raw estimate is a single one. */
+/* Only the horizon technique accumulates estimates. The raw estimate is a single one. With a history, a view that rests
+ * comes to the goal. */
 static progressive_goal frame_goal(const viewer *v)
 {
-    if (v->settings.technique != GLSSAO_HORIZON || v->shown == SHOWN_RAW)
+    if (v->settings.technique != GLSSAO_HORIZON || v->shown == SHOWN_RAW || rest_reuses(v))
         return (progressive_goal){0};
     return (progressive_goal){(double)v->options.error.value, (double)v->options.budget_ms.value};
 }
@@ -114,6 +117,9 @@ static bool draw_frame(viewer *v)
     stopwatch times = {.finish = true};
     v->pipeline.settings = frame_settings(v);
     v->pipeline.goal = frame_goal(v);
+    v->pipeline.reached = (progressive_report){0};
+    v->still_frames = 0;
+    v->rested = false;
     stopwatch_start(&times);
     /* If compiling takes long, a picture without occlusion comes first. */
     v->pipeline.wants.ao = v->updates > 0 || compiles_quickly(v);
@@ -122,12 +128,12 @@ static bool draw_frame(viewer *v)
         return false;
     }
     v->frames++;
+    v->reused += rest_reuses(v);
     record_times(v, &times);
     return true;
 }
 
-/* A picture that is averaged from several needs the depth of each. */
-static bool averages(const viewer *v)
+bool viewer_averages(const viewer *v)
 {
     return v->pipeline.wants.samples > 1 || v->pipeline.transparent;
 }
@@ -144,7 +150,7 @@ static bool draw_off(viewer *v)
         v->off_color = make_target(GL_SRGB8_ALPHA8, v->width, v->height, p->depth, &v->off_framebuffer);
     if (corner == OPTIONS_MAP_AO || corner == OPTIONS_MAP_TILES || corner == OPTIONS_MAP_BENT)
         p->debug_map = OPTIONS_MAP_NONE;
-    if (averages(v)) {
+    if (viewer_averages(v)) {
         stopwatch times = {.finish = false};
         p->wants.ao = false;
         p->color_framebuffer = v->off_framebuffer;
@@ -213,7 +219,7 @@ static void compose(const viewer *v, GLuint to)
 
 void viewer_display(viewer *v)
 {
-    const bool off_due = needs_off(v) && (v->frame_due || !v->off_color), off_first = off_due && averages(v);
+    const bool off_due = needs_off(v) && (v->frame_due || !v->off_color), off_first = off_due && viewer_averages(v);
     const bool due = v->frame_due || off_first;
     if (due && !(find_view(v) && (!off_first || draw_off(v)) && draw_frame(v))) {
         v->frame_due = false;
@@ -221,9 +227,11 @@ void viewer_display(viewer *v)
         return;
     }
     v->frame_due = !v->pipeline.wants.ao;
+    if (!due && rest_is_due(v))
+        rest_step(v);
     if (off_due && !off_first)
         draw_off(v);
-    if (v->shown != SHOWN_PICTURE)
+    if (v->shown != SHOWN_PICTURE && !(v->shown == SHOWN_AO && v->map && rest_hides(v)))
         draw_map(v);
     compose(v, 0);
 }
@@ -231,7 +239,9 @@ void viewer_display(viewer *v)
 void *viewer_read_shown(viewer *v)
 {
     GLuint framebuffer;
-    viewer_display(v); /* earlier keys may have arrived in the same update */
+    do /* earlier keys may have arrived in the same update; a view that rests is saved at its best */
+        viewer_display(v);
+    while (rest_is_due(v));
     const GLuint texture = make_target(GL_RGBA8, v->width, v->height, 0, &framebuffer);
     void *pixels = malloc((size_t)v->width * (size_t)v->height * 4);
     if (pixels) {

@@ -4,6 +4,7 @@
  */
 #include "gui.h"
 #include "statistics.h"
+#include "streams.h"
 #include "viewer.h"
 
 #include <GLFW/glfw3.h>
@@ -88,7 +89,7 @@ static double quiet_time(const viewer *v, bool walking)
     double quiet = v->notice[0] && v->notice_until > glfwGetTime() ? v->notice_until - glfwGetTime() + 0.01 : 3600;
     if (v->mode == MODE_BLINK && v->shown == SHOWN_PICTURE)
         quiet = fmin(quiet, blink_seconds - fmod(glfwGetTime(), blink_seconds) + 0.01);
-    return walking ? 0.001 : quiet;
+    return walking || rest_is_due(v) ? 0.001 : quiet;
 }
 
 /* Median of the frames in the graph. */
@@ -129,13 +130,14 @@ static void run(viewer *v)
     }
     fprintf(stderr,
             "glssao-view: shown after %.0f ms, with occlusion after %.0f ms; %u frames drawn, %u screen updates, "
-            "a frame takes %.1f ms\n",
-            1e3 * shown[0], 1e3 * shown[1], v->frames, v->updates, median_frame_ms(v));
+            "a frame takes %.1f ms; %u frames with a history, %u steps at rest\n",
+            1e3 * shown[0], 1e3 * shown[1], v->frames, v->updates, median_frame_ms(v), v->reused, v->rests);
 }
 
 int main(int argc, char **argv)
 {
     static viewer v; /* too large for the stack; starts as 0 */
+    streams_guard("glssao-view", EXIT_NOT_SHOWN);
     switch (options_parse_for_viewer(argc, argv, &v.options, FAULT(v.error))) {
     case OPTIONS_DONE:
         return EXIT_DONE;

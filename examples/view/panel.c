@@ -101,6 +101,12 @@ static void draw_plan(viewer *v)
         gui_table_row(plan.passes[i].name, plan.passes[i].run, plan.passes[i].run ? text : "skip",
                       plan.passes[i].reason);
     }
+    const progressive_report *reached = &v->pipeline.reached;
+    snprintf(text, sizeof text, "%d estimate%s", reached->estimates, reached->estimates == 1 ? "" : "s");
+    gui_table_row("at rest", rest_reuses(v) || reached->estimates > 0, reached->estimates ? text : "waits",
+                  rest_error(v) > 0 ? "estimates are accumulated while nothing changes"
+                  : rest_reuses(v)  ? "the history fills up while nothing changes"
+                                    : "each frame stands alone");
     snprintf(text, sizeof text, "%u draws", counts.main + counts.blended + counts.sky);
     gui_table_row("main", true, text,
                   counts.culled ? "draws outside the view are skipped" : "everything is in the view");
@@ -132,6 +138,15 @@ static void draw_times(viewer *v)
     char text[96];
     snprintf(text, sizeof text, "%d x %d, %u frames drawn", v->width, v->height, v->frames);
     gui_text(text);
+    if (rest_reuses(v)) {
+        snprintf(text, sizeof text, "history of %d frames, %d at rest", v->settings.history, v->still_frames);
+        gui_text(text);
+    }
+    if (v->pipeline.reached.estimates > 0) {
+        snprintf(text, sizeof text, "%d estimates, sampling error %.4f", v->pipeline.reached.estimates,
+                 v->pipeline.reached.sampling_error);
+        gui_text(text);
+    }
 }
 
 static void draw_save(viewer *v)

@@ -126,8 +126,8 @@ static void add_occlusion(line *l, const viewer *v)
         add(l, " --no-ao");
     if (o->layers && horizon)
         add(l, " --layers %d", o->layers);
-    if (o->error.given && horizon && v->mode != MODE_OFF)
-        add(l, " --error %.9g", (double)o->error.value);
+    if (rest_error(v) > 0 && v->mode != MODE_OFF)
+        add(l, " --error %.9g", rest_error(v));
     if (o->budget_ms.given && horizon && v->mode != MODE_OFF)
         add(l, " --budget %.9g", (double)o->budget_ms.value);
     if (o->path)
@@ -155,6 +155,7 @@ bool viewer_command_line(const viewer *v, char *out, size_t out_size)
     const glssao_settings standard = viewer_standard(v);
     glssao_settings rest = v->settings;
     rest.radius = standard.radius;
+    rest.history = standard.history; /* a single picture has no earlier one */
     if (!setting_differences(&standard, &rest, settings, sizeof settings))
         return false;
     if (settings[0])

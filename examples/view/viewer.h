@@ -57,7 +57,9 @@ typedef struct viewer {
     bool panel_open, panel_focus_due, help_open, opening, about_to_open;
     char typed_path[4096];
 
-    bool frame_due; /* the frame must be drawn again */
+    bool frame_due;   /* the frame must be drawn again */
+    int still_frames; /* with a history, of the same view after the last frame */
+    bool rested;      /* nothing more comes of a view that rests */
     GLuint off_color, off_framebuffer, map, map_framebuffer;
     truth_job *truth;
     int truth_rounds, truth_shown_rounds;
@@ -71,6 +73,7 @@ typedef struct viewer {
     float frame_ms[GRAPH_LENGTH];           /* pre-pass, occlusion and main pass together */
     int graph_next;
     unsigned frames, updates; /* frames drawn, and updates of the screen */
+    unsigned reused, rests;   /* frames that could reuse earlier ones, and steps of a view at rest */
     char error[1024];
 } viewer;
 
@@ -104,6 +107,22 @@ void viewer_free_targets(viewer *v);
 void viewer_display(viewer *v);
 /* What the user sees without the panel: RGBA, rows bottom to top. The caller frees it. */
 void *viewer_read_shown(viewer *v);
+
+/* Whether a frame is averaged from several, each of which needs its own depth. */
+bool viewer_averages(const viewer *v);
+
+/* ---- rest.c ---- */
+
+/* Whether frames reuse earlier ones. */
+bool rest_reuses(const viewer *v);
+/* The sampling error that the picture has at last; 0: none is aimed at. */
+double rest_error(const viewer *v);
+/* Whether there is more to do for the frame that is shown. */
+bool rest_is_due(const viewer *v);
+/* Does a part of it. */
+bool rest_step(viewer *v);
+/* Whether the map of accessibility is not yet as good as the last one that was shown. */
+bool rest_hides(const viewer *v);
 
 /* ---- truth_view.c ---- */
 

@@ -7,7 +7,9 @@
 // out result         the same
 
 uniform sampler2D u_ambient_map;
-uniform bool gHorizontalBlur;
+#if !FLAT
+uniform int gHorizontalBlur; // 0 or 1
+#endif
 #define RESULT AMBIENT
 
 #if FILTER == FILTER_BILATERAL
@@ -41,7 +43,7 @@ void add_tap(int i, float weight, vec2 step_uv, inout CONTENTS sum, inout float 
 
 RESULT result()
 {
-    vec2 step_uv = gHorizontalBlur ? vec2(gInvRenderTargetSize.x, 0.0) : vec2(0.0, gInvRenderTargetSize.y);
+    vec2 step_uv = gHorizontalBlur != 0 ? vec2(gInvRenderTargetSize.x, 0.0) : vec2(0.0, gInvRenderTargetSize.y);
 #if FILTER == FILTER_BILATERAL
     last = textureSize(u_depth_map, 0) - 1;
     ivec2 center = texel_from_uv(pixel_uv());

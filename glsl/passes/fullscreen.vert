@@ -24,6 +24,9 @@ bool is_drawn(ivec2 first, int side)
 
 void main()
 {
+#if FLAT
+    hand_on();
+#endif
     const vec2 corners[6] = vec2[6](vec2(0.0, 1.0), vec2(0.0, 0.0), vec2(1.0, 0.0),
                                     vec2(0.0, 1.0), vec2(1.0, 0.0), vec2(1.0, 1.0));
     v_uv = corners[gl_VertexID % 6];

@@ -3,7 +3,7 @@
 // side whose two nearest depths predict the pixel's own best: the linear quantity of distance predicts a plane exactly, and the
 // other side of a silhouette does not.
 // in  u_depth_map  stored depth, full size; point sampled, clamped
-// out result       octahedral (shared/normal_map.glsl); that of (0, 0, 1) on sky
+// out result       octahedral (shared/octahedral.glsl); that of (0, 0, 1) on sky
 
 #define RESULT vec2
 
@@ -66,13 +66,6 @@ vec2 stride(float linear)
     vec2 width = gFullTexel * (orthographic() ? abs(gRayOrigin.xy) : linear * abs(gRayDirection.xy));
     vec2 most = clamp(0.25 / gFullTexel, 1.0, 32.0);
     return clamp(ceil(4.0 * linear_step(linear) / max(width, 1e-30)), vec2(1.0), floor(most));
-}
-
-vec2 octahedral(vec3 normal)
-{
-    normal /= abs(normal.x) + abs(normal.y) + abs(normal.z);
-    vec2 side = vec2(normal.x >= 0.0 ? 1.0 : -1.0, normal.y >= 0.0 ? 1.0 : -1.0);
-    return normal.z >= 0.0 ? normal.xy : (1.0 - abs(normal.yx)) * side;
 }
 
 RESULT result()

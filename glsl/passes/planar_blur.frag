@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: MIT
 // One pass of the planar blur (shared/planar_blur.glsl): a direction of the first round, or with WIDE 1 a later round.
 // STRIDE: the neighbours of the first round lie 2 to that power of pixels apart.
+// CORRECTS 2: the last pass of the blur of a difference (rays.frag) adds it to the estimate, a control variate. Compare E. Heitz,
+// S. Hill, M. McGuire, "Combining analytic direct illumination and stochastic shadows" (2018), who blur a ratio.
 // in  u_ambient_map  paired values; point sampled, clamped
+// in  u_rays_map     CORRECTS 2: paired values of the estimate; point sampled
 // out result         by OUTPUT: accessibility or the paired value
 
 uniform sampler2D u_ambient_map;
+#if CORRECTS == 2
+uniform sampler2D u_rays_map;
+#endif
 #if !WIDE
-uniform bool gHorizontalBlur;
+#if !FLAT
+uniform int gHorizontalBlur; // 0 or 1
+#endif
 #endif
 #define RESULT AMBIENT
 
@@ -25,10 +33,15 @@ RESULT result()
     CONTENTS contents =
         blurred_wide(paired_at(uv - x), paired_at(uv - y), center, paired_at(uv + y), paired_at(uv + x));
 #else
-    vec2 way = gHorizontalBlur ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
+    vec2 way = gHorizontalBlur != 0 ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
     vec2 by = float(1 << STRIDE) * way * gInvRenderTargetSize;
     CONTENTS contents = blurred(paired_at(uv - 2.0 * by), paired_at(uv - by), center, paired_at(uv + by),
                                 paired_at(uv + 2.0 * by), way);
+#endif
+#if CORRECTS == 2
+    float difference = contents < 0.0 ? 0.0 : 2.0 * contents - 1.0;
+    float estimate = accessibility_of(textureLod(u_rays_map, uv, 0.0).rg);
+    contents = pow(clamp(pow(estimate, 1.0 / gPower) + difference, 0.0, 1.0), gPower);
 #endif
     return ambient(contents, center.y, normal_code(center));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Lays out the blocks of four pixels that upsample.frag made.
 // in  u_ambient_map    half size: lower left, lower right, upper left, upper right; point sampled
-// in  u_bent_map       BENT 1: their bent normals, packed (shared/packed_direction.glsl); point sampled
+// in  u_bent_map       BENT 1: their bent normals, packed (shared/octahedral.glsl); point sampled
 // out o_accessibility  R16, full size
 // out o_bent_normal    BENT 1: bent normal and accessibility, full size
 

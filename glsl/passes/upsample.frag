@@ -3,7 +3,7 @@
 // most fetches and decisions. spread.frag lays them out.
 // in  u_ambient_map    paired values, half size; point sampled, clamped
 // out o_accessibility  of the lower left, lower right, upper left and upper right pixel
-// out o_bent_normals   BENT 1: theirs, packed (shared/packed_direction.glsl)
+// out o_bent_normals   BENT 1: theirs, packed (shared/octahedral.glsl)
 
 uniform sampler2D u_ambient_map;
 layout(location = 0) out vec4 o_accessibility;

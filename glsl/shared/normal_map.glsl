@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads the normal map. NORMALS: how the host stores them; octahedral is the encoding of Q. Meyer et al., "On
-// Floating-Point Normal Vectors" (2010), in two channels of -1..1.
+// Reads the normal map. NORMALS: how the host stores them.
 // TURNED: they lie in another space than the passes compute in.
 
 uniform sampler2D u_normal_map; // any length
@@ -9,10 +8,7 @@ uniform sampler2D u_normal_map; // any length
 vec3 decoded_normal(vec3 normal)
 {
 #if NORMALS == NORMALS_OCTAHEDRAL || NORMALS == NORMALS_REBUILT
-    normal.z = 1.0 - abs(normal.x) - abs(normal.y);
-    // The lower half is folded over the square's edges; a coordinate of 0 belongs to the positive side.
-    vec2 side = vec2(normal.x >= 0.0 ? 1.0 : -1.0, normal.y >= 0.0 ? 1.0 : -1.0);
-    normal.xy = normal.z >= 0.0 ? normal.xy : (1.0 - abs(normal.yx)) * side;
+    normal = octahedral_direction(normal.xy);
 #elif NORMALS == NORMALS_UNSIGNED
     normal = normal * 2.0 - 1.0;
 #endif

@@ -2,7 +2,9 @@
 // Which pixel a pass computes.
 
 // Where the target's lower left corner lies in the maps, in pixels. Not 0 only for the last pass of a frame with a margin.
+#if !FLAT
 uniform vec2 gOrigin;
+#endif
 
 #if COMPUTE
 uniform ivec4 gRegion; // of the target, pixels: lower left corner and size of what is written

@@ -16,13 +16,17 @@ float line_tolerance(float linear)
     return max(BLUR_TOLERANCE * radius_in_linear(linear), linear_step(linear));
 }
 
-#if !BENT
 // Of the pixel's own value and four others. RAYS 1: of those that are not missing; missing where all are. Later rounds for
 // rays alone (STRIDE above 0, CORRECTS 0) count values less the more they differ: the first has left little noise, so a
-// difference is a shadow's edge.
+// difference is a shadow's edge. The first round for a correction (CORRECTS) trusts a difference less the fewer taps it has,
+// since more of it is noise: a few that say that the estimate is right already count with them.
 float weighted_mean(float own, float weight, vec4 others, vec4 weights)
 {
 #if RAYS
+#if CORRECTS && STRIDE == 0
+    float taps = weight + dot(weights, vec4(1.0));
+    float trust = (1.0 + 0.25 * CORRECTION_PRIOR) * taps / (taps + CORRECTION_PRIOR); // 1 for all 4
+#endif
     weight = own < 0.0 ? 0.0 : weight;
     weights = mix(weights, vec4(0.0), lessThan(others, vec4(0.0)));
 #if STRIDE > 0 && !CORRECTS
@@ -31,17 +35,20 @@ float weighted_mean(float own, float weight, vec4 others, vec4 weights)
 #endif
     float sum = weight * own + dot(weights, others);
     float total = weight + dot(weights, vec4(1.0));
+#if CORRECTS && STRIDE == 0
+    return total > 0.0 ? 0.5 + trust * (sum / total - 0.5) : MISSING;
+#else
     return total > 0.0 ? sum / total : MISSING;
+#endif
 #else
     return (weight * own + dot(weights, others)) / (weight + dot(weights, vec4(1.0)));
 #endif
 }
-#endif
 
 // Contents of a pixel from the paired values of itself and of the two on each side along `way`.
 CONTENTS blurred(PAIRED before_2, PAIRED before, PAIRED center, PAIRED after, PAIRED after_2, vec2 way)
 {
-#if BRANCHES
+#if BRANCHES && !CORRECTS
     // Most pixels are surrounded by equal ones, which nothing occludes.
     if (is_same(before_2, center) && is_same(before, center) && is_same(after, center) && is_same(after_2, center))
         return contents_of(center);
@@ -113,19 +120,15 @@ CONTENTS blurred_wide(PAIRED left, PAIRED below, PAIRED center, PAIRED above, PA
     vec4 weights = mix(vec4(0.0), vec4(0.1875), joins);
     float own = accessibility_of(center);
     vec4 taps = vec4(accessibility_of(left), accessibility_of(below), accessibility_of(above), accessibility_of(right));
-#if BENT
-    // Two slices leave little noise in directions, and in a crease they differ more than by noise.
-    vec3 direction = contents_of(center).yzw;
-    if (gSampleCount <= 16)
-        direction = (0.25 * direction + weighted(weights, left, below, above, right).yzw) / (0.25 + dot(weights, vec4(1.0)));
-#endif
 #if !RAYS
     vec4 apart = (taps - own) * (float(gSampleCount) / BLUR_ALIKE);
     weights *= max(vec4(0.0), 1.0 - apart * apart);
 #endif
+    float mean = weighted_mean(own, 0.25, taps, weights);
 #if BENT
-    return vec4((0.25 * own + dot(weights, taps)) / (0.25 + dot(weights, vec4(1.0))), direction);
+    // The first round leaves little noise in directions, and in a crease they differ more than by noise.
+    return vec4(mean, contents_of(center).yzw);
 #else
-    return weighted_mean(own, 0.25, taps, weights);
+    return mean;
 #endif
 }

@@ -32,8 +32,9 @@
 #define BLUR_ALIKE 2.0        // from this difference on a later round's tap counts no more, in shares of a sample
 #define BLUR_HOLLOW 0.1       // how far a later round's line may bend towards the eye at its ends
 
-// The later rounds of the blur of rays (shared/planar_blur.glsl).
-#define RAYS_ALIKE 0.14       // difference of accessibility at which a tap counts no more
+// The blur of rays (shared/planar_blur.glsl).
+#define RAYS_ALIKE 0.14       // difference of accessibility at which a later round's tap counts no more
+#define CORRECTION_PRIOR 2.0  // taps that say that the estimate is right already, beside the 4 of a full window
 
 // Upsampling (shared/upsample.glsl).
 #define UPSAMPLE_TOLERANCE 0.02 // how far off the plane of its neighbours a pixel may be

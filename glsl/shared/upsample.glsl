@@ -20,17 +20,25 @@ float fall(float own, PAIRED corner, vec2 full_uv, vec2 way)
 #endif
 
 #if BENT && NORMALS == NORMALS_REBUILT
-// The normal of the corner that is `way` pixels from a full-size one.
-vec3 corner_normal(vec2 full_uv, vec2 way)
+// Of the block's four texels: its own, the one to the right, the one above, and the one beyond both.
+vec3 corner_normals[4];
+
+void fetch_corner_normals(vec2 full_uv)
 {
-    vec2 texel = floor(0.5 * (full_uv / gFullTexel + way));
-    return normal_view_from_stored(textureLod(u_normal_map, (texel + 0.5) * gInvRenderTargetSize, 0.0).xyz);
+    vec2 uv = (floor(0.5 * full_uv / gFullTexel) + 0.5) * gInvRenderTargetSize;
+    UNROLL for (int i = 0; i < 4; ++i) {
+        vec2 corner = uv + vec2(float(i & 1), float(i >> 1)) * gInvRenderTargetSize;
+        corner_normals[i] = normal_view_from_stored(textureLod(u_normal_map, corner, 0.0).xyz);
+    }
 }
 
-vec3 mean_normal(vec4 weights, vec2 odd, vec2 full_uv)
+// Of a full-size pixel that is `odd`, from neighbours with these weights.
+vec3 mean_normal(vec4 weights, vec2 odd)
 {
-    vec3 sum = weights.x * corner_normal(full_uv, -odd) + weights.y * corner_normal(full_uv, vec2(odd.x, -odd.y)) +
-               weights.z * corner_normal(full_uv, vec2(-odd.x, odd.y)) + weights.w * corner_normal(full_uv, odd);
+    vec3 below = weights.x * corner_normals[0] + weights.y * corner_normals[odd.x > 0.0 ? 1 : 0];
+    vec3 above = weights.z * corner_normals[odd.y > 0.0 ? 2 : 0] +
+                 weights.w * corner_normals[(odd.x > 0.0 ? 1 : 0) + (odd.y > 0.0 ? 2 : 0)];
+    vec3 sum = below + above;
     return sum * inversesqrt(max(dot(sum, sum), 1e-10));
 }
 #endif
@@ -81,7 +89,7 @@ CONTENTS upsampled(PAIRED a, PAIRED b, PAIRED c, PAIRED d, vec2 odd, vec2 full_u
     vec4 weights = upsample_weights(a, b, c, d, odd, full_uv, depth);
     CONTENTS mean = weighted(weights, a, b, c, d) / dot(weights, vec4(1.0));
 #if BENT && NORMALS == NORMALS_REBUILT
-    return delivered(mean, is_sky(depth), mean_normal(weights, odd, full_uv));
+    return delivered(mean, is_sky(depth), mean_normal(weights, odd));
 #elif BENT
     return delivered(mean, is_sky(depth), normal_view_from_stored(textureLod(u_normal_map, full_uv, 0.0).xyz));
 #else
@@ -104,7 +112,10 @@ block upsampled_block(PAIRED a, PAIRED b, PAIRED c, PAIRED d, vec2 full_uv)
 #endif
     vec2 full_next = full_uv + gFullTexel;
     bool sky = is_sky(depth_component(textureLod(u_depth_map, full_uv, 0.0)));
-#if BENT
+#if BENT && NORMALS == NORMALS_REBUILT
+    fetch_corner_normals(full_uv);
+    CONTENTS own = delivered(contents_of(a), sky, corner_normals[0]);
+#elif BENT
     CONTENTS own = delivered(contents_of(a), sky, normal_view_at_uv(full_uv));
 #else
     CONTENTS own = sky ? 1.0 : contents_of(a);

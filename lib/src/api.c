@@ -8,6 +8,7 @@
 #include "frame/schedule.h"
 #include "input/check.h"
 
+#include <math.h>
 #include <string.h>
 
 bool glssao__effect_is_closed(const glssao_effect *effect, const char *function)
@@ -122,9 +123,11 @@ static void run_schedule(glssao_effect *effect, const call *c, const glssao__sch
         glssao__history_fill(&effect->history, &source, c->frames, &effect->uniforms.frame);
         glssao__accumulate_stop(accumulation, &effect->gl);
     }
-    glssao__history_keep(&effect->history, &source, c->frames, delivered);
-    if (!is_sampled) /* no pass drew a history */
-        effect->history.frames = 0;
+    if (c->estimates == 0) { /* a mean of a still view leaves the history as it was */
+        glssao__history_keep(&effect->history, &source, c->frames, delivered);
+        if (!is_sampled) /* no pass drew a history */
+            effect->history.frames = 0;
+    }
     glssao__last_frame *last = &effect->last;
     last->number += 1;
     last->result = schedule->result;
@@ -278,6 +281,15 @@ glssao_result glssao_end_normals(glssao_effect *effect)
 
 /* ---- statistics ---- */
 
+static void add_time(glssao_stats *stats, const glssao__timers *timers, int section, glssao_pass pass)
+{
+    const double ms = timers->known_ms[section];
+    if (timers->known_frame == 0 || ms < 0.0)
+        return;
+    stats->passes[pass].gpu_ms = fmax(stats->passes[pass].gpu_ms, 0.0) + ms;
+    stats->gpu_ms += ms;
+}
+
 glssao_stats glssao_get_stats(glssao_effect *effect)
 {
     glssao_stats stats = {.gpu_ms = -1.0, .sampling_error = -1.0};
@@ -298,10 +310,8 @@ glssao_stats glssao_get_stats(glssao_effect *effect)
     for (int pass = 0; pass < GLSSAO_PASS_COUNT; ++pass) {
         stats.passes[pass].draw_calls = effect->last.draw_calls[pass];
         stats.draw_calls += effect->last.draw_calls[pass];
-        if (timers->known_frame == 0 || timers->known_ms[pass] < 0.0)
-            continue;
-        stats.passes[pass].gpu_ms = timers->known_ms[pass];
-        stats.gpu_ms += timers->known_ms[pass];
+        add_time(&stats, timers, pass, (glssao_pass)pass);
     }
+    add_time(&stats, timers, SECTION_DEPTH_COPY, GLSSAO_PASS_INPUTS);
     return stats;
 }

@@ -48,15 +48,16 @@ static glssao_result copy_depth(glssao_effect *effect, gl_uint framebuffer, cons
     const glssao__gl *gl = &effect->gl;
     const glssao__state_need need = glssao__depth_copy_need();
     const bool host_restores = effect->host_restores_state;
+    glssao__timers *timers = &effect->resources.timers;
     glssao__state state;
-    bool is_new;
     if (!host_restores && framebuffer != 0 && !gl->IsFramebuffer(framebuffer))
         return glssao__log_refuse(&effect->log, "framebuffer = %u: no framebuffer of this context", framebuffer);
     glssao__state_save(gl, &need, host_restores, &state);
+    glssao__timers_frame(timers, effect->last.number + 1);
     const glssao_result result =
-        glssao__depth_copy_take(&effect->depth_copy, gl, &effect->log, framebuffer, part, host_restores, &is_new);
+        glssao__depth_copy_take(&effect->depth_copy, gl, timers, &effect->log, framebuffer, part, host_restores);
     glssao__state_restore(gl, &state);
-    if (is_new)
+    if (effect->depth_copy.is_new)
         glssao__host_textures_forget(&effect->known, effect->depth_copy.texture);
     glssao__resources_check(&effect->resources, "glssao_compute_framebuffer");
     return result;
@@ -87,11 +88,12 @@ glssao_result glssao_compute_framebuffer(glssao_effect *effect, uint32_t framebu
         result = copy_depth(effect, framebuffer, part);
     if (result == GLSSAO_OK)
         result = glssao_resize(effect, part[2], part[3]);
-    if (result != GLSSAO_OK)
-        return result;
     copied.depth_texture = effect->depth_copy.texture;
-    result = glssao_compute(effect, &copied, settings);
+    if (result == GLSSAO_OK)
+        result = glssao_compute(effect, &copied, settings);
     if (result == GLSSAO_OK)
         memcpy(effect->last.viewport, part, sizeof part);
+    else
+        glssao__timers_drop(&effect->resources.timers, effect->last.number + 1);
     return result;
 }

@@ -4,6 +4,7 @@
  * configuration, splits the error by cause, and writes tables and pictures of the error.
  */
 #define _POSIX_C_SOURCE 200809L
+#include "bent.h"
 #include "check.h"
 #include "clock.h"
 #include "context.h"
@@ -164,9 +165,14 @@ static bool measure(run *r)
         if (!peers_open(&r->peers, &r->options, r->context, r->error, sizeof r->error))
             return false;
     }
-    if (!make_views(r) || !make_configs(r))
+    if (!make_views(r))
         return false;
     end_phase("scenes and their truth", &phase_ms);
+    if (r->options.bent)
+        return bent_measure(out, &r->effects, r->error, sizeof r->error) &&
+               report_scenes(out, r->error, sizeof r->error);
+    if (!make_configs(r))
+        return false;
     if (!errors_measure(out, &r->effects, &r->reader, r->error, sizeof r->error))
         return false;
     end_phase("errors", &phase_ms);
@@ -223,7 +229,7 @@ int main(int argc, char **argv)
             fprintf(stderr, "glssao-bench: %s\n", r.error);
         return parsed == OPTIONS_WRONG ? EXIT_USAGE : EXIT_DONE;
     }
-    r.options.flat = true;
+    r.options.flat = !r.options.bent;
     const bool done = measure(&r);
     if (!done)
         fprintf(stderr, "glssao-bench: %s\n", r.error);

@@ -52,6 +52,7 @@ static const option table[] = {
     WHOLE("split-seeds", "seeds whose mean stands for convergence, 0: no split (64)", split_seeds, 0, 4096),
     TEXT("out", "DIR", "where tables and pictures are written (out/bench)", out),
     TEXT("peers", "NODE_MODULES", "also the effects of the npm packages there (docs/comparison.md)", peers),
+    FLAG("bent", "bent normals of every level of horizon, and nothing else", bent),
     FLAG("quick", "built-in scenes, small and rough: under 3 minutes on 2 cores", quick),
     FLAG("check", "also fails where figures are not finite or not in the right order", check),
     WORD("context", CONTEXT_WORDS, "how to get OpenGL (auto)", context),

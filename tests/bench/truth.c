@@ -174,22 +174,67 @@ static bool trace(const truth_request *r, const scene *s, const scene_view *view
     return traced;
 }
 
+/* The path of a cached file, and its folder. */
+static bool find_cached(const truth_request *r, const scene *s, const scene_view *view, const char *ending,
+                        char out[PATH_LENGTH], char *error, size_t error_size)
+{
+    snprintf(out, PATH_LENGTH, "%s/%s-%016" PRIx64 "%s", r->cache, r->name, hash_request(r, s, view), ending);
+    if (make_folder(r->cache))
+        return true;
+    snprintf(error, error_size, "%s: no such folder can be made", r->cache);
+    return false;
+}
+
+static float *trace_open(const truth_request *r, const scene *s, const scene_view *view, char *error, size_t error_size)
+{
+    char name[128];
+    snprintf(name, sizeof name, "%s", r->name);
+    const trace_options options = {
+        .radius = r->radius, .samples = r->rays, .seed = r->seed, .progress = show_progress, .progress_user = name};
+    float(*out)[3] = malloc((size_t)view->width * (size_t)view->height * sizeof *out);
+    trace_scene *t = out ? trace_scene_create(s, error, error_size) : NULL;
+    const bool traced = t && trace_open_directions(t, view, &options, out, NULL, error, error_size);
+    progress_clear();
+    trace_scene_destroy(t);
+    if (!out)
+        snprintf(error, error_size, "out of memory");
+    if (traced)
+        return *out;
+    free(out);
+    return NULL;
+}
+
+float *truth_get_open(const truth_request *r, const scene *s, const scene_view *view, char *error, size_t error_size)
+{
+    char path[PATH_LENGTH], ignored[256];
+    int width, height, channels;
+    if (!r->cache)
+        return trace_open(r, s, view, error, error_size);
+    if (!find_cached(r, s, view, "-open.pfm", path, error, error_size))
+        return NULL;
+    float *known = picture_read_pfm(path, &width, &height, &channels, ignored, sizeof ignored);
+    if (known && width == view->width && height == view->height && channels == 3)
+        return known;
+    free(known);
+    float *traced = trace_open(r, s, view, error, error_size);
+    if (traced && picture_write_pfm(path, view->width, view->height, 3, traced, error, error_size))
+        return traced;
+    free(traced);
+    return NULL;
+}
+
 bool truth_get(const truth_request *r, const scene *s, const scene_view *view, bench_truth *out, char *error,
                size_t error_size)
 {
     *out = (bench_truth){0};
     if (!r->cache)
         return trace(r, s, view, out, error, error_size);
-    const uint64_t h = hash_request(r, s, view);
     char truth_path[PATH_LENGTH], mask_path[PATH_LENGTH];
-    snprintf(truth_path, sizeof truth_path, "%s/%s-%016" PRIx64 ".pfm", r->cache, r->name, h);
-    snprintf(mask_path, sizeof mask_path, "%s/%s-%016" PRIx64 "-mask.png", r->cache, r->name, h);
+    if (!find_cached(r, s, view, ".pfm", truth_path, error, error_size) ||
+        !find_cached(r, s, view, "-mask.png", mask_path, error, error_size))
+        return false;
     if (read_cached(truth_path, mask_path, view, out))
         return true;
-    if (!make_folder(r->cache)) {
-        snprintf(error, error_size, "%s: no such folder can be made", r->cache);
-        return false;
-    }
     return trace(r, s, view, out, error, error_size) &&
            write_cached(truth_path, mask_path, view, out, error, error_size);
 }

@@ -11,31 +11,15 @@
 #include "options.h"
 #include "pipeline.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { W = 64, H = 48 };
 
 static glssao_effect *counted_effect(fixture *f, glssao_path path)
 {
-    fixture_clear_log(f);
     glssao_config config = fixture_config(f, W, H);
     gl_counter_start(fixture_load, f->context);
     config.load = gl_counter_load;
     config.path = path;
-    glssao_effect *effect = NULL;
-    if (glssao_create(&config, &effect) != GLSSAO_OK)
-        fail_msg("glssao_create: %s", f->log);
-    return effect;
-}
-
-static glssao_frame room_frame(void)
-{
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
-    return fixture_frame(&view, room, ANALYTIC_ROOM_SHAPES, W, H);
+    return fixture_effect_of(f, &config);
 }
 
 /* Letters of the passes that run, in order: Inputs, Normals, Distance, Tiles, Estimate, Resolve, Blur, rAys, Upsample.
@@ -52,72 +36,24 @@ static void letters(const glssao_plan *plan, char out[GLSSAO_PASS_COUNT + 1])
 
 typedef void (*change_fn)(glssao_frame *frame, glssao_settings *settings);
 
-static void rebuild_normals(glssao_frame *f, glssao_settings *s)
-{
-    (void)s;
-    f->normal_texture = 0;
-}
-
-static void no_ambient(glssao_frame *f, glssao_settings *s)
-{
-    (void)s;
-    f->no_ambient_light = true;
-}
-
-static void only_sky(glssao_frame *f, glssao_settings *s)
-{
-    (void)s;
-    f->only_sky = true;
-}
-
-static void no_radius(glssao_frame *f, glssao_settings *s)
-{
-    (void)f;
-    s->radius = 0;
-}
-
-static void no_power(glssao_frame *f, glssao_settings *s)
-{
-    (void)f;
-    s->power = 0;
-}
-
-static void half_size(glssao_frame *f, glssao_settings *s)
-{
-    (void)f;
-    s->upsample = false;
-    s->blur = GLSSAO_BLUR_NONE;
-}
-
-static void no_rounds(glssao_frame *f, glssao_settings *s)
-{
-    (void)f;
-    s->blur_rounds = 0;
-}
-
-static void second_layer(glssao_frame *f, glssao_settings *s)
-{
-    (void)s;
-    f->back_texture = f->second_texture = f->depth_texture;
-}
-
-static void three_rounds(glssao_frame *f, glssao_settings *s)
-{
-    (void)f;
-    s->blur_rounds = 3;
-}
-
-static void tiles_on(glssao_frame *f, glssao_settings *s)
-{
-    (void)f;
-    s->tiles = GLSSAO_TILES_ON;
-}
-
-static void margin(glssao_frame *f, glssao_settings *s)
-{
-    (void)s;
-    f->margin = 8;
-}
+#define CHANGE(name, statements)                                                                                       \
+    static void name(glssao_frame *f, glssao_settings *s)                                                              \
+    {                                                                                                                  \
+        (void)f;                                                                                                       \
+        (void)s;                                                                                                       \
+        statements;                                                                                                    \
+    }
+CHANGE(rebuild_normals, f->normal_texture = 0)
+CHANGE(no_ambient, f->no_ambient_light = true)
+CHANGE(only_sky, f->only_sky = true)
+CHANGE(no_radius, s->radius = 0)
+CHANGE(no_power, s->power = 0)
+CHANGE(half_size, s->upsample = false; s->blur = GLSSAO_BLUR_NONE)
+CHANGE(no_rounds, s->blur_rounds = 0)
+CHANGE(second_layer, f->back_texture = f->second_texture = f->depth_texture)
+CHANGE(three_rounds, s->blur_rounds = 3)
+CHANGE(tiles_on, s->tiles = GLSSAO_TILES_ON)
+CHANGE(margin, f->margin = 8)
 
 static const struct row {
     const char *what;
@@ -166,7 +102,7 @@ static void check_row(fixture *f, const struct row *row, glssao_path path)
     assert_int_equal(made.draws, 0);
     assert_int_equal(made.programs, 1); /* shows how the driver lays out blocks */
     assert_int_equal(made.textures, 4); /* normals, two ambient maps, random vectors */
-    glssao_frame frame = room_frame();
+    glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
     glssao_frame changed = frame;
     glssao_settings settings = glssao_default_settings(row->technique, row->quality);
     if (row->change)
@@ -179,7 +115,9 @@ static void check_row(fixture *f, const struct row *row, glssao_path path)
     for (int frame_number = 0; frame_number < 2; ++frame_number) {
         assert_int_equal(glssao_compute(effect, &changed, &settings), GLSSAO_OK);
         const gl_counts counts = gl_counter_take();
+        gl.Finish();
         const glssao_stats stats = glssao_get_stats(effect);
+        assert_int_equal(stats.frame, frame_number + 1);
         int planned = 0, dispatched = 0;
         for (int i = 0; i < GLSSAO_PASS_COUNT; ++i) {
             const bool compute = path == GLSSAO_PATH_COMPUTE && plan.passes[i].run && is_dispatched(row, &settings, i);
@@ -188,6 +126,7 @@ static void check_row(fixture *f, const struct row *row, glssao_path path)
             dispatched += compute ? plan.passes[i].draw_calls : 0;
             assert_int_equal(plan.passes[i].draw_calls, stats.passes[i].draw_calls);
             assert_true(plan.passes[i].run == (stats.passes[i].draw_calls > 0));
+            assert_true(plan.passes[i].run == (stats.passes[i].gpu_ms >= 0.0));
             assert_true(strlen(plan.passes[i].reason) > 0);
         }
         const int programs = frame_number == 0 ? calls.programs : 0, textures = frame_number == 0 ? calls.textures : 0;
@@ -203,13 +142,13 @@ static void check_row(fixture *f, const struct row *row, glssao_path path)
     fixture_delete_frame(&frame);
 }
 
-static void each_setting_causes_these_calls(void **state)
+TEST_GL(each_setting_causes_these_calls)
 {
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)
         check_row(*state, &rows[i], GLSSAO_PATH_FRAGMENT);
 }
 
-static void each_setting_causes_these_dispatches(void **state)
+TEST_GL(each_setting_causes_these_dispatches)
 {
     if (fixture_hides_newer()) {
         print_message("the loader hides compute shaders\n");
@@ -238,10 +177,10 @@ static void *gpu_load(const char *name, void *user)
 }
 
 /* Sorting tiles pays off on software rasterisers, compute shaders on GPUs. */
-static void tiles_and_path_depend_on_the_driver(void **state)
+TEST_GL(tiles_and_path_depend_on_the_driver)
 {
     fixture *f = *state;
-    const glssao_frame frame = room_frame();
+    const glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
     for (int gpu = 0; gpu < 2; ++gpu)
         for (int tiles = GLSSAO_TILES_AUTO; tiles <= GLSSAO_TILES_ON; ++tiles) {
@@ -264,10 +203,10 @@ static void tiles_and_path_depend_on_the_driver(void **state)
 }
 
 /* After glssao_prepare a frame compiles and allocates nothing; preparing draws nothing. */
-static void prepared_frames_make_nothing(void **state)
+TEST_GL(prepared_frames_make_nothing)
 {
     glssao_effect *effect = counted_effect(*state, GLSSAO_PATH_AUTO);
-    const glssao_frame frame = room_frame();
+    const glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
     settings.tiles = GLSSAO_TILES_ON;
     (void)gl_counter_take();
@@ -345,7 +284,7 @@ static gl_counts count_frame(const scene *s, const struct scene_row *row)
     return counts;
 }
 
-static void each_scene_causes_these_calls(void **state)
+TEST_GL(each_scene_causes_these_calls)
 {
     fixture *f = *state;
     char error[1024] = "";
@@ -392,7 +331,7 @@ static int drawn_normals(fixture *f, const scene *s, bool wanted)
     return drawn;
 }
 
-static void normals_are_drawn_where_they_are_read(void **state)
+TEST_GL(normals_are_drawn_where_they_are_read)
 {
     fixture *f = *state;
     char error[1024] = "";
@@ -406,9 +345,8 @@ static void normals_are_drawn_where_they_are_read(void **state)
 
 /* A wall that fills the view hides the sky, which is then drawn once only. From farther away it is drawn every
  * frame. */
-static void hidden_sky_is_not_drawn_again(void **state)
+TEST_GL(hidden_sky_is_not_drawn_again)
 {
-    (void)state;
     char error[1024];
     scene *s = scene_make("cornell", error, sizeof error);
     scene_renderer *r = scene_renderer_create(s, error, sizeof error);
@@ -449,12 +387,5 @@ static void hidden_sky_is_not_drawn_again(void **state)
 
 int main(void)
 {
-#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
-    const struct CMUnitTest tests[] = {
-        TEST(each_setting_causes_these_calls),     TEST(each_setting_causes_these_dispatches),
-        TEST(tiles_and_path_depend_on_the_driver), TEST(prepared_frames_make_nothing),
-        TEST(each_scene_causes_these_calls),       TEST(normals_are_drawn_where_they_are_read),
-        TEST(hidden_sky_is_not_drawn_again),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -8,9 +8,6 @@
 #include "gl_counter.h"
 
 #include <dirent.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 enum { W = 64, H = 48, PROGRAMS = 7 /* apply, and horizon's six */ };
@@ -88,16 +85,7 @@ static cached open_cached(void **state)
 {
     cached c = {.f = *state, .folder = "/tmp/glssao-cache-XXXXXX"};
     assert_non_null(mkdtemp(c.folder));
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
-    float *depth, *normals;
-    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, W, H, &depth, &normals);
-    c.frame.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, depth);
-    c.frame.normal_texture = fixture_normal_texture(W, H, normals);
-    memcpy(c.frame.projection, view.projection, sizeof c.frame.projection);
-    free(depth);
-    free(normals);
+    c.frame = fixture_room(PERSPECTIVE, W, H);
     const gl_counts counts = run(&c, NULL);
     assert_true(counts.programs == PROGRAMS && counts.binaries == 0);
     return c;
@@ -107,7 +95,7 @@ static void close_cached(cached *c)
 {
     for_each_file(c->folder, delete_file);
     rmdir(c->folder);
-    gl.DeleteTextures(2, (const GLuint[2]){c->frame.depth_texture, c->frame.normal_texture});
+    fixture_delete_frame(&c->frame);
     free(c->wanted);
 }
 
@@ -125,7 +113,7 @@ static bool fill(cached *c)
     return formats > 0;
 }
 
-static void the_second_run_compiles_nothing(void **state)
+TEST_GL(the_second_run_compiles_nothing)
 {
     cached c = open_cached(state);
     if (fill(&c)) {
@@ -137,7 +125,7 @@ static void the_second_run_compiles_nothing(void **state)
 
 /* Both ways draw the program of glssao_apply; the frame's three compute shaders are other programs than its four
  * fragment ones. */
-static void each_path_has_programs_of_its_own(void **state)
+TEST_GL(each_path_has_programs_of_its_own)
 {
     cached c = open_cached(state);
     if (fill(&c))
@@ -196,7 +184,7 @@ static void empty(const char *path)
 }
 
 /* Each damaged file is refused, recompiled and repaired on disk. */
-static void damaged_files_are_compiled_anew(void **state)
+TEST_GL(damaged_files_are_compiled_anew)
 {
     static const file_fn damages[] = {change_magic, change_key, change_length, change_program, cut_short, empty};
     cached c = open_cached(state);
@@ -212,7 +200,7 @@ static void damaged_files_are_compiled_anew(void **state)
 }
 
 /* The checksum covers the head: the driver never gets a format that it did not write. */
-static void a_strange_format_is_not_handed_to_the_driver(void **state)
+TEST_GL(a_strange_format_is_not_handed_to_the_driver)
 {
     cached c = open_cached(state);
     if (fill(&c)) {
@@ -223,7 +211,7 @@ static void a_strange_format_is_not_handed_to_the_driver(void **state)
     close_cached(&c);
 }
 
-static void a_folder_that_is_not_there_does_no_harm(void **state)
+TEST_GL(a_folder_that_is_not_there_does_no_harm)
 {
     cached c = open_cached(state);
     c.is_refused = true;
@@ -234,11 +222,5 @@ static void a_folder_that_is_not_there_does_no_harm(void **state)
 
 int main(void)
 {
-#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
-    const struct CMUnitTest tests[] = {
-        TEST(the_second_run_compiles_nothing),         TEST(each_path_has_programs_of_its_own),
-        TEST(damaged_files_are_compiled_anew),         TEST(a_strange_format_is_not_handed_to_the_driver),
-        TEST(a_folder_that_is_not_there_does_no_harm),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

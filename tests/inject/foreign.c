@@ -14,11 +14,14 @@
  *   resolve   the scene in a multisampled framebuffer, blitted to another, and that one into the window
  *   zoom      from the 4th frame with another field of view
  *   several   from the 4th frame in a framebuffer with two pictures, which is not followed
+ *   empty     the scene is drawn without depth
+ *   demand    nothing but the background in the first two frames; 0.4 seconds pass after each frame
  *   contexts  40 windows are opened and closed before
  *   german    a locale with a decimal comma
  *   own       with the effect by glssao_compute, which is told the true matrix: what inject's should look like
  * Options as dropin's.
  */
+#define _POSIX_C_SOURCE 200809L
 #include "support.h"
 
 #include <cglm/cglm.h>
@@ -27,6 +30,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #define ZERO_TO_ONE 0x935F
 #define LOWER_LEFT 0x8CA1
@@ -247,6 +251,7 @@ int main(int argc, char **argv)
     const bool reversed = has(argc, argv, "reversed"), range = has(argc, argv, "range");
     const bool own = has(argc, argv, "own"), weapon = has(argc, argv, "weapon"), icon = has(argc, argv, "icon");
     const bool pick = has(argc, argv, "pick"), resolve = has(argc, argv, "resolve"), shared = has(argc, argv, "shared");
+    const bool empty = has(argc, argv, "empty"), demand = has(argc, argv, "demand");
     const bool post = shared || has(argc, argv, "post");
     if (has(argc, argv, "german") && !setlocale(LC_ALL, "de_DE.UTF-8")) {
         fprintf(stderr, "there is no locale de_DE.UTF-8\n");
@@ -335,7 +340,10 @@ int main(int argc, char **argv)
             glReadPixels(320, 240, 1, 1, GL_RGBA, GL_FLOAT, pixel);
         }
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, 24);
+        glDepthMask(!empty);
+        if (!demand || number > 2)
+            glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, 24);
+        glDepthMask(GL_TRUE);
         if (own) {
             glssao_frame frame = {.clip_zero_to_one = reversed};
             memcpy(frame.projection, projection, sizeof frame.projection);
@@ -364,6 +372,8 @@ int main(int argc, char **argv)
         }
         show(&b, show_program);
         dropin_show(window, &o, WIDTH, HEIGHT);
+        if (demand)
+            nanosleep(&(struct timespec){0, 400000000}, NULL);
         if (other)
             glfwMakeContextCurrent(other);
     }

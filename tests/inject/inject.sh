@@ -88,6 +88,19 @@ LD_PRELOAD=$library "$foreign" zoom --frames 150 >log 2>&1 || fail "zoom: exit c
 LD_PRELOAD=$library "$foreign" several --frames 500 >log 2>&1 || fail "several: exit code $?"
 [ "$(grep -c 'glssao-inject: off: ' log)" = 1 ] || fail "several: not told that the effect is off"
 unset GLSSAO_INJECT_RADIUS
+# An empty depth buffer is told of once, with what to do: after 60 frames, or after 3 seconds where frames are few.
+for modes in "empty --frames 70" "empty demand --frames 10"; do
+    # shellcheck disable=SC2086
+    LD_PRELOAD=$library "$foreign" $modes >log 2>&1 || fail "$modes: exit code $?"
+    [ "$(grep -c 'glssao-inject: ' log)" = 1 ] &&
+        grep -q 'the depth buffer is empty: .* try it with its post-processing and anti-aliasing switched off, and see docs/inject.md' log ||
+        fail "$modes: not told once what to do"
+done
+LD_PRELOAD=$library "$foreign" empty --frames 50 >log 2>&1 || fail "empty: exit code $?"
+! grep -q 'glssao-inject: ' log || fail "empty: told too early"
+# A program that draws on demand gets the effect with its second picture of a scene, not after the frames of one that draws all the time.
+GLSSAO_INJECT_FRAME=4 GLSSAO_INJECT_PICTURE=demand.ppm LD_PRELOAD=$library "$foreign" demand --frames 5 >log 2>&1 || fail "demand: exit code $?"
+grep -q 'glssao-inject: on: ' log || fail "demand: not on after three redraws"
 
 for gears in glxgears eglgears_x11; do
     command -v $gears >/dev/null || { echo "inject.sh: no $gears here (mesa-utils)"; continue; }

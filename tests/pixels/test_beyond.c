@@ -5,10 +5,6 @@
 #include "analytic.h"
 #include "fixture.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum {
     W = 96,
     H = 64,
@@ -28,10 +24,8 @@ static glssao_frame make_frame(int margin, float **out_depth)
     view.projection[5] *= (float)H / (float)height;
     float *depth, *normals;
     analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, width, height, &depth, &normals);
-    glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, width, height, depth),
-                          .normal_texture = fixture_normal_texture(width, height, normals),
-                          .margin = margin};
-    memcpy(frame.projection, view.projection, sizeof frame.projection);
+    glssao_frame frame = fixture_maps_frame(&view, width, height, GL_DEPTH_COMPONENT32F, depth, normals);
+    frame.margin = margin;
     free(normals);
     if (out_depth)
         *out_depth = depth;
@@ -40,16 +34,10 @@ static glssao_frame make_frame(int margin, float **out_depth)
     return frame;
 }
 
-static void delete_frame(glssao_frame *frame)
-{
-    const GLuint textures[] = {frame->depth_texture, frame->normal_texture, frame->back_texture, frame->second_texture};
-    gl.DeleteTextures(4, textures);
-}
-
 static const glssao_technique techniques[] = {GLSSAO_CLASSIC, GLSSAO_HEMISPHERE, GLSSAO_HORIZON};
 
 /* With a margin, the result is the middle of the whole picture's result: drawing less changes no pixel. */
-static void margin_is_cut_off(void **state)
+TEST_GL(margin_is_cut_off)
 {
     for (int i = 0; i < 3; ++i)
         for (int variant = 0; variant < 4; ++variant) {
@@ -82,12 +70,12 @@ static void margin_is_cut_off(void **state)
             free(wanted);
             glssao_destroy(whole);
             glssao_destroy(cut);
-            delete_frame(&frame);
+            fixture_delete_frame(&frame);
         }
 }
 
 /* A floor whose wall stands just outside the picture: only the margin shows the occluder. */
-static void margin_finds_occluders_beyond_the_edge(void **state)
+TEST_GL(margin_finds_occluders_beyond_the_edge)
 {
     double darkened[2];
     for (int i = 0; i < 2; ++i) {
@@ -98,12 +86,8 @@ static void margin_finds_occluders_beyond_the_edge(void **state)
         view.projection[5] *= (float)H / (float)height;
         analytic_shape shapes[2] = {{ANALYTIC_PLANE, {0.0, 0.0, -4.0}, {0.0, 0.0, 1.0}},
                                     {ANALYTIC_PLANE, {edge + 0.05, 0.0, 0.0}, {-1.0, 0.0, 0.0}}};
-        float *depth, *normals;
-        analytic_render(&view, shapes, 2, width, height, &depth, &normals);
-        glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, width, height, depth),
-                              .normal_texture = fixture_normal_texture(width, height, normals),
-                              .margin = margin};
-        memcpy(frame.projection, view.projection, sizeof frame.projection);
+        glssao_frame frame = fixture_frame(&view, shapes, 2, width, height);
+        frame.margin = margin;
         glssao_effect *effect = fixture_effect(*state, width, height);
         const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_ULTRA);
         int w, h;
@@ -112,10 +96,8 @@ static void margin_finds_occluders_beyond_the_edge(void **state)
         for (int y = 0; y < H; ++y)
             darkened[i] += (1.0 - (double)got[y * W + W - 1]) / H;
         free(got);
-        free(depth);
-        free(normals);
         glssao_destroy(effect);
-        delete_frame(&frame);
+        fixture_delete_frame(&frame);
     }
     print_message("right column darkened by %.3f without, %.3f with a margin\n", darkened[0], darkened[1]);
     assert_true(darkened[0] < 0.02);
@@ -139,13 +121,11 @@ static double behind_a_plate(fixture *f, double thickness, bool layers, double s
     for (int i = 0; i < W * H; ++i)
         if (normals[3 * i + 2] < 0.99f || depth[i] >= back[i])
             back[i] = second[i] = 1.0f; /* the plane behind has neither layer */
-    glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, depth),
-                          .normal_texture = fixture_normal_texture(W, H, normals)};
+    glssao_frame frame = fixture_maps_frame(&view, W, H, GL_DEPTH_COMPONENT32F, depth, normals);
     if (layers) {
         frame.back_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, back);
         frame.second_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, second);
     }
-    memcpy(frame.projection, view.projection, sizeof frame.projection);
     glssao_effect *effect = fixture_effect(f, W, H);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_ULTRA);
     int w, h;
@@ -168,11 +148,11 @@ static double behind_a_plate(fixture *f, double thickness, bool layers, double s
     free(back);
     free(second);
     glssao_destroy(effect);
-    delete_frame(&frame);
+    fixture_delete_frame(&frame);
     return sum / count;
 }
 
-static void thickness_is_read(void **state)
+TEST_GL(thickness_is_read)
 {
     const double far_off = 20.0;
     const double thin = behind_a_plate(*state, 0.05, true, far_off), thick = behind_a_plate(*state, 0.4, true, far_off);
@@ -186,7 +166,7 @@ static void thickness_is_read(void **state)
     assert_true(seconded > thin + 0.02); /* surfaces behind the plate occlude too */
 }
 
-static void refuses_what_it_cannot_use(void **state)
+TEST_GL(refuses_what_it_cannot_use)
 {
     fixture *f = *state;
     glssao_effect *effect = fixture_effect(f, W, H);
@@ -195,50 +175,36 @@ static void refuses_what_it_cannot_use(void **state)
     for (int i = 0; i < 4; ++i) {
         glssao_frame frame = make_frame(0, NULL);
         frame.margin = margins[i];
-        assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_INVALID_ARGUMENT);
-        assert_non_null(strstr(f->log, "frame.margin"));
-        fixture_clear_log(f);
-        delete_frame(&frame);
+        fixture_refused(f, glssao_compute(effect, &frame, &settings), "frame.margin");
+        fixture_delete_frame(&frame);
     }
     glssao_frame frame = make_frame(0, NULL);
     frame.back_texture = frame.depth_texture;
-    assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_INVALID_ARGUMENT);
-    assert_non_null(strstr(f->log, "frame.second_texture"));
-    fixture_clear_log(f);
+    fixture_refused(f, glssao_compute(effect, &frame, &settings), "frame.second_texture");
     frame.second_texture = 9999;
-    assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_INVALID_ARGUMENT);
-    assert_non_null(strstr(f->log, "frame.second_texture"));
-    fixture_clear_log(f);
+    fixture_refused(f, glssao_compute(effect, &frame, &settings), "frame.second_texture");
     frame.back_texture = frame.second_texture = 0;
-    delete_frame(&frame);
+    fixture_delete_frame(&frame);
     glssao_destroy(effect);
 }
 
 /* The last frame's margin does not apply to the new size; glssao_apply would draw a negative area. */
-static void resize_forgets_the_margin(void **state)
+TEST_GL(resize_forgets_the_margin)
 {
     glssao_effect *effect = fixture_effect(*state, WIDE, HIGH);
     glssao_frame frame = make_frame(MARGIN, NULL);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_OK);
     assert_int_equal(glssao_resize(effect, 16, 16), GLSSAO_OK);
-    GLuint color, framebuffer;
-    gl.GenTextures(1, &color);
-    gl.BindTexture(GL_TEXTURE_2D, color);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 16, 16, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
-    gl.GenFramebuffers(1, &framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
-    assert_int_equal(glssao_apply(effect, framebuffer), GLSSAO_OK); /* the teardown checks for OpenGL errors */
-    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
-    gl.DeleteFramebuffers(1, &framebuffer);
-    gl.DeleteTextures(1, &color);
+    const fixture_target target = fixture_make_target(GL_RGBA8, 16, 16);
+    assert_int_equal(glssao_apply(effect, target.framebuffer), GLSSAO_OK); /* the teardown checks for OpenGL errors */
+    fixture_delete_target(&target);
     glssao_destroy(effect);
-    delete_frame(&frame);
+    fixture_delete_frame(&frame);
 }
 
 /* The mean of a frame with a margin. Where nothing lies outside the picture, it converges to the mean without one. */
-static void accumulation_keeps_the_margin(void **state)
+TEST_GL(accumulation_keeps_the_margin)
 {
     glssao_effect *effect = fixture_effect(*state, WIDE, HIGH), *wide_effect = fixture_effect(*state, WIDE, HIGH);
     glssao_frame frame = make_frame(MARGIN, NULL), wide_frame = frame;
@@ -262,18 +228,10 @@ static void accumulation_keeps_the_margin(void **state)
     free(wanted);
     glssao_destroy(effect);
     glssao_destroy(wide_effect);
-    delete_frame(&frame);
+    fixture_delete_frame(&frame);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(margin_is_cut_off, NULL, fixture_no_gl_error),
-        cmocka_unit_test_setup_teardown(margin_finds_occluders_beyond_the_edge, NULL, fixture_no_gl_error),
-        cmocka_unit_test_setup_teardown(thickness_is_read, NULL, fixture_no_gl_error),
-        cmocka_unit_test_setup_teardown(refuses_what_it_cannot_use, NULL, fixture_no_gl_error),
-        cmocka_unit_test_setup_teardown(resize_forgets_the_margin, NULL, fixture_no_gl_error),
-        cmocka_unit_test_setup_teardown(accumulation_keeps_the_margin, NULL, fixture_no_gl_error),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -7,12 +7,9 @@
 #include "draw.h"
 #include "draw_frame.h"
 #include "fixture.h"
+#include "open_light.h"
 #include "small_scene.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 static const double pi = 3.14159265358979;
@@ -56,9 +53,8 @@ static double gradient_irradiance(double level, double tilt, double cos_up)
     return sum / (STEPS * STEPS);
 }
 
-static void gradient_lights_as_its_integral_says(void **state)
+TEST_GL(gradient_lights_as_its_integral_says)
 {
-    (void)state;
     const scene_lighting lighting = {
         .ambient = {0.5f, 0.3f, 0.4f}, .ambient_tilt = {0.3f, -0.2f, 0}, .direction_world = {0, -1, 0}};
     small_scene *s = frame_one_quad(small_scene_material(), NULL);
@@ -89,9 +85,8 @@ static double reflection_model(double base, double metallic, double roughness, d
     return (base * (1 - metallic) / pi + d * v * f) * nl;
 }
 
-static void reflection_is_that_of_the_model(void **state)
+TEST_GL(reflection_is_that_of_the_model)
 {
-    (void)state;
     static const double angles[] = {-0.6, 0, 0.3, 0.9, 1.3};
     int compared = 0;
     for (int k = 0; k < 16; k++) {
@@ -123,9 +118,65 @@ static void reflection_is_that_of_the_model(void **state)
 }
 
 /* In uniform light from all directions, no surface sends out more than it receives. */
-static void nothing_is_brighter_than_its_surroundings(void **state)
+/* Linear colour in the middle with a map of bent normals that holds one value. */
+static void bent_color(small_scene *s, const scene_lighting *lighting, const double bent[3], double accessibility,
+                       double left_out, double out[3])
 {
-    (void)state;
+    GLuint map;
+    const float texel[4] = {(float)bent[0], (float)bent[1], (float)bent[2], (float)accessibility};
+    const scene_draw_options options = {.bent = true, .left_out = (float)left_out};
+    gl.GenTextures(1, &map);
+    gl.BindTexture(GL_TEXTURE_2D, map);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, 1, 1, 0, GL_RGBA, GL_FLOAT, texel);
+    frame f = frame_draw_with(s, &frame_front, lighting, &options, map);
+    for (int i = 0; i < 3; i++) {
+        const double c = f.color[FRAME_MIDDLE][i] / 255.0;
+        out[i] = c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
+    }
+    frame_free(&f);
+    gl.DeleteTextures(1, &map);
+}
+
+/* Matte light of the gradient, whose first harmonic is all that is not even; and the cones of a metal, whose share
+ * shows against the same surface in the open. */
+TEST_GL(bent_normals_light_as_their_cones_say)
+{
+    const scene_lighting lighting = {
+        .ambient = {0.5f, 0.3f, 0.4f}, .ambient_tilt = {0.3f, -0.2f, 0}, .direction_world = {0, -1, 0}};
+    const double n[3] = {0, 0, 1}, open[3] = {0, 0, 1};
+    int darkened = 0;
+    for (int k = 0; k < 24; k++) {
+        const double turn = 0.3 * (k % 8), accessibility = 0.15 + 0.35 * (k / 8);
+        const double bent[3] = {0, sin(turn - 1), cos(turn - 1)};
+        double bands[2], got[3], even[3], wanted;
+        small_scene *s = frame_one_quad(small_scene_material(), NULL);
+        open_light_bands(accessibility, bands);
+        bent_color(s, &lighting, bent, accessibility, 0, got);
+        wanted = accessibility * (0.5 + 0.3 * 2 / 3 * bands[0] * bent[1]);
+        assert_near(got[0], wanted, 0.006, "matte, red");
+        wanted = accessibility * (0.3 - 0.2 * 2 / 3 * bands[0] * bent[1]);
+        assert_near(got[1], wanted, 0.006, "matte, green");
+        bent_color(s, &lighting, bent, accessibility, 1, got); /* no occlusion is shown */
+        assert_near(got[0], 0.5, 0.006, "matte, left out");
+        free(s);
+
+        scene_material metal = small_scene_material();
+        metal.metallic_roughness = true;
+        metal.metallic = 1;
+        metal.roughness = 0.2f + 0.3f * (float)(k % 3);
+        s = frame_one_quad(metal, NULL);
+        bent_color(s, &lighting, open, 1, 0, even);
+        bent_color(s, &lighting, bent, accessibility, 0, got);
+        const double share = open_light_cone(bent, accessibility, n, (double)metal.roughness);
+        assert_near(got[0], even[0] * share, 0.008, "metal");
+        darkened += share < 0.9 && share > 0.1;
+        free(s);
+    }
+    assert_true(darkened > 4);
+}
+
+TEST_GL(nothing_is_brighter_than_its_surroundings)
+{
     const scene_lighting lighting = {.ambient = {0.8f, 0.8f, 0.8f}, .direction_world = {0, -1, 0}};
     for (int k = 0; k < 20; k++) {
         scene_material material = small_scene_material();
@@ -146,9 +197,8 @@ static void nothing_is_brighter_than_its_surroundings(void **state)
     }
 }
 
-static void punctual_lights_fall_off_as_the_extension_says(void **state)
+TEST_GL(punctual_lights_fall_off_as_the_extension_says)
 {
-    (void)state;
     const float candela = 2;
     const struct {
         scene_light light;
@@ -196,9 +246,8 @@ static void punctual_lights_fall_off_as_the_extension_says(void **state)
     free(s);
 }
 
-static void lights_of_the_scene_take_the_suns_place(void **state)
+TEST_GL(lights_of_the_scene_take_the_suns_place)
 {
-    (void)state;
     small_scene *s = frame_one_quad(small_scene_material(), NULL);
     scene_light lights[3] = {
         {.kind = SCENE_LIGHT_POINT, .color = {1, 1, 1}, .position_world = {0, 0, 30}},
@@ -259,9 +308,8 @@ static void assert_gradients(const uint8_t color[4], const double direction[3], 
 }
 
 /* Seen from several sides, sky, matte surface and mirror show directions of the world, not of the view. */
-static void a_picture_surrounds_the_scene(void **state)
+TEST_GL(a_picture_surrounds_the_scene)
 {
-    (void)state;
     /* What remains of a gradient, and Karis's fit for metal, which is 1 head-on at roughness 0 and the same in all
      * directions at 1; see main.frag. test_environment.c computes what a lobe of roughness 1 leaves. */
     static const struct {
@@ -349,9 +397,8 @@ static frame draw_world(const float up[3], const scene_environment *e)
 }
 
 /* Sun, sky and environment follow the world's up: the picture of a world that stands another way is the same. */
-static void light_follows_up(void **state)
+TEST_GL(light_follows_up)
 {
-    (void)state;
     static const float ups[][3] = {{0, 1, 0}, {0, 0, 1}, {0, -2, 0}, {1, 0, 0}, {-1, 2, 0.5f}};
     scene_environment *environments[] = {NULL, load_gradients(false)};
     for (int kind = 0; kind < 2; kind++) {
@@ -375,16 +422,5 @@ static void light_follows_up(void **state)
 
 int main(void)
 {
-#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
-    const struct CMUnitTest tests[] = {
-        TEST(gradient_lights_as_its_integral_says),
-        TEST(reflection_is_that_of_the_model),
-        TEST(nothing_is_brighter_than_its_surroundings),
-        TEST(punctual_lights_fall_off_as_the_extension_says),
-        TEST(lights_of_the_scene_take_the_suns_place),
-        TEST(a_picture_surrounds_the_scene),
-        TEST(light_follows_up),
-    };
-#undef TEST
-    return cmocka_run_group_tests_name("draw light", tests, fixture_setup, fixture_teardown);
+    return test_run("draw light", fixture_setup, fixture_teardown);
 }

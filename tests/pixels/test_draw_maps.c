@@ -7,11 +7,6 @@
 #include "fixture.h"
 #include "small_scene.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { COUNT = 64 }; /* pixels in a row */
 
 typedef struct passes {
@@ -56,9 +51,8 @@ static double depth_at(const projection *p, double distance)
     return 0.5 + 0.5 * (p->a * z + p->b) / (p->c * z + p->e);
 }
 
-static void view_distance_is_the_analytic_one(void **state)
+TEST_GL(view_distance_is_the_analytic_one)
 {
-    (void)state;
     const double n = 0.25, f = 64;
     const projection projections[] = {
         {"perspective", -(f + n) / (f - n), -2 * f * n / (f - n), -1, 0, n, 0.99 * f},
@@ -103,9 +97,8 @@ static void view_distance_is_the_analytic_one(void **state)
     free_passes(&p);
 }
 
-static void map_keeps_its_orientation_and_values(void **state)
+TEST_GL(map_keeps_its_orientation_and_values)
 {
-    (void)state;
     passes p = make_passes();
     GLuint map;
     float texels[COUNT * 3];
@@ -128,9 +121,8 @@ static void map_keeps_its_orientation_and_values(void **state)
     free_passes(&p);
 }
 
-static void small_map_is_spread_linearly_and_upright(void **state)
+TEST_GL(small_map_is_spread_linearly_and_upright)
 {
-    (void)state;
     const float texels[2 * 2] = {0, 1, 2, 3}; /* lower left, lower right, upper left, upper right */
     passes p = make_passes();
     GLuint map;
@@ -150,13 +142,15 @@ static void small_map_is_spread_linearly_and_upright(void **state)
     free_passes(&p);
 }
 
-static void passes_leave_the_defaults(void **state)
+TEST_GL(passes_leave_the_defaults)
 {
-    (void)state;
     passes p = make_passes();
     const scene_view view = {.width = COUNT, .height = 1};
     const scene_lighting lighting = scene_default_lighting();
-    for (int k = 0; k < 4; k++) {
+    const scene_draw_options options = {.motion = true};
+    char error[512];
+    assert_true(scene_renderer_configure(p.renderer, &lighting, &options, error, sizeof error));
+    for (int k = 0; k < 5; k++) {
         /* Whatever state a pass finds, it draws the same and restores the state. */
         gl.Enable(GL_BLEND);
         gl.Enable(GL_CULL_FACE);
@@ -170,8 +164,10 @@ static void passes_leave_the_defaults(void **state)
             scene_draw_main(p.renderer, &view, &lighting, 0);
         else if (k == 2)
             scene_draw_map(p.renderer, 0, COUNT, 1, false, 1, 0);
-        else
+        else if (k == 3)
             scene_draw_view_distance(p.renderer, &view, 0);
+        else
+            scene_draw_motion(p.renderer, &view, &view);
         const GLenum disabled[] = {GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_FRAMEBUFFER_SRGB};
         const GLenum zero[] = {GL_CURRENT_PROGRAM, GL_VERTEX_ARRAY_BINDING, GL_ARRAY_BUFFER_BINDING,
                                GL_TEXTURE_BINDING_2D, GL_SAMPLER_BINDING};
@@ -195,15 +191,81 @@ static void passes_leave_the_defaults(void **state)
     free_passes(&p);
 }
 
+/* A quad that faces the eye 3 units away and is moved: its mesh along x, its instance along y and z. */
+static small_scene *make_moving_quad(float mesh_x, float instance_y, float instance_z, int quads)
+{
+    small_scene *s = small_scene_create();
+    const float world_from_mesh[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, instance_y, instance_z, 1};
+    const int material = small_scene_add_material(s, small_scene_material());
+    for (int i = 0; i < quads; i++) {
+        small_scene_begin_mesh(s, material);
+        (void)small_scene_add_quad(s, (float[3]){mesh_x - 1, -1, -3.0f - (float)i}, (float[3]){2, 0, 0},
+                                   (float[3]){0, 2, 0});
+        small_scene_add_instance(s, world_from_mesh);
+    }
+    return s;
+}
+
+/* Each pixel's motion is its uv minus that of its point in the last view and pose. */
+TEST_GL(motion_tells_where_points_were)
+{
+    enum { SIDE = 48 };
+    char error[512];
+    const double moved[3] = {0.25, -0.125, 0.5}, eye_moved = 0.0625, z = -3 + moved[2];
+    small_scene *first = make_moving_quad(0, 0, 0, 1), *then = make_moving_quad(0.25f, -0.125f, 0.5f, 1),
+                *other = make_moving_quad(0, 0, 0, 2);
+    scene_renderer *r = scene_renderer_create(&first->scene, error, sizeof error);
+    assert_non_null(r);
+    const scene_lighting none = {0};
+    assert_true(scene_renderer_configure(r, &none, &(scene_draw_options){.no_picture = true, .motion = true}, error,
+                                         sizeof error));
+    scene_view view = {.view_from_world = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+                       .clip_from_view = {1.5f, 0, 0, 0, 0, 1.5f, 0, 0, 0, 0, -1, -1, 0, 0, -0.5f, 0},
+                       .width = SIDE,
+                       .height = SIDE};
+    scene_view last = view;
+    last.view_from_world[12] = (float)-eye_moved;
+    assert_true(scene_renderer_pose(r, &then->scene));
+    assert_false(scene_renderer_pose(r, &other->scene)); /* has more triangles; changes nothing */
+    GLuint textures[2], framebuffer;
+    gl.GenTextures(2, textures);
+    gl.BindTexture(GL_TEXTURE_2D, textures[0]);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, SIDE, SIDE, 0, GL_RGBA, GL_FLOAT, NULL);
+    gl.BindTexture(GL_TEXTURE_2D, textures[1]);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, SIDE, SIDE, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, NULL);
+    gl.GenFramebuffers(1, &framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, textures[0], 0);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, textures[1], 0);
+    gl.Clear(GL_DEPTH_BUFFER_BIT);
+    scene_draw_normals(r, &view);
+    scene_draw_motion(r, &view, &last);
+    float *got = fixture_read_texture(textures[0], SIDE, SIDE, 4);
+    int seen = 0;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const double uv[2] = {(i % SIDE + 0.5) / SIDE, (i / SIDE + 0.5) / SIDE};
+        double world[2], expected[2] = {1e4, 1e4};
+        for (int k = 0; k < 2; k++)
+            world[k] = (2 * uv[k] - 1) / 1.5 * -z;
+        if (fabs(world[0] - moved[0]) < 1 && fabs(world[1] - moved[1]) < 1) {
+            expected[0] = uv[0] - 0.5 - 0.5 * 1.5 * (world[0] - moved[0] - eye_moved) / -(z - moved[2]);
+            expected[1] = uv[1] - 0.5 - 0.5 * 1.5 * (world[1] - moved[1]) / -(z - moved[2]);
+            seen++;
+        }
+        for (int k = 0; k < 2; k++)
+            assert_true(fabs((double)got[4 * i + k] - expected[k]) < 1e-5);
+    }
+    assert_true(seen > SIDE * SIDE / 4 && seen < SIDE * SIDE);
+    free(got);
+    gl.DeleteFramebuffers(1, &framebuffer);
+    gl.DeleteTextures(2, textures);
+    scene_renderer_destroy(r);
+    free(first);
+    free(then);
+    free(other);
+}
+
 int main(void)
 {
-#define TEST(name) cmocka_unit_test_teardown(name, fixture_no_gl_error)
-    const struct CMUnitTest tests[] = {
-        TEST(view_distance_is_the_analytic_one),
-        TEST(map_keeps_its_orientation_and_values),
-        TEST(small_map_is_spread_linearly_and_upright),
-        TEST(passes_leave_the_defaults),
-    };
-#undef TEST
-    return cmocka_run_group_tests_name("draw maps", tests, fixture_setup, fixture_teardown);
+    return test_run("draw maps", fixture_setup, fixture_teardown);
 }

@@ -12,11 +12,6 @@
 #include "horizon_internals.h"
 #include "horizon_model.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const double R16_STEP = 1.0 / 65535.0;
 static const double PI = 3.14159265358979323846;
 
@@ -185,26 +180,22 @@ static void check_scene(fixture *f, const scene_options *o, const glssao_setting
     float *depth, *normals;
     analytic_render(&view, shapes, count, o->width, o->height, &depth, &normals);
     setup s = {.effect = fixture_effect(f, o->width, o->height),
-               .frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, o->width, o->height, depth),
-                         .clip_zero_to_one = view.clip_zero_to_one},
+               .frame = fixture_maps_frame(&view, o->width, o->height, GL_DEPTH_COMPONENT32F, depth,
+                                           o->rebuilt ? NULL : normals),
                .settings = *settings,
                .width = o->width,
                .height = o->height,
                .normals = o->rebuilt ? NULL : normals};
-    memcpy(s.frame.projection, view.projection, sizeof view.projection);
-    if (!o->rebuilt)
-        s.frame.normal_texture = fixture_normal_texture(o->width, o->height, normals);
     const double occluded = check(&s, depth, o->vague ? &VAGUE : &ORDINARY, what);
     assert_true(occluded > 0.001); /* where a wall is seen edge-on, little is */
-    gl.DeleteTextures(1, &s.frame.depth_texture);
-    gl.DeleteTextures(1, &s.frame.normal_texture);
+    fixture_delete_frame(&s.frame);
     glssao_destroy(s.effect);
     free(depth);
     free(normals);
 }
 
 /* Both scenes for both sizes and both projections, in turn. */
-static void agrees_for_every_sample_count_and_size(void **state)
+TEST_GL(agrees_for_every_sample_count_and_size)
 {
     static const int counts[] = {12, 16, 24, 32, 48, 64};
     for (int i = 0; i < 6; ++i)
@@ -221,7 +212,7 @@ static void agrees_for_every_sample_count_and_size(void **state)
             }
 }
 
-static void agrees_for_every_projection(void **state)
+TEST_GL(agrees_for_every_projection)
 {
     for (int p = 0; p < PROJECTION_COUNT; ++p) {
         char what[40];
@@ -233,7 +224,7 @@ static void agrees_for_every_projection(void **state)
 }
 
 /* Radii from a few pixels to far more than the picture; another exponent; rebuilt normals. */
-static void agrees_at_other_settings(void **state)
+TEST_GL(agrees_at_other_settings)
 {
     static const double radii[] = {0.15, 4.0, 1e3, 1e6};
     for (int i = 0; i < 8; ++i) {
@@ -253,7 +244,7 @@ static void agrees_at_other_settings(void **state)
 }
 
 /* The picture's middle is about 5 units away. */
-static void agrees_for_thickness_far_fade_and_radius_in_pixels(void **state)
+TEST_GL(agrees_for_thickness_far_fade_and_radius_in_pixels)
 {
     static const float thicknesses[] = {0.25f, 0.5f, 3.0f}, fades[][2] = {{4.0f, 12.0f}, {0.0f, 14.0f}, {8.6f, 8.6f}};
     for (int i = 0; i < 6; ++i) {
@@ -348,8 +339,7 @@ static void check_random_frame(fixture *f, const random_options *o, uint32_t *ra
              o->sample_count, o->radius, o->roughness, o->orthographic ? ", orthographic" : "",
              o->layers ? ", layers" : "");
     (void)check(&s, distance, &VAGUE, what);
-    gl.DeleteTextures(1, &s.frame.depth_texture);
-    gl.DeleteTextures(1, &s.frame.normal_texture);
+    fixture_delete_frame(&s.frame);
     gl.DeleteTextures(1, &s.frame.back_texture);
     gl.DeleteTextures(1, &s.frame.second_texture);
     glssao_destroy(s.effect);
@@ -357,7 +347,7 @@ static void check_random_frame(fixture *f, const random_options *o, uint32_t *ra
     free(normals);
 }
 
-static void agrees_on_random_frames(void **state)
+TEST_GL(agrees_on_random_frames)
 {
     static const int counts[] = {12, 16, 24, 32, 48, 64};
     for (uint32_t seed = 1; seed <= 24; ++seed) {
@@ -378,7 +368,7 @@ static void agrees_on_random_frames(void **state)
 }
 
 /* The radius is some 10^5 pixels, which is the bound. In some pixels the first sample is then still in the picture. */
-static void agrees_where_the_radius_is_beyond_the_picture(void **state)
+TEST_GL(agrees_where_the_radius_is_beyond_the_picture)
 {
     uint32_t random = 1;
     const random_options o = {
@@ -387,7 +377,7 @@ static void agrees_where_the_radius_is_beyond_the_picture(void **state)
 }
 
 /* Lengths so small that the squared distance of a missing layer, in radii, exceeds a float. */
-static void agrees_on_layers_of_a_small_scene(void **state)
+TEST_GL(agrees_on_layers_of_a_small_scene)
 {
     uint32_t random = 1;
     const random_options o = {41, 41, 32, .layers = true, .roughness = 0.1, .radius = 1e-7, .scale = 1e-7};
@@ -395,7 +385,7 @@ static void agrees_on_layers_of_a_small_scene(void **state)
 }
 
 /* Each estimate that glssao_accumulate adds has its own noise; every second one mirrors the tile. */
-static void agrees_for_each_estimate_of_a_still_view(void **state)
+TEST_GL(agrees_for_each_estimate_of_a_still_view)
 {
     enum { WIDTH = 80, HEIGHT = 60, ESTIMATES = 5 };
     analytic_shape shapes[SCENE_SHAPES];
@@ -404,10 +394,7 @@ static void agrees_for_each_estimate_of_a_still_view(void **state)
     float *depth, *normals;
     analytic_render(&view, shapes, count, WIDTH, HEIGHT, &depth, &normals);
     glssao_effect *effect = fixture_effect(*state, WIDTH, HEIGHT);
-    glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, WIDTH, HEIGHT, depth),
-                          .normal_texture = fixture_normal_texture(WIDTH, HEIGHT, normals),
-                          .clip_zero_to_one = view.clip_zero_to_one};
-    memcpy(frame.projection, view.projection, sizeof view.projection);
+    const glssao_frame frame = fixture_maps_frame(&view, WIDTH, HEIGHT, GL_DEPTH_COMPONENT32F, depth, normals);
     const glssao_settings settings = bare_settings(12, false, 0.8);
     horizon_input in = {.full_width = WIDTH,
                         .full_height = HEIGHT,
@@ -448,8 +435,7 @@ static void agrees_for_each_estimate_of_a_still_view(void **state)
     print_message("worst outside interval %.2e\n", worst);
     assert_true(worst < 6e-6); /* the driver's pow() */
     assert_true(turned == ESTIMATES / 2);
-    gl.DeleteTextures(1, &frame.depth_texture);
-    gl.DeleteTextures(1, &frame.normal_texture);
+    fixture_delete_frame(&frame);
     glssao_destroy(effect);
     free(before);
     free(distance);
@@ -458,9 +444,8 @@ static void agrees_for_each_estimate_of_a_still_view(void **state)
 }
 
 /* Compares the polynomial with the integral of cos(t - g) sin(t) over 0 <= t <= acos(c), g to either side. */
-static void measure_is_near_the_integral(void **state)
+TEST(measure_is_near_the_integral)
 {
-    (void)state;
     double worst = 0.0;
     for (int degrees = -90; degrees <= 90; degrees += 3)
         for (int i = 0; i <= 100; ++i) {
@@ -481,17 +466,5 @@ static void measure_is_near_the_integral(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(measure_is_near_the_integral),
-        GL_TEST(agrees_for_every_sample_count_and_size),
-        GL_TEST(agrees_for_every_projection),
-        GL_TEST(agrees_at_other_settings),
-        GL_TEST(agrees_on_random_frames),
-        GL_TEST(agrees_for_thickness_far_fade_and_radius_in_pixels),
-        GL_TEST(agrees_where_the_radius_is_beyond_the_picture),
-        GL_TEST(agrees_on_layers_of_a_small_scene),
-        GL_TEST(agrees_for_each_estimate_of_a_still_view),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -42,11 +42,8 @@ static void set_up(setup *s, fixture *f, analytic_projection projection, int bit
     for (int i = 0; bits == 16 && i < width * height; ++i)
         s->depth[i] = roundf(s->depth[i] * 65535.0f) / 65535.0f;
     s->effect = fixture_effect(f, width, height);
-    s->frame = (glssao_frame){.depth_texture = fixture_depth_texture(
-                                  bits == 16 ? GL_DEPTH_COMPONENT16 : GL_DEPTH_COMPONENT32F, width, height, s->depth),
-                              .normal_texture = fixture_normal_texture(width, height, s->normals),
-                              .clip_zero_to_one = view.clip_zero_to_one};
-    memcpy(s->frame.projection, view.projection, sizeof view.projection);
+    s->frame = fixture_maps_frame(&view, width, height, bits == 16 ? GL_DEPTH_COMPONENT16 : GL_DEPTH_COMPONENT32F,
+                                  s->depth, s->normals);
     s->orthographic = view.projection[11] == 0.0f;
     s->settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     s->settings.upsample = true;
@@ -68,8 +65,7 @@ static void set_up(setup *s, fixture *f, analytic_projection projection, int bit
 
 static void tear_down(setup *s)
 {
-    gl.DeleteTextures(1, &s->frame.depth_texture);
-    gl.DeleteTextures(1, &s->frame.normal_texture);
+    fixture_delete_frame(&s->frame);
     glssao_destroy(s->effect);
     free(s->depth);
     free(s->normals);
@@ -300,7 +296,6 @@ static void every_normal_has_a_code(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
     const struct CMUnitTest tests[] = {
         GL_TEST(passes_agree_at_half_size),
         GL_TEST(passes_agree_at_full_size),

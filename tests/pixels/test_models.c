@@ -11,43 +11,20 @@
 #include "kernel.h"
 #include "model.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const double R16_STEP = 1.0 / 65535.0;
-
-static GLuint compile(GLenum stage, const char *text)
-{
-    GLuint shader = gl.CreateShader(stage);
-    gl.ShaderSource(shader, 1, &text, NULL);
-    gl.CompileShader(shader);
-    return shader;
-}
 
 /* The result of the linear wrapping sampler for each ambient pixel. Drivers may filter 8-bit texels with few bits, so
  * the model is fed the filtered vectors. */
 static float *sampled_random_vectors(const glssao_effect *effect, int width, int height)
 {
-    GLuint program = gl.CreateProgram();
-    GLuint vertex = compile(GL_VERTEX_SHADER,
-                            "#version 330\nvoid main() {\n"
-                            "vec2 c[6] = vec2[6](vec2(0,1), vec2(0,0), vec2(1,0), vec2(0,1), vec2(1,0), vec2(1,1));\n"
-                            "gl_Position = vec4(2.0 * c[gl_VertexID] - 1.0, 0.0, 1.0); }\n");
-    GLuint fragment =
-        compile(GL_FRAGMENT_SHADER, "#version 330\nuniform vec2 u_texel;\nuniform sampler2D u_map;\nout vec4 o_color;\n"
-                                    "void main() { o_color = texture(u_map, 4.0 * (gl_FragCoord.xy * u_texel)); }\n");
-    gl.AttachShader(program, vertex);
-    gl.AttachShader(program, fragment);
-    gl.LinkProgram(program);
-    GLuint texture, framebuffer, array;
-    gl.GenTextures(1, &texture);
-    gl.BindTexture(GL_TEXTURE_2D, texture);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width, height, 0, GL_RGBA, GL_FLOAT, NULL);
-    gl.GenFramebuffers(1, &framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    const GLuint program =
+        fixture_program("#version 330\nvoid main() {\n"
+                        "vec2 c[6] = vec2[6](vec2(0,1), vec2(0,0), vec2(1,0), vec2(0,1), vec2(1,0), vec2(1,1));\n"
+                        "gl_Position = vec4(2.0 * c[gl_VertexID] - 1.0, 0.0, 1.0); }\n",
+                        "#version 330\nuniform vec2 u_texel;\nuniform sampler2D u_map;\nout vec4 o_color;\n"
+                        "void main() { o_color = texture(u_map, 4.0 * (gl_FragCoord.xy * u_texel)); }\n");
+    const fixture_target target = fixture_make_target(GL_RGBA32F, width, height);
+    GLuint array;
     gl.GenVertexArrays(1, &array);
     gl.BindVertexArray(array);
     gl.Viewport(0, 0, width, height);
@@ -55,15 +32,11 @@ static float *sampled_random_vectors(const glssao_effect *effect, int width, int
     gl.Uniform2f(gl.GetUniformLocation(program, "u_texel"), 1.0f / (float)width, 1.0f / (float)height);
     gl.BindTexture(GL_TEXTURE_2D, glssao_map(effect, GLSSAO_MAP_RANDOM_VECTOR, NULL, NULL));
     gl.DrawArrays(GL_TRIANGLES, 0, 6);
-    float *vectors = fixture_read_texture(texture, width, height, 3);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    float *vectors = fixture_read_texture(target.texture, width, height, 3);
     gl.UseProgram(0);
     gl.BindVertexArray(0);
-    gl.DeleteFramebuffers(1, &framebuffer);
-    gl.DeleteTextures(1, &texture);
+    fixture_delete_target(&target);
     gl.DeleteVertexArrays(1, &array);
-    gl.DeleteShader(vertex);
-    gl.DeleteShader(fragment);
     gl.DeleteProgram(program);
     return vectors;
 }
@@ -94,10 +67,7 @@ static void set_up(setup *s, fixture *f, const setup_options *o)
     float *depth;
     analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, o->width, o->height, &depth, &s->normals);
     s->effect = fixture_effect(f, o->width, o->height);
-    s->frame.depth_texture = fixture_depth_texture(o->depth_format, o->width, o->height, depth);
-    s->frame.normal_texture = fixture_normal_texture(o->width, o->height, s->normals);
-    memcpy(s->frame.projection, view.projection, sizeof view.projection);
-    s->frame.clip_zero_to_one = view.clip_zero_to_one;
+    s->frame = fixture_maps_frame(&view, o->width, o->height, o->depth_format, depth, s->normals);
     free(depth);
     s->depth = fixture_read_depth(s->frame.depth_texture, o->width, o->height); /* as the format rounds it */
 
@@ -126,8 +96,7 @@ static void set_up(setup *s, fixture *f, const setup_options *o)
 
 static void tear_down(setup *s)
 {
-    gl.DeleteTextures(1, &s->frame.depth_texture);
-    gl.DeleteTextures(1, &s->frame.normal_texture);
+    fixture_delete_frame(&s->frame);
     glssao_destroy(s->effect);
     free(s->depth);
     free(s->normals);
@@ -198,7 +167,7 @@ static void check_blur(setup *s, const char *what, double least_change)
     assert_true(changed > least_change);
 }
 
-static void estimate_agrees_for_every_projection(void **state)
+TEST_GL(estimate_agrees_for_every_projection)
 {
     static const char *const names[PROJECTION_COUNT] = {
         "perspective",  "off-centre",           "infinite", "reversed", "infinite reversed",
@@ -211,7 +180,7 @@ static void estimate_agrees_for_every_projection(void **state)
     }
 }
 
-static void estimate_agrees_at_half_size_and_odd_sizes(void **state)
+TEST_GL(estimate_agrees_at_half_size_and_odd_sizes)
 {
     static const int sizes[][2] = {{200, 120}, {201, 121}, {67, 254}};
     for (int i = 0; i < 3; ++i) {
@@ -222,7 +191,7 @@ static void estimate_agrees_at_half_size_and_odd_sizes(void **state)
     }
 }
 
-static void estimate_agrees_for_24_bit_depth(void **state)
+TEST_GL(estimate_agrees_for_24_bit_depth)
 {
     setup s;
     set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH24_STENCIL8, 200, 120, 1.0, true});
@@ -230,7 +199,7 @@ static void estimate_agrees_for_24_bit_depth(void **state)
     tear_down(&s);
 }
 
-static void estimate_agrees_at_other_settings(void **state)
+TEST_GL(estimate_agrees_at_other_settings)
 {
     setup s;
     set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 200, 120, 1.0, false});
@@ -245,7 +214,7 @@ static void estimate_agrees_at_other_settings(void **state)
     tear_down(&s);
 }
 
-static void estimate_agrees_for_unnormalised_and_unsigned_normals(void **state)
+TEST_GL(estimate_agrees_for_unnormalised_and_unsigned_normals)
 {
     setup s;
     set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 100, 80, 1.0, false});
@@ -265,7 +234,7 @@ static void estimate_agrees_for_unnormalised_and_unsigned_normals(void **state)
     tear_down(&s);
 }
 
-static void estimate_agrees_without_angle_weight(void **state)
+TEST_GL(estimate_agrees_without_angle_weight)
 {
     setup s;
     set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 200, 120, 1.0, false});
@@ -295,15 +264,12 @@ static void store_distances(setup *s, glssao_depth kind)
     bool alpha = kind == GLSSAO_DEPTH_NORMAL_ALPHA;
     GLuint *texture = alpha ? &s->frame.normal_texture : &s->frame.depth_texture;
     gl.DeleteTextures(1, texture);
-    gl.GenTextures(1, texture);
-    gl.BindTexture(GL_TEXTURE_2D, *texture);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, alpha ? GL_RGBA32F : GL_R32F, s->input.width, s->input.height, 0,
-                  alpha ? GL_RGBA : GL_RED, GL_FLOAT, alpha ? rgba : s->depth);
-    gl.BindTexture(GL_TEXTURE_2D, 0);
+    *texture = fixture_texture(alpha ? GL_RGBA32F : GL_R32F, alpha ? GL_RGBA : GL_RED, GL_FLOAT, s->input.width,
+                               s->input.height, alpha ? rgba : s->depth);
     free(rgba);
 }
 
-static void estimates_agree_for_stored_distances(void **state)
+TEST_GL(estimates_agree_for_stored_distances)
 {
     static const glssao_depth kinds[] = {GLSSAO_DEPTH_VIEW_DISTANCE, GLSSAO_DEPTH_NORMAL_ALPHA};
     for (int kind = 0; kind < 2; ++kind)
@@ -328,7 +294,7 @@ static void use_hemisphere(setup *s, int sample_count)
     s->input.rotations = (const float(*)[4])s->rotations;
 }
 
-static void hemisphere_agrees_for_every_projection(void **state)
+TEST_GL(hemisphere_agrees_for_every_projection)
 {
     for (int p = 0; p < PROJECTION_COUNT; ++p) {
         setup s;
@@ -340,7 +306,7 @@ static void hemisphere_agrees_for_every_projection(void **state)
     }
 }
 
-static void hemisphere_agrees_at_other_settings(void **state)
+TEST_GL(hemisphere_agrees_at_other_settings)
 {
     static const int counts[] = {1, 7, 64};
     for (int i = 0; i < 3; ++i) {
@@ -356,7 +322,7 @@ static void hemisphere_agrees_at_other_settings(void **state)
 }
 
 /* The picture's middle is about 5 units away. */
-static void estimates_agree_for_far_fade_and_radius_in_pixels(void **state)
+TEST_GL(estimates_agree_for_far_fade_and_radius_in_pixels)
 {
     static const float fades[][2] = {{4.0f, 9.0f}, {8.6f, 8.6f}};
     for (int i = 0; i < 8; ++i) {
@@ -378,7 +344,7 @@ static void estimates_agree_for_far_fade_and_radius_in_pixels(void **state)
 }
 
 /* Steps of depth must not occlude, even though no other bias hides them. */
-static void estimates_agree_for_16_bit_depth(void **state)
+TEST_GL(estimates_agree_for_16_bit_depth)
 {
     for (int hemisphere = 0; hemisphere < 2; ++hemisphere) {
         setup s;
@@ -393,7 +359,7 @@ static void estimates_agree_for_16_bit_depth(void **state)
 }
 
 /* A single sample at any angle: if it is hidden, accessibility is 0, which a small power raises visibly. */
-static void estimates_agree_where_nothing_is_left(void **state)
+TEST_GL(estimates_agree_where_nothing_is_left)
 {
     for (int hemisphere = 0; hemisphere < 2; ++hemisphere) {
         setup s;
@@ -410,7 +376,7 @@ static void estimates_agree_where_nothing_is_left(void **state)
 
 /* The radius exceeds the distance of everything visible. Samples behind the camera must be neither mirrored into the
  * picture nor counted. */
-static void estimates_agree_with_samples_behind_the_camera(void **state)
+TEST_GL(estimates_agree_with_samples_behind_the_camera)
 {
     for (int hemisphere = 0; hemisphere < 2; ++hemisphere) {
         setup s;
@@ -426,7 +392,7 @@ static void estimates_agree_with_samples_behind_the_camera(void **state)
 }
 
 /* Normals parallel to the tile's own rotation vectors, with which they span no plane. */
-static void hemisphere_agrees_for_normals_along_the_noise(void **state)
+TEST_GL(hemisphere_agrees_for_normals_along_the_noise)
 {
     setup s;
     set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 151, 100, 1.0, false});
@@ -455,7 +421,7 @@ static void octahedral(const float n[3], float out[2])
     out[1] = (float)y;
 }
 
-static void octahedral_normals_shade_like_plain_ones(void **state)
+TEST_GL(octahedral_normals_shade_like_plain_ones)
 {
     for (int hemisphere = 0; hemisphere < 2; ++hemisphere) {
         setup s;
@@ -481,7 +447,7 @@ static void octahedral_normals_shade_like_plain_ones(void **state)
     }
 }
 
-static void blur_agrees(void **state)
+TEST_GL(blur_agrees)
 {
     static const glssao_blur kinds[] = {GLSSAO_BLUR_BILATERAL, GLSSAO_BLUR_GAUSSIAN, GLSSAO_BLUR_BOX};
     static const char *const names[] = {"bilateral", "gaussian", "box"};
@@ -499,24 +465,5 @@ static void blur_agrees(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
-    const struct CMUnitTest tests[] = {
-        GL_TEST(estimate_agrees_for_every_projection),
-        GL_TEST(estimate_agrees_at_half_size_and_odd_sizes),
-        GL_TEST(estimate_agrees_for_24_bit_depth),
-        GL_TEST(estimate_agrees_at_other_settings),
-        GL_TEST(estimate_agrees_for_unnormalised_and_unsigned_normals),
-        GL_TEST(estimate_agrees_without_angle_weight),
-        GL_TEST(estimates_agree_for_stored_distances),
-        GL_TEST(hemisphere_agrees_for_every_projection),
-        GL_TEST(hemisphere_agrees_at_other_settings),
-        GL_TEST(estimates_agree_for_far_fade_and_radius_in_pixels),
-        GL_TEST(estimates_agree_for_16_bit_depth),
-        GL_TEST(estimates_agree_where_nothing_is_left),
-        GL_TEST(estimates_agree_with_samples_behind_the_camera),
-        GL_TEST(hemisphere_agrees_for_normals_along_the_noise),
-        GL_TEST(octahedral_normals_shade_like_plain_ones),
-        GL_TEST(blur_agrees),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -1,15 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * Properties of any picture, without a model: planes and sky are open, values are finite, scale and depth convention
- * do not matter, runs repeat, any size works, normals can be drawn or rebuilt.
+ * Properties of any picture, without a model: planes and sky are open, values are finite, runs repeat, any size works,
+ * normals can be drawn or rebuilt. tests/stability/test_relations.c compares scales and directions of depth.
  */
 #include "analytic.h"
 #include "fixture.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 static glssao_technique technique; /* all tests run once for each */
 static glssao_quality quality = GLSSAO_HIGH;
@@ -40,37 +35,26 @@ static float least(const picture *p)
     return value;
 }
 
-static double mean_difference(const picture *a, const picture *b, double *out_worst)
+static double mean_difference(const picture *a, const picture *b)
 {
     double sum = 0.0;
-    *out_worst = 0.0;
     assert_true(a->width == b->width && a->height == b->height);
-    for (int i = 0; i < a->width * a->height; ++i) {
-        double d = fabs((double)a->values[i] - (double)b->values[i]);
-        sum += d;
-        *out_worst = fmax(*out_worst, d);
-    }
+    for (int i = 0; i < a->width * a->height; ++i)
+        sum += fabs((double)a->values[i] - (double)b->values[i]);
     return sum / (a->width * a->height);
 }
 
 /* Shapes in, accessibility out. normals NULL: rebuilt from depth. */
 static picture shade(fixture *f, const analytic_view *view, const analytic_shape *shapes, int count, int width,
-                     int height, GLenum depth_format, bool bring_normals, const glssao_settings *settings)
+                     int height, bool bring_normals, const glssao_settings *settings)
 {
-    float *depth, *normals;
-    analytic_render(view, shapes, count, width, height, &depth, &normals);
-    glssao_effect *effect = fixture_shared_effect(f, width, height);
-    glssao_frame frame = {.depth_texture = fixture_depth_texture(depth_format, width, height, depth),
-                          .clip_zero_to_one = view->clip_zero_to_one};
-    memcpy(frame.projection, view->projection, sizeof frame.projection);
-    if (bring_normals)
-        frame.normal_texture = fixture_normal_texture(width, height, normals);
+    const glssao_frame all = fixture_frame(view, shapes, count, width, height);
+    glssao_frame frame = all;
+    if (!bring_normals)
+        frame.normal_texture = 0;
     picture p;
-    p.values = fixture_compute(effect, &frame, settings, &p.width, &p.height);
-    gl.DeleteTextures(1, &frame.depth_texture);
-    gl.DeleteTextures(1, &frame.normal_texture);
-    free(depth);
-    free(normals);
+    p.values = fixture_compute(fixture_shared_effect(f, width, height), &frame, settings, &p.width, &p.height);
+    fixture_delete_frame(&all);
     return p;
 }
 
@@ -80,97 +64,56 @@ static picture shade_room(fixture *f, analytic_projection projection, double sca
     analytic_room(room, scale);
     analytic_view view = analytic_make_view(projection, 1.5, 0.5, 40.0, scale);
     glssao_settings settings = settings_at_scale((float)scale);
-    return shade(f, &view, room, ANALYTIC_ROOM_SHAPES, 150, 100, GL_DEPTH_COMPONENT32F, bring_normals, &settings);
+    return shade(f, &view, room, ANALYTIC_ROOM_SHAPES, 150, 100, bring_normals, &settings);
 }
 
-static void plane_is_open_at_any_angle_and_scale(void **state)
+TEST_GL(plane_is_open_at_any_angle_and_scale)
 {
     static const double degrees[] = {0.0, 30.0, 60.0, 80.0, 88.0, 89.9};
     static const double scales[] = {1e-4, 1.0, 1e4};
     for (int projection = 0; projection < PROJECTION_COUNT; ++projection)
-        for (size_t i = 0; i < sizeof degrees / sizeof *degrees; ++i)
-            for (size_t k = 0; k < sizeof scales / sizeof *scales; ++k)
-                for (int bring = 0; bring < 2; ++bring) {
-                    double angle = degrees[i] * 3.14159265358979323846 / 180.0;
-                    analytic_shape plane = {
-                        ANALYTIC_PLANE, {0.0, -1.0 * scales[k], -3.0 * scales[k]}, {0.0, sin(angle), cos(angle)}};
-                    analytic_view view = analytic_make_view((analytic_projection)projection, 1.5, 0.5, 40.0, scales[k]);
-                    glssao_settings settings = settings_at_scale((float)scales[k]);
-                    picture p = shade(*state, &view, &plane, 1, 90, 60, GL_DEPTH_COMPONENT32F, bring == 1, &settings);
-                    float value = least(&p);
-                    if (value < 0.999f)
-                        fail_msg("projection %d, %g degrees, scale %g, %s normals: %g", projection, degrees[i],
-                                 scales[k], bring ? "brought" : "rebuilt", (double)value);
-                    free(p.values);
-                }
+        for (int i = 0; i < 6; ++i)
+            for (int bring = 0; bring < 2; ++bring) {
+                const double angle = degrees[i] * 3.14159265358979323846 / 180.0, scale = scales[(projection + i) % 3];
+                const analytic_shape plane = {
+                    ANALYTIC_PLANE, {0.0, -1.0 * scale, -3.0 * scale}, {0.0, sin(angle), cos(angle)}};
+                const analytic_view view = analytic_make_view((analytic_projection)projection, 1.5, 0.5, 40.0, scale);
+                const glssao_settings settings = settings_at_scale((float)scale);
+                picture p = shade(*state, &view, &plane, 1, 90, 60, bring == 1, &settings);
+                const float value = least(&p);
+                if (value < 0.999f)
+                    fail_msg("projection %d, %g degrees, scale %g, %s normals: %g", projection, degrees[i], scale,
+                             bring ? "brought" : "rebuilt", (double)value);
+                free(p.values);
+            }
 }
 
-static void sky_alone_is_open(void **state)
+TEST_GL(sky_alone_is_open)
 {
     for (int projection = 0; projection < PROJECTION_COUNT; ++projection) {
         analytic_view view = analytic_make_view((analytic_projection)projection, 1.5, 0.5, 40.0, 1.0);
         glssao_settings settings = settings_at_scale(1.0f);
         for (int bring = 0; bring < 2; ++bring) {
-            picture p = shade(*state, &view, NULL, 0, 33, 21, GL_DEPTH_COMPONENT32F, bring == 1, &settings);
+            picture p = shade(*state, &view, NULL, 0, 33, 21, bring == 1, &settings);
             assert_true(least(&p) == 1.0f);
             free(p.values);
         }
     }
 }
 
-/* A power of two is exact in every float, so nothing may change. Other scales round the constants, which flips the few
- * samples on a threshold of the classic estimate. */
-static void scaling_scene_and_radius_together_changes_nothing(void **state)
-{
-    picture one = shade_room(*state, PERSPECTIVE, 1.0, true);
-    static const double scales[] = {0x1p-14, 0x1p14, 1e-4, 1e4};
-    for (int i = 0; i < 4; ++i) {
-        picture scaled = shade_room(*state, PERSPECTIVE, scales[i], true);
-        double worst, mean = mean_difference(&one, &scaled, &worst);
-        print_message("scale %g: mean difference %.2e, worst %.2e\n", scales[i], mean, worst);
-        assert_true(i < 2 ? worst == 0.0 : mean < 2e-3);
-        free(scaled.values);
-    }
-    free(one.values);
-}
-
-static void depth_conventions_agree(void **state)
-{
-    picture standard = shade_room(*state, PERSPECTIVE, 1.0, true);
-    assert_true(least(&standard) < 0.7f);
-    static const analytic_projection others[] = {PERSPECTIVE_INFINITE, PERSPECTIVE_REVERSED_ZERO_TO_ONE,
-                                                 PERSPECTIVE_INFINITE_REVERSED_ZERO_TO_ONE};
-    for (int i = 0; i < 3; ++i) {
-        picture other = shade_room(*state, others[i], 1.0, true);
-        double worst, mean = mean_difference(&standard, &other, &worst);
-        print_message("projection %d: mean difference %.2e, worst %.2e\n", (int)others[i], mean, worst);
-        assert_true(mean < 1e-3);
-        free(other.values);
-    }
-    free(standard.values);
-}
-
-static void runs_are_bit_equal_and_seeds_differ(void **state)
+TEST_GL(runs_are_bit_equal_and_seeds_differ)
 {
     fixture *f = *state;
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    analytic_view view = analytic_make_view(PERSPECTIVE, 1.5, 0.5, 40.0, 1.0);
-    float *depth, *normals, *pictures[3];
-    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, 150, 100, &depth, &normals);
-    glssao_settings settings = settings_at_scale(1.0f);
+    float *pictures[3];
+    const glssao_settings settings = settings_at_scale(1.0f);
     int width, height;
     for (int i = 0; i < 3; ++i) {
         glssao_config config = fixture_config(f, 150, 100);
         config.seed = i < 2 ? 7u : 8u;
-        glssao_effect *effect;
-        assert_int_equal(glssao_create(&config, &effect), GLSSAO_OK);
-        glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT24, 150, 100, depth),
-                              .normal_texture = fixture_normal_texture(150, 100, normals)};
-        memcpy(frame.projection, view.projection, sizeof frame.projection);
+        glssao_effect *effect = fixture_effect_of(f, &config);
+        const glssao_frame frame = fixture_room(PERSPECTIVE, 150, 100);
         pictures[i] = fixture_compute(effect, &frame, &settings, &width, &height);
-        gl.DeleteTextures(1, &frame.depth_texture);
-        gl.DeleteTextures(1, &frame.normal_texture);
+        fixture_delete_frame(&frame);
         glssao_destroy(effect);
     }
     size_t bytes = (size_t)width * (size_t)height * sizeof(float);
@@ -179,29 +122,21 @@ static void runs_are_bit_equal_and_seeds_differ(void **state)
     assert_true((memcmp(pictures[0], pictures[2], bytes) != 0) == (technique != GLSSAO_HORIZON));
     for (int i = 0; i < 3; ++i)
         free(pictures[i]);
-    free(depth);
-    free(normals);
 }
 
 /* The last sizes resize one effect, so stale maps would show. */
-static void resizes_through_odd_sizes_down_to_one_pixel(void **state)
+TEST_GL(resizes_through_odd_sizes_down_to_one_pixel)
 {
     static const int sizes[][2] = {{66, 46}, {63, 47}, {640, 3}, {3, 640}, {2, 2}, {1, 9}, {9, 1}, {1, 1}, {66, 46}};
-    fixture *f = *state;
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    glssao_effect *effect = fixture_shared_effect(f, 128, 128);
+    glssao_effect *effect = fixture_shared_effect(*state, 128, 128);
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; ++i)
         for (int bring = 0; bring < 2; ++bring) {
             int w = sizes[i][0], h = sizes[i][1];
             assert_int_equal(glssao_resize(effect, w, h), GLSSAO_OK);
-            analytic_view view = analytic_make_view(PERSPECTIVE, (double)w / h, 0.5, 40.0, 1.0);
-            float *depth, *normals;
-            analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, w, h, &depth, &normals);
-            glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, w, h, depth)};
-            if (bring)
-                frame.normal_texture = fixture_normal_texture(w, h, normals);
-            memcpy(frame.projection, view.projection, sizeof frame.projection);
+            const glssao_frame all = fixture_room(PERSPECTIVE, w, h);
+            glssao_frame frame = all;
+            if (!bring)
+                frame.normal_texture = 0;
             for (int half = 0; half < 2; ++half) {
                 glssao_settings settings = settings_at_scale(1.0f);
                 settings.half_resolution = half == 1;
@@ -213,24 +148,21 @@ static void resizes_through_odd_sizes_down_to_one_pixel(void **state)
                 (void)least(&p);
                 free(p.values);
             }
-            gl.DeleteTextures(1, &frame.depth_texture);
-            gl.DeleteTextures(1, &frame.normal_texture);
-            free(depth);
-            free(normals);
+            fixture_delete_frame(&all);
         }
 }
 
-static void rebuilt_normals_shade_like_brought_ones(void **state)
+TEST_GL(rebuilt_normals_shade_like_brought_ones)
 {
     picture brought = shade_room(*state, PERSPECTIVE, 1.0, true), rebuilt = shade_room(*state, PERSPECTIVE, 1.0, false);
-    double worst, mean = mean_difference(&brought, &rebuilt, &worst);
+    const double mean = mean_difference(&brought, &rebuilt);
     print_message("mean difference %.4f\n", mean);
     assert_true(mean < 0.01);
     free(brought.values);
     free(rebuilt.values);
 }
 
-static void rebuilt_normals_are_right_up_to_silhouettes(void **state)
+TEST_GL(rebuilt_normals_are_right_up_to_silhouettes)
 {
     fixture *f = *state;
     enum { W = 150, H = 100 };
@@ -241,9 +173,7 @@ static void rebuilt_normals_are_right_up_to_silhouettes(void **state)
         float *depth, *normals;
         analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, W, H, &depth, &normals);
         glssao_effect *effect = fixture_shared_effect(f, W, H);
-        glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, depth),
-                              .clip_zero_to_one = view.clip_zero_to_one};
-        memcpy(frame.projection, view.projection, sizeof frame.projection);
+        const glssao_frame frame = fixture_maps_frame(&view, W, H, GL_DEPTH_COMPONENT32F, depth, NULL);
         glssao_settings settings = settings_at_scale(1.0f);
         settings.half_resolution = false;
         int w, h;
@@ -262,12 +192,12 @@ static void rebuilt_normals_are_right_up_to_silhouettes(void **state)
         free(rebuilt);
         free(depth);
         free(normals);
-        gl.DeleteTextures(1, &frame.depth_texture);
+        fixture_delete_frame(&frame);
     }
 }
 
 /* On one plane there is nothing to choose, so only the rounding of depth is left, at both sizes of the estimate. */
-static void rebuilt_normals_of_a_plane_are_exact(void **state)
+TEST_GL(rebuilt_normals_of_a_plane_are_exact)
 {
     fixture *f = *state;
     enum { W = 61, H = 41 };
@@ -298,67 +228,23 @@ static void rebuilt_normals_of_a_plane_are_exact(void **state)
     }
 }
 
-static void bad_normals_stay_harmless(void **state)
-{
-    fixture *f = *state;
-    enum { W = 60, H = 40 };
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    analytic_view view = analytic_make_view(PERSPECTIVE, 1.5, 0.5, 40.0, 1.0);
-    float *depth, *normals;
-    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, W, H, &depth, &normals);
-    const float bad[] = {0.0f, NAN, INFINITY, -INFINITY, 1e30f, 1e-30f};
-    for (int i = 0; i < W * H; i += 2)
-        for (int axis = 0; axis < 3; ++axis)
-            normals[3 * i + axis] = bad[(i / 2 + (i % 7 == 0 ? axis : 0)) % 6];
-    glssao_effect *effect = fixture_shared_effect(f, W, H);
-    glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, depth),
-                          .normal_texture = fixture_normal_texture(W, H, normals)};
-    memcpy(frame.projection, view.projection, sizeof frame.projection);
-    glssao_settings settings = settings_at_scale(1.0f);
-    for (int power = 0; power < 3; ++power) {
-        settings.power = power == 0 ? 0.0f : power == 1 ? 1.0f : 64.0f;
-        picture p;
-        p.values = fixture_compute(effect, &frame, &settings, &p.width, &p.height);
-        (void)least(&p);
-        free(p.values);
-    }
-    gl.DeleteTextures(1, &frame.depth_texture);
-    gl.DeleteTextures(1, &frame.normal_texture);
-    free(depth);
-    free(normals);
-}
-
-static void apply_multiplies_colour_and_leaves_alpha(void **state)
+TEST_GL(apply_multiplies_colour_and_leaves_alpha)
 {
     fixture *f = *state;
     enum { W = 64, H = 48 };
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
-    float *depth, *normals;
-    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, W, H, &depth, &normals);
     glssao_effect *effect = fixture_effect(f, W, H);
-    glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT24, W, H, depth),
-                          .normal_texture = fixture_normal_texture(W, H, normals)};
-    memcpy(frame.projection, view.projection, sizeof frame.projection);
+    const glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
     glssao_settings settings = settings_at_scale(1.0f);
     settings.half_resolution = false;
     assert_int_equal(glssao_apply(effect, 0), GLSSAO_INVALID_ARGUMENT); /* nothing computed yet */
     int w, h;
     float *access = fixture_compute(effect, &frame, &settings, &w, &h);
 
-    GLuint color, framebuffer;
-    gl.GenTextures(1, &color);
-    gl.BindTexture(GL_TEXTURE_2D, color);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, W, H, 0, GL_RGBA, GL_FLOAT, NULL);
-    gl.GenFramebuffers(1, &framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
+    const fixture_target target = fixture_make_target(GL_RGBA32F, W, H);
     gl.ClearBufferfv(GL_COLOR, 0, (const float[4]){0.5f, 2.0f, 0.25f, 0.75f});
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
-    assert_int_equal(glssao_apply(effect, framebuffer), GLSSAO_OK);
-    float *shaded = fixture_read_texture(color, W, H, 4);
+    assert_int_equal(glssao_apply(effect, target.framebuffer), GLSSAO_OK);
+    float *shaded = fixture_read_texture(target.texture, W, H, 4);
     for (int i = 0; i < W * H; ++i) {
         assert_float_equal(shaded[4 * i + 0], 0.5f * access[i], 1e-5f);
         assert_float_equal(shaded[4 * i + 1], 2.0f * access[i], 1e-5f);
@@ -369,72 +255,15 @@ static void apply_multiplies_colour_and_leaves_alpha(void **state)
     assert_int_equal(stats.passes[GLSSAO_PASS_APPLY].draw_calls, 1);
     free(shaded);
     free(access);
-    free(depth);
-    free(normals);
-    gl.DeleteFramebuffers(1, &framebuffer);
-    gl.DeleteTextures(1, &color);
-    gl.DeleteTextures(1, &frame.depth_texture);
-    gl.DeleteTextures(1, &frame.normal_texture);
+    fixture_delete_target(&target);
+    fixture_delete_frame(&frame);
     glssao_destroy(effect);
 }
 
-static void plan_says_what_stats_prove(void **state)
+TEST_GL(skipped_frame_is_open)
 {
-    fixture *f = *state;
-    enum { W = 64, H = 48 };
-    analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
-    float *depth, *normals;
-    analytic_render(&view, NULL, 0, W, H, &depth, &normals);
-    glssao_effect *effect = fixture_effect(f, W, H);
-    glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT24, W, H, depth)};
-    memcpy(frame.projection, view.projection, sizeof frame.projection);
-    glssao_settings settings[4];
-    for (int i = 0; i < 4; ++i)
-        settings[i] = settings_at_scale(1.0f);
-    settings[1].blur = GLSSAO_BLUR_NONE;
-    settings[2].radius = 0.0f;
-    settings[3].fade_start = settings[3].fade_end = 0.0f;
-    /* Rebuilt normals, estimate, two passes a blur round (planar: one after the first); distance map and two passes for
-     * upsampling if the defaults include them. */
-    const int extra =
-        technique == GLSSAO_HORIZON ? 1 + (settings[0].half_resolution && settings[0].upsample ? 2 : 0) : 0;
-    const int rounds = settings[0].blur_rounds;
-    const int blur = settings[0].blur == GLSSAO_BLUR_PLANAR ? rounds + 1 : 2 * rounds;
-    const int draws[4] = {2 + extra + blur, 2 + extra, 0, technique == GLSSAO_CLASSIC ? 0 : 2 + extra + blur};
-    for (int i = 0; i < 4; ++i) {
-        glssao_plan plan = glssao_plan_frame(effect, &frame, &settings[i]);
-        int w, h, planned = 0;
-        free(fixture_compute(effect, &frame, &settings[i], &w, &h));
-        gl.Finish();
-        glssao_stats stats = glssao_get_stats(effect);
-        for (int pass = 0; pass < GLSSAO_PASS_COUNT; ++pass) {
-            assert_int_equal(stats.passes[pass].draw_calls, plan.passes[pass].draw_calls);
-            assert_true((stats.passes[pass].gpu_ms >= 0.0) == plan.passes[pass].run);
-            assert_true(strlen(plan.passes[pass].reason) > 0);
-            planned += plan.passes[pass].draw_calls;
-        }
-        assert_int_equal(planned, draws[i]);
-        assert_int_equal(stats.draw_calls, draws[i]);
-        assert_int_equal(stats.frame, i + 1);
-    }
-    gl.DeleteTextures(1, &frame.depth_texture);
-    glssao_destroy(effect);
-    free(depth);
-    free(normals);
-}
-
-static void skipped_frame_is_open(void **state)
-{
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    analytic_view view = analytic_make_view(PERSPECTIVE, 1.5, 0.5, 40.0, 1.0);
-    fixture *f = *state;
-    float *depth, *normals;
-    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, 90, 60, &depth, &normals);
-    glssao_effect *effect = fixture_shared_effect(f, 90, 60);
-    glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, 90, 60, depth),
-                          .normal_texture = fixture_normal_texture(90, 60, normals)};
-    memcpy(frame.projection, view.projection, sizeof frame.projection);
+    glssao_effect *effect = fixture_shared_effect(*state, 90, 60);
+    const glssao_frame frame = fixture_room(PERSPECTIVE, 90, 60);
     glssao_settings settings = settings_at_scale(1.0f);
     for (int i = 0; i < 2; ++i) {
         settings.radius = i == 0 ? 0.5f : 0.0f; /* the second frame must not show the first one */
@@ -443,30 +272,11 @@ static void skipped_frame_is_open(void **state)
         assert_true(i == 0 ? least(&p) < 0.9f : least(&p) == 1.0f);
         free(p.values);
     }
-    gl.DeleteTextures(1, &frame.depth_texture);
-    gl.DeleteTextures(1, &frame.normal_texture);
-    free(depth);
-    free(normals);
+    fixture_delete_frame(&frame);
 }
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
-    const struct CMUnitTest tests[] = {
-        GL_TEST(plane_is_open_at_any_angle_and_scale),
-        GL_TEST(sky_alone_is_open),
-        GL_TEST(scaling_scene_and_radius_together_changes_nothing),
-        GL_TEST(depth_conventions_agree),
-        GL_TEST(runs_are_bit_equal_and_seeds_differ),
-        GL_TEST(resizes_through_odd_sizes_down_to_one_pixel),
-        GL_TEST(rebuilt_normals_shade_like_brought_ones),
-        GL_TEST(rebuilt_normals_are_right_up_to_silhouettes),
-        GL_TEST(rebuilt_normals_of_a_plane_are_exact),
-        GL_TEST(bad_normals_stay_harmless),
-        GL_TEST(apply_multiplies_colour_and_leaves_alpha),
-        GL_TEST(plan_says_what_stats_prove),
-        GL_TEST(skipped_frame_is_open),
-    };
     static const struct {
         const char *name;
         glssao_technique technique;
@@ -481,7 +291,7 @@ int main(void)
     for (size_t i = 0; i < sizeof groups / sizeof *groups; ++i) {
         technique = groups[i].technique;
         quality = groups[i].quality;
-        failed += cmocka_run_group_tests_name(groups[i].name, tests, fixture_setup, fixture_teardown);
+        failed += test_run(groups[i].name, fixture_setup, fixture_teardown);
     }
     return failed;
 }

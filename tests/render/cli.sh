@@ -85,6 +85,13 @@ size="-s 65x37"
     want 2 "--frames" --frames 0 -o a.png
     want 2 "--frames" --frames 3 --plan
     want 2 "--bench" --bench 2 --frames 3 -o a.png
+    want 2 "--history" --history 64 --frames 3 -o a.png
+    want 2 "--history 8: needs --frames N or --bench N" --history 8 -o a.png
+    want 2 "--history 8 and --error cannot be used together" --history 8 --error 0.1 --frames 2 -o a.png
+    want 2 "--history 8 and --technique raytrace" --history 8 -t raytrace --frames 2 -o a.png
+    want 2 "--history 8 and --no-ao" --history 8 --no-ao --frames 2 -o a.png
+    want 2 "--fps 24: needs --frames N and --time SECONDS" --fps 24 --time 1 -o a.png a.glb
+    want 2 "--fps 24: reads the file again" --fps 24 --frames 2 --time 1 -o a.png -
     want 2 "--seed" --seed -1 -o a.png
     want 2 "--seed" --seed 4294967296 -o a.png
     want 2 "--no-ao" --no-ao --ao a.png
@@ -146,7 +153,7 @@ size="-s 65x37"
     done
 
     # The picture's own options, which leave accessibility as it is. The columns are matte and have no normal map.
-    for options in "--sky-up 0,0,1" "--no-shadows" "--intensity 0.5" "--shadow-size 64" "--multi-bounce" "--debug-map ao" "--debug-map normals" \
+    for options in "--sky-up 0,0,1" "--no-shadows" "--intensity 0.5" "--shadow-size 64" "--multi-bounce" "--bent-normals" "--debug-map ao" "--debug-map normals" \
         "--debug-map depth" "--debug-map random" "--debug-map shadow"; do
         want 0 "" $size --seed=7 -o p3.png --ao p3.pfm $options
         ! cmp -s a1.png p3.png || fail "$options changes nothing"
@@ -160,6 +167,10 @@ size="-s 65x37"
     want 2 "--debug-map" --debug-map ao --no-ao -o b.png
     want 2 "--debug-map" --debug-map ao --ao b.png
     want 2 "bent-normals=on" --debug-map bent -o b.png
+    for options in "-t classic" "--rays 2" "--set bent-normals=off" "--history 4 --frames 2"; do
+        want 2 "--bent-normals: needs -t horizon" --bent-normals -o b.png $options
+    done
+    want 2 "--no-ao and --bent-normals" --bent-normals --no-ao -o b.png
     want 2 '"stencil"' --debug-map stencil -o b.png
 
     # A picture of the surroundings, of one colour: it lights the scene, without the built-in sun.
@@ -183,6 +194,11 @@ size="-s 65x37"
     want 0 "" $size --frames 3 -o turn.png
     grep -q "frame 3 of 3" err || fail "no progress"
     for i in 1 2 3; do png_is "turn-000$i.png" 65 37 2; done
+    want 0 "" $size -q low --frames 3 --history 8 --ao reused.pfm --plan --stats reused.json
+    grep -q '^history  *run  *2' out || fail "the plan has no history"
+    grep -q '"history": 8' reused.json || fail "statistics have no history"
+    want 0 "" $size -q low --frames 3 --ao alone.pfm
+    cmp -s reused-0003.pfm alone-0003.pfm && fail "no picture is reused"
     [ ! -e turn.png ] || fail "a turntable leaves a picture without a number"
     cmp -s turn-0001.png turn-0002.png && fail "the turntable stands still"
     want 0 "" $size --plan

@@ -8,11 +8,11 @@ cd "$2" || exit 1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 macros=(TEXTURED BASE_MAPPED COLORED MASKED DOUBLE_SIDED BLENDED NORMAL_MAPPED REFLECTIVE ROUGHNESS_MAPPED BAKED EMISSIVE
-    EMISSION_MAPPED SHADOWED LIGHTS SPECULAR_OCCLUSION MULTI_BOUNCE BEHIND ENVIRONMENT FLAT MORE_UVS)
+    EMISSION_MAPPED SHADOWED LIGHTS SPECULAR_OCCLUSION MULTI_BOUNCE BEHIND ENVIRONMENT FLAT MORE_UVS BENT)
 programs=0 failures=0
 # As program_sources.c puts them together: shared functions behind #version.
 for pass in main normals; do
-    { head -n 1 $pass.frag; cat surface.glsl environment.glsl; tail -n +2 $pass.frag; } >"$work/$pass.frag"
+    { head -n 1 $pass.frag; cat surface.glsl environment.glsl bent.glsl; tail -n +2 $pass.frag; } >"$work/$pass.frag"
 done
 check() {
     programs=$((programs + 1))

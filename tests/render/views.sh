@@ -3,6 +3,7 @@
 # views.sh GLSSAO_RENDER: the views that fit the scene: equal margins, any --up, --view, --ortho, --camera none, turntables.
 set -uo pipefail
 render=$(realpath "$1")
+cases=$(dirname "$(realpath "${BASH_SOURCE[0]}")")/../cases
 # shellcheck source=tests/render/fail.sh
 . "$(dirname "$(realpath "${BASH_SOURCE[0]}")")/fail.sh"
 
@@ -67,6 +68,21 @@ same fitted fitted-z
 take narrow --camera none --fov 10 y-up.gltf
 equal_margins narrow
 other fitted narrow
+
+# Files: a flat one is framed by its vertices; one with z up as its copy with y up, which its own JSON turned makes.
+take flat --camera none "$cases/scale0.glb"
+equal_margins flat
+size=$(od -An -tu4 -j12 -N4 "$cases/zup.glb" | tr -d ' ')
+buffer=$(tail -c +$((size + 29)) "$cases/zup.glb" | base64 -w0)
+tail -c +21 "$cases/zup.glb" | head -c "$size" | sed "s/{\"mesh\": \([0-2]\)}/{\"mesh\": \1, \"rotation\": [-0.70710678, 0, 0, 0.70710678]}/g
+    s|\"buffers\": \[{|&\"uri\": \"data:application/octet-stream;base64,$buffer\", |" >zup-turned.gltf
+[ "$(grep -o '"rotation"' zup-turned.gltf | wc -l)" = 3 ] || fail "zup.glb has other nodes than it had"
+take turned zup-turned.gltf
+take zup --up 0,0,1 "$cases/zup.glb"
+equal_margins zup
+same turned zup
+take zup-lying "$cases/zup.glb"
+other zup-lying zup
 
 # --view sees from there, whatever cameras the file has.
 for view in front right back left top bottom iso -40,20 400,-90; do

@@ -196,7 +196,7 @@ static void ways_to_store(void)
                          subject_normal_name((normal_store)normal), technique);
                 print_digest(name, 0, &frame, &settings, 0);
             }
-            subject_frame_free(&frame);
+            fixture_delete_frame(&frame);
             subject_free(&s);
         }
 }
@@ -220,7 +220,7 @@ static void blurs(void)
                     snprintf(name, sizeof name, "blur %d, %d rounds, size %d", blur, rounds, size);
                     print_digest(name, path, &frame, &settings, 0);
                 }
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
     subject_free(&s);
 }
 
@@ -302,7 +302,7 @@ static void skips_and_viewports(void)
             snprintf(name, sizeof name, "logarithmic %s", c.name);
             print_digest(name, path, &logarithmic, &c.settings, 0);
         }
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
     subject_free(&s);
 }
 

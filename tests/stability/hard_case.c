@@ -101,7 +101,7 @@ static void check(fixture *f, const hard_case *c, const subject *s, normal_store
     if (one.settings.technique == GLSSAO_HORIZON && number % 3 == 0) /* at full and at half size */
         check_bent(f, c, s, &frame, &one, &p);
     free(p.values);
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
 }
 
 int hard_case_run(fixture *f, const hard_case *c, int stride)

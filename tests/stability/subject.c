@@ -61,14 +61,7 @@ void subject_free(subject *s)
 
 static GLuint make_texture(GLenum internal, GLenum format, GLenum type, const subject *s, const void *data)
 {
-    GLuint texture = 0;
-    gl.GenTextures(1, &texture);
-    gl.BindTexture(GL_TEXTURE_2D, texture);
-    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)internal, s->width, s->height, 0, format, type, data);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-    gl.BindTexture(GL_TEXTURE_2D, 0);
-    return texture;
+    return fixture_texture(internal, format, type, s->width, s->height, data);
 }
 
 static size_t count_of(const subject *s)
@@ -150,23 +143,18 @@ glssao_frame subject_frame(const subject *s, depth_store depth, normal_store nor
     return frame;
 }
 
-void subject_frame_free(glssao_frame *frame)
+picture subject_shade_by(fixture *f, glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
 {
-    gl.DeleteTextures(1, &frame->depth_texture); /* 0 is ignored */
-    gl.DeleteTextures(1, &frame->normal_texture);
-    gl.DeleteTextures(1, &frame->back_texture);
-    gl.DeleteTextures(1, &frame->second_texture);
-}
-
-picture subject_shade(fixture *f, int width, int height, const glssao_frame *frame, const glssao_settings *settings)
-{
-    glssao_effect *effect = fixture_shared_effect(f, width, height);
     fixture_clear_log(f);
     const glssao_result result = glssao_compute(effect, frame, settings);
     if (result != GLSSAO_OK)
         fail_msg("glssao_compute: %s: %s", glssao_result_string(result), f->log);
     picture p;
-    const uint32_t map = glssao_map(effect, GLSSAO_MAP_AMBIENT, &p.width, &p.height);
-    p.values = fixture_read_texture(map, p.width, p.height, 1);
+    p.values = fixture_read_ambient(effect, &p.width, &p.height);
     return p;
+}
+
+picture subject_shade(fixture *f, int width, int height, const glssao_frame *frame, const glssao_settings *settings)
+{
+    return subject_shade_by(f, fixture_shared_effect(f, width, height), frame, settings);
 }

@@ -52,12 +52,12 @@ typedef struct picture {
 subject subject_of(const analytic_view *view, const analytic_shape *shapes, int count, int width, int height);
 void subject_free(subject *s);
 
-/* Textures of the subject; texture_frame_free deletes them. */
+/* Textures of the subject. fixture_delete_frame deletes them. */
 glssao_frame subject_frame(const subject *s, depth_store depth, normal_store normal);
-void subject_frame_free(glssao_frame *frame);
 
-/* Runs glssao_compute on the frame with the fixture's effect; any result but GLSSAO_OK fails the test. The caller frees
- * the values. */
+/* Runs glssao_compute on the frame; any result but GLSSAO_OK fails the test. The caller frees the values. */
+picture subject_shade_by(fixture *f, glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings);
+/* The same with the fixture's effect. */
 picture subject_shade(fixture *f, int width, int height, const glssao_frame *frame, const glssao_settings *settings);
 
 /* Names for messages. */

@@ -6,10 +6,6 @@
 #include "faulty_gl.h"
 #include "techniques.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { W = 32, H = 24 };
 
 static int stride = 1;
@@ -195,7 +191,7 @@ static bool fail_once(fixture *f, const act *a, int number)
     return kind != FAULT_NONE;
 }
 
-static void each_call_survives_each_fault(void **state)
+TEST_GL(each_call_survives_each_fault)
 {
     static const act acts[] = {
         {"create", create, NULL, false},
@@ -245,14 +241,12 @@ static int set_up(void **state)
     memcpy(cropped.viewport, (const int[4]){4, 4, W, H}, sizeof cropped.viewport);
     subject_free(&s);
     subject_free(&large);
-    gl.GenTextures(1, &color);
+    const fixture_target target = fixture_make_target(GL_RGBA8, W, H);
+    color = target.texture;
+    framebuffer = target.framebuffer;
     gl.BindTexture(GL_TEXTURE_2D, color);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, W, H, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* a dispatch may write it */
     gl.BindTexture(GL_TEXTURE_2D, 0);
-    gl.GenFramebuffers(1, &framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, plain.depth_texture, 0);
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     return 0;
@@ -260,9 +254,9 @@ static int set_up(void **state)
 
 static int tear_down(void **state)
 {
-    subject_frame_free(&plain);
-    subject_frame_free(&bare);
-    subject_frame_free(&cropped);
+    fixture_delete_frame(&plain);
+    fixture_delete_frame(&bare);
+    fixture_delete_frame(&cropped);
     gl.DeleteFramebuffers(1, &framebuffer);
     gl.DeleteTextures(1, &color);
     return fixture_teardown(state);
@@ -272,8 +266,5 @@ int main(int argc, char **argv)
 {
     if (argc > 1)
         stride = atoi(argv[1]) > 0 ? atoi(argv[1]) : 1;
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(each_call_survives_each_fault, NULL, fixture_no_gl_error),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return test_run(NULL, set_up, tear_down);
 }

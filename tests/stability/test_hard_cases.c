@@ -6,11 +6,6 @@
  */
 #include "hard_case.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static int stride = 1, pictures;
 static const char *only; /* the name of the only case; NULL: all */
 
@@ -78,91 +73,28 @@ static void distance_1e6(subject *s)
         s->distance[i] *= 1e6f;
 }
 
-static void fades_meet(glssao_settings *s)
-{
-    s->fade_start = s->fade_end;
-}
-
-static void fades_meet_at_0(glssao_settings *s)
-{
-    s->fade_start = s->fade_end = s->surface_epsilon = 1e-30f;
-}
-
-static void no_epsilon(glssao_settings *s)
-{
-    s->surface_epsilon = 0.0f;
-}
-
-static void power_0(glssao_settings *s)
-{
-    s->power = 0.0f;
-}
-
-static void power_64(glssao_settings *s)
-{
-    s->power = 64.0f;
-}
-
-static void thinnest(glssao_settings *s)
-{
-    s->thickness = 1e-3f;
-}
-
-static void thickest(glssao_settings *s)
-{
-    s->thickness = 1e3f;
-}
-
-static void pixel_radius(glssao_settings *s)
-{
-    s->radius = 20.0f;
-    s->radius_in_pixels = true;
-}
-
-static void many_pixels_radius(glssao_settings *s)
-{
-    s->radius = 1e12f;
-    s->radius_in_pixels = true;
-}
-
-static void few_pixels_radius(glssao_settings *s)
-{
-    s->radius = 1e-6f;
-    s->radius_in_pixels = true;
-}
-
+#define CHANGE(name, statements)                                                                                       \
+    static void name(glssao_settings *s)                                                                               \
+    {                                                                                                                  \
+        statements;                                                                                                    \
+    }
+CHANGE(fades_meet, s->fade_start = s->fade_end)
+CHANGE(fades_meet_at_0, s->fade_start = s->fade_end = s->surface_epsilon = 1e-30f)
+CHANGE(no_epsilon, s->surface_epsilon = 0.0f)
+CHANGE(power_0, s->power = 0.0f)
+CHANGE(power_64, s->power = 64.0f)
+CHANGE(thinnest, s->thickness = 1e-3f)
+CHANGE(thickest, s->thickness = 1e3f)
+CHANGE(pixel_radius, s->radius = 20.0f; s->radius_in_pixels = true)
+CHANGE(many_pixels_radius, s->radius = 1e12f; s->radius_in_pixels = true)
+CHANGE(few_pixels_radius, s->radius = 1e-6f; s->radius_in_pixels = true)
 /* Everything lies beyond it, or in the middle of it. */
-static void fades_at_once(glssao_settings *s)
-{
-    s->fade_far_end = 1e-30f;
-}
-
-static void fades_at_a_step(glssao_settings *s)
-{
-    s->fade_far_start = s->fade_far_end = 5.0f;
-}
-
-static void fades_at_the_end(glssao_settings *s)
-{
-    s->fade_far_end = 1e12f;
-}
-
-static void least_lengths(glssao_settings *s)
-{
-    *s = settings_scaled(s, 1e-9);
-}
-
-static void most_lengths(glssao_settings *s)
-{
-    *s = settings_scaled(s, 1e11);
-}
-
-static void many_rounds(glssao_settings *s)
-{
-    s->blur_rounds = 16;
-    s->blur_normal_threshold = 1.0f;
-    s->blur_depth_threshold = 0.0f;
-}
+CHANGE(fades_at_once, s->fade_far_end = 1e-30f)
+CHANGE(fades_at_a_step, s->fade_far_start = s->fade_far_end = 5.0f)
+CHANGE(fades_at_the_end, s->fade_far_end = 1e12f)
+CHANGE(least_lengths, *s = settings_scaled(s, 1e-9))
+CHANGE(most_lengths, *s = settings_scaled(s, 1e11))
+CHANGE(many_rounds, s->blur_rounds = 16; s->blur_normal_threshold = 1.0f; s->blur_depth_threshold = 0.0f)
 
 #define OPEN                                                                                                           \
     {                                                                                                                  \
@@ -291,14 +223,14 @@ static void run(fixture *f, const hard_case *c)
         pictures += hard_case_run(f, c, c->width > 1000 ? 8 * stride + 1 : stride);
 }
 
-static void hard_cases(void **state)
+TEST_GL(hard_cases)
 {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i)
         run(*state, &cases[i]);
 }
 
 /* A plane in every projection, upright and mirrored. */
-static void projections(void **state)
+TEST_GL(projections)
 {
     for (int projection = 0; projection < PROJECTION_COUNT; ++projection)
         for (int flip = 0; flip < 2; ++flip) {
@@ -317,7 +249,7 @@ static void projections(void **state)
 }
 
 /* A plane with every way to store depth and normals, near and far. Normals of 8 bits are off by half a degree. */
-static void stores(void **state)
+TEST_GL(stores)
 {
     for (int depth = 0; depth < DEPTH_STORES; ++depth)
         for (int far = 0; far < 2; ++far) {
@@ -335,9 +267,8 @@ static void stores(void **state)
         }
 }
 
-static void picture_count(void **state)
+TEST_GL(picture_count)
 {
-    (void)state;
     print_message("%d pictures\n", pictures);
     assert_true(pictures > (only ? 0 : 2000 / stride));
 }
@@ -346,12 +277,5 @@ int main(int argc, char **argv)
 {
     stride = configuration_stride(argc, argv);
     only = argc > 2 ? argv[2] : NULL;
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
-    const struct CMUnitTest tests[] = {
-        GL_TEST(hard_cases),
-        GL_TEST(projections),
-        GL_TEST(stores),
-        GL_TEST(picture_count),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

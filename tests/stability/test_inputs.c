@@ -6,11 +6,6 @@
  */
 #include "techniques.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { W = 60, H = 44, X = 13, Y = 7, LARGE_W = 96, LARGE_H = 64, NUMBERS = 6 };
 static const int numbers[NUMBERS] = {0, 5, 12, 17, 18, 23}; /* configurations */
 
@@ -33,20 +28,7 @@ static GLuint compile_copier(void)
         "#version 330\nuniform sampler2D u_map; uniform vec4 u_instead; out vec4 o_color;\n"
         "void main() { vec4 t = texelFetch(u_map, ivec2(gl_FragCoord.xy), 0);\n"
         "if (u_instead.w > 0.0) t = u_instead; gl_FragDepth = t.r; o_color = t; }\n";
-    const char *const sources[2] = {vertex, fragment};
-    GLuint program = gl.CreateProgram();
-    for (int i = 0; i < 2; ++i) {
-        GLuint shader = gl.CreateShader(i ? GL_FRAGMENT_SHADER : GL_VERTEX_SHADER);
-        gl.ShaderSource(shader, 1, &sources[i], NULL);
-        gl.CompileShader(shader);
-        gl.AttachShader(program, shader);
-        gl.DeleteShader(shader);
-    }
-    gl.LinkProgram(program);
-    GLint ok = 0;
-    gl.GetProgramiv(program, GL_LINK_STATUS, &ok);
-    assert_true(ok);
-    return program;
+    return fixture_program(vertex, fragment);
 }
 
 /* A multisample texture whose first sample holds `plain`'s texels; its other samples hold values that would spoil the
@@ -118,7 +100,7 @@ static void assert_same(fixture *f, const glssao_frame *plain, const glssao_fram
     }
 }
 
-static void first_samples_are_taken(void **state)
+TEST_GL(first_samples_are_taken)
 {
     subject s = room();
     for (int normals = 0; normals < 2; ++normals) {
@@ -143,18 +125,18 @@ static void first_samples_are_taken(void **state)
         gl.DeleteTextures(1, &other.depth_texture);
         if (normals)
             gl.DeleteTextures(1, &other.normal_texture);
-        subject_frame_free(&plain);
+        fixture_delete_frame(&plain);
     }
     glssao_frame plain = subject_frame(&s, ALPHA_32F, NORMAL_32F), other = plain;
     other.multisample = true;
     other.normal_texture = multisampled(plain.normal_texture, GL_RGBA32F, false);
     assert_same(*state, &plain, &other, 0.0);
     gl.DeleteTextures(1, &other.normal_texture);
-    subject_frame_free(&plain);
+    fixture_delete_frame(&plain);
     subject_free(&s);
 }
 
-static void viewports_are_crops(void **state)
+TEST_GL(viewports_are_crops)
 {
     subject s = room(), large = {.width = LARGE_W, .height = LARGE_H, .view = s.view};
     large.depth = enlarged(s.depth, 1);
@@ -165,15 +147,15 @@ static void viewports_are_crops(void **state)
         glssao_frame other = subject_frame(&large, (depth_store)depth, NORMAL_32F);
         memcpy(other.viewport, (const int[4]){X, Y, W, H}, sizeof other.viewport);
         assert_same(*state, &plain, &other, 0.0);
-        subject_frame_free(&plain);
-        subject_frame_free(&other);
+        fixture_delete_frame(&plain);
+        fixture_delete_frame(&other);
     }
     subject_free(&s);
     subject_free(&large);
 }
 
 /* It rounds differently from window depth. */
-static void logarithms_are_undone(void **state)
+TEST_GL(logarithms_are_undone)
 {
     static const double constants[] = {0.0, 1.0, 0.01, 100.0};
     subject s = room();
@@ -191,8 +173,8 @@ static void logarithms_are_undone(void **state)
         other.log_depth_far = (float)far_distance;
         other.log_depth_constant = (float)constants[i];
         assert_same(*state, &plain, &other, 1e-3);
-        subject_frame_free(&plain);
-        subject_frame_free(&other);
+        fixture_delete_frame(&plain);
+        fixture_delete_frame(&other);
         free(stored.depth);
     }
     subject_free(&s);
@@ -205,12 +187,10 @@ static void assert_refused(fixture *f, const glssao_frame *frame, const char *na
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     glssao_effect *effect = fixture_shared_effect(f, W, H);
     fixture_clear_log(f);
-    assert_int_equal(glssao_compute(effect, frame, &settings), GLSSAO_INVALID_ARGUMENT);
-    if (!strstr(f->log, named))
-        fail_msg("'%s' does not name %s", f->log, named);
+    fixture_refused(f, glssao_compute(effect, frame, &settings), named);
 }
 
-static void unreadable_inputs_are_named(void **state)
+TEST_GL(unreadable_inputs_are_named)
 {
     subject s = room();
     const glssao_frame good = subject_frame(&s, DEPTH_24, NORMAL_32F);
@@ -239,7 +219,7 @@ static void unreadable_inputs_are_named(void **state)
     REFUSED(projection[10], INFINITY, "frame.projection[10]");
     REFUSED(projection[4], 0.1f, "frame.projection[4]");
 #undef REFUSED
-    subject_frame_free((glssao_frame *)&good);
+    fixture_delete_frame(&good);
     subject_free(&s);
 }
 
@@ -259,7 +239,7 @@ static GLuint empty_texture(GLenum target, GLenum internal, GLenum format, GLenu
     return texture;
 }
 
-static void formats_that_cannot_hold_it_are_named(void **state)
+TEST_GL(formats_that_cannot_hold_it_are_named)
 {
     static const struct {
         GLenum internal, format, type;
@@ -319,12 +299,12 @@ static void formats_that_cannot_hold_it_are_named(void **state)
         }
         gl.DeleteTextures(1, &texture);
     }
-    subject_frame_free((glssao_frame *)&good);
+    fixture_delete_frame(&good);
     subject_free(&s);
 }
 
 /* Each message names what was found and what helps, and no binding changes. */
-static void targets_and_sizes_are_named(void **state)
+TEST_GL(targets_and_sizes_are_named)
 {
     static const struct {
         GLenum target, binding;
@@ -368,13 +348,13 @@ static void targets_and_sizes_are_named(void **state)
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     fixture *f = *state;
     fixture_clear_log(f);
-    assert_int_equal(glssao_compute(effect, &good, &settings), GLSSAO_INVALID_ARGUMENT);
-    assert_non_null(strstr(f->log, "a GL_TEXTURE_2D of 60 x 44, not of the full size, 62 x 44: call glssao_resize"));
-    subject_frame_free((glssao_frame *)&good);
+    fixture_refused(f, glssao_compute(effect, &good, &settings),
+                    "a GL_TEXTURE_2D of 60 x 44, not of the full size, 62 x 44: call glssao_resize");
+    fixture_delete_frame(&good);
     subject_free(&s);
 }
 
-static void a_map_that_a_pass_draws_into_is_refused(void **state)
+TEST_GL(a_map_that_a_pass_draws_into_is_refused)
 {
     fixture *f = *state;
     subject s = room();
@@ -390,12 +370,12 @@ static void a_map_that_a_pass_draws_into_is_refused(void **state)
     bad.depth_texture = glssao_map(effect, GLSSAO_MAP_AMBIENT, &w, &h);
     assert_refused(f, &bad, "the effect's own map");
 
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
     subject_free(&s);
 }
 
 /* Drawn into, attached beside the drawn texture, or attached with no draw buffer: each is feedback. */
-static void applying_into_what_is_read_is_refused(void **state)
+TEST_GL(applying_into_what_is_read_is_refused)
 {
     fixture *f = *state;
     subject s = room();
@@ -405,12 +385,7 @@ static void applying_into_what_is_read_is_refused(void **state)
     assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_OK);
     int w, h;
     const GLuint map = glssao_map(effect, GLSSAO_MAP_AMBIENT, &w, &h);
-    GLuint framebuffer, color;
-    gl.GenTextures(1, &color);
-    gl.BindTexture(GL_TEXTURE_2D, color);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R16, w, h, 0, GL_RED, GL_FLOAT, NULL);
-    gl.GenFramebuffers(1, &framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    const fixture_target target = fixture_make_target(GL_R16, w, h);
     static const struct {
         int map_at;
         GLenum draws;
@@ -422,21 +397,19 @@ static void applying_into_what_is_read_is_refused(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         for (int k = 0; k < 2; ++k)
             gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + (GLenum)k, GL_TEXTURE_2D,
-                                    k == cases[i].map_at ? map : color, 0);
+                                    k == cases[i].map_at ? map : target.texture, 0);
         gl.DrawBuffers(1, &cases[i].draws);
         fixture_clear_log(f);
-        assert_int_equal(glssao_apply(effect, framebuffer), cases[i].result);
+        assert_int_equal(glssao_apply(effect, target.framebuffer), cases[i].result);
         assert_true((strstr(f->log, "the accessibility map itself") != NULL) == (cases[i].map_at >= 0));
     }
-    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
-    gl.DeleteFramebuffers(1, &framebuffer);
-    gl.DeleteTextures(1, &color);
-    subject_frame_free(&frame);
+    fixture_delete_target(&target);
+    fixture_delete_frame(&frame);
     subject_free(&s);
 }
 
 /* The passes draw into framebuffers of their own, so this is no feedback, and most hosts do it. */
-static void depth_may_stay_attached_to_the_bound_framebuffer(void **state)
+TEST_GL(depth_may_stay_attached_to_the_bound_framebuffer)
 {
     subject s = room();
     glssao_frame frame = subject_frame(&s, DEPTH_24, NORMAL_32F);
@@ -452,23 +425,11 @@ static void depth_may_stay_attached_to_the_bound_framebuffer(void **state)
     gl.DeleteFramebuffers(1, &framebuffer);
     free(detached.values);
     free(attached.values);
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
     subject_free(&s);
 }
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
-    const struct CMUnitTest tests[] = {
-        GL_TEST(first_samples_are_taken),
-        GL_TEST(viewports_are_crops),
-        GL_TEST(logarithms_are_undone),
-        GL_TEST(unreadable_inputs_are_named),
-        GL_TEST(formats_that_cannot_hold_it_are_named),
-        GL_TEST(targets_and_sizes_are_named),
-        GL_TEST(a_map_that_a_pass_draws_into_is_refused),
-        GL_TEST(applying_into_what_is_read_is_refused),
-        GL_TEST(depth_may_stay_attached_to_the_bound_framebuffer),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -5,11 +5,6 @@
  */
 #include "techniques.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 /* ---- loaders ---- */
 
 typedef struct host {
@@ -58,22 +53,16 @@ static void *load(const char *name, void *user)
 {
     asked = user;
     void *address = context_load(name, asked->f->context);
-    if (strcmp(name, "glGetIntegerv") == 0) {
-        memcpy(&real_get_integerv, &address, sizeof address);
-        memcpy(&address, &(PFNGLGETINTEGERVPROC){get_integerv}, sizeof address);
+#define WRAP(function, type, real, own)                                                                                \
+    if (strcmp(name, function) == 0) {                                                                                 \
+        memcpy(&(real), &address, sizeof address);                                                                     \
+        memcpy(&address, &(type){own}, sizeof address);                                                                \
     }
-    if (strcmp(name, "glGetString") == 0) {
-        memcpy(&real_get_string, &address, sizeof address);
-        memcpy(&address, &(PFNGLGETSTRINGPROC){get_string}, sizeof address);
-    }
-    if (strcmp(name, "glCreateShader") == 0) {
-        memcpy(&real_create_shader, &address, sizeof address);
-        memcpy(&address, &(PFNGLCREATESHADERPROC){create_shader}, sizeof address);
-    }
-    if (strcmp(name, "glGetShaderiv") == 0) {
-        memcpy(&real_get_shader, &address, sizeof address);
-        memcpy(&address, &(PFNGLGETSHADERIVPROC){get_shader}, sizeof address);
-    }
+    WRAP("glGetIntegerv", PFNGLGETINTEGERVPROC, real_get_integerv, get_integerv)
+    WRAP("glGetString", PFNGLGETSTRINGPROC, real_get_string, get_string)
+    WRAP("glCreateShader", PFNGLCREATESHADERPROC, real_create_shader, create_shader)
+    WRAP("glGetShaderiv", PFNGLGETSHADERIVPROC, real_get_shader, get_shader)
+#undef WRAP
     return asked->knows_3_3_alone && !fixture_is_of_3_3(name) ? NULL : address;
 }
 
@@ -88,17 +77,6 @@ static glssao_result make(host *h, glssao_path path, int width, int height, glss
 }
 
 /* ---- pictures ---- */
-
-static picture shade(fixture *f, glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
-{
-    fixture_clear_log(f);
-    if (glssao_compute(effect, frame, settings) != GLSSAO_OK)
-        fail_msg("glssao_compute: %s", f->log);
-    picture p;
-    const uint32_t map = glssao_map(effect, GLSSAO_MAP_AMBIENT, &p.width, &p.height);
-    p.values = fixture_read_texture(map, p.width, p.height, 1);
-    return p;
-}
 
 /* Fails unless the two agree as glssao_path promises: RMSE at most 1e-4, at most 1 pixel in 10,000 off by more than
  * 0.02. */
@@ -153,7 +131,7 @@ static void assert_alike(fixture *f, const char *what, int width, int height, co
         for (int k = 0; k < GLSSAO_PASS_COUNT; ++k)
             dispatching += plan.passes[k].compute;
         assert_true((dispatching > 0) == (i == 2));
-        pictures[i] = shade(f, ways[i], frame, settings);
+        pictures[i] = subject_shade_by(f, ways[i], frame, settings);
     }
     assert_true(picture_least(&pictures[0]) < 0.99 || width * height < 100); /* some pixel is occluded */
     for (int i = 1; i < WAYS; ++i)
@@ -181,7 +159,7 @@ static glssao_settings wide_horizon(glssao_quality quality)
 
 static int stride = 1;
 
-static void techniques_and_qualities_agree(void **state)
+TEST_WITH(techniques_and_qualities_agree, end_ways)
 {
     glssao_frame frame = room_frame(PERSPECTIVE, 97, 63, DEPTH_24, NORMAL_32F);
     for (int i = 0; i < CONFIGURATIONS; i += stride) {
@@ -190,10 +168,10 @@ static void techniques_and_qualities_agree(void **state)
             continue;
         assert_alike(*state, c.name, 97, 63, &frame, &c.settings);
     }
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
 }
 
-static void blurs_and_sizes_of_the_result_agree(void **state)
+TEST_WITH(blurs_and_sizes_of_the_result_agree, end_ways)
 {
     glssao_frame frame = room_frame(ORTHOGRAPHIC_REVERSED, 66, 51, DEPTH_32F, NORMAL_16F);
     for (int blur = GLSSAO_BLUR_NONE; blur <= GLSSAO_BLUR_PLANAR; ++blur)
@@ -207,21 +185,21 @@ static void blurs_and_sizes_of_the_result_agree(void **state)
             snprintf(what, sizeof what, "blur %d, size %d", blur, size);
             assert_alike(*state, what, 66, 51, &frame, &s);
         }
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
 }
 
-static void odd_and_small_sizes_agree(void **state)
+TEST_WITH(odd_and_small_sizes_agree, end_ways)
 {
     static const int sizes[][2] = {{1, 40}, {47, 2}, {8, 8}, {17, 33}, {128, 9}};
     const glssao_settings s = wide_horizon(GLSSAO_MEDIUM);
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; ++i) {
         glssao_frame frame = room_frame(PERSPECTIVE, sizes[i][0], sizes[i][1], DEPTH_32F, NORMAL_32F);
         assert_alike(*state, "size", sizes[i][0], sizes[i][1], &frame, &s);
-        subject_frame_free(&frame);
+        fixture_delete_frame(&frame);
     }
 }
 
-static void ways_to_hand_over_agree(void **state)
+TEST_WITH(ways_to_hand_over_agree, end_ways)
 {
     static const struct {
         analytic_projection projection;
@@ -235,11 +213,11 @@ static void ways_to_hand_over_agree(void **state)
     for (size_t i = 0; i < sizeof stores / sizeof *stores; ++i) {
         glssao_frame frame = room_frame(stores[i].projection, 64, 48, stores[i].depth, stores[i].normal);
         assert_alike(*state, subject_depth_name(stores[i].depth), 64, 48, &frame, &s);
-        subject_frame_free(&frame);
+        fixture_delete_frame(&frame);
     }
 }
 
-static void margins_layers_and_viewports_agree(void **state)
+TEST_WITH(margins_layers_and_viewports_agree, end_ways)
 {
     const analytic_shape wall[] = {{ANALYTIC_PLANE, {0.0, 0.0, -9.0}, {0.0, 0.0, 1.0}}};
     const analytic_view view = analytic_make_view(PERSPECTIVE, 90.0 / 70.0, 0.5, 40.0, 1.0);
@@ -264,13 +242,13 @@ static void margins_layers_and_viewports_agree(void **state)
         memcpy(changed.viewport, (const int[4]){3, 5, 80, 60}, sizeof changed.viewport);
         assert_alike(*state, "viewport", 80, 60, &changed, &s);
     }
-    subject_frame_free(&frame);
-    subject_frame_free(&second);
+    fixture_delete_frame(&frame);
+    fixture_delete_frame(&second);
     subject_free(&behind);
 }
 
 /* Rays alone and as a correction, at each size of rays and estimate. */
-static void rays_agree(void **state)
+TEST_WITH(rays_agree, end_ways)
 {
     float values[66 * 51];
     for (int i = 0; i < 66 * 51; ++i)
@@ -284,18 +262,16 @@ static void rays_agree(void **state)
         s.upsample = i % 3 != 0;
         s.power = 1.0f + (float)(i % 2);
         frame.margin = margin ? 8 : 0;
-        gl.GenTextures(1, &frame.rays_texture);
-        gl.BindTexture(GL_TEXTURE_2D, frame.rays_texture);
-        gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, width, height, 0, GL_RED, GL_FLOAT, values);
-        gl.BindTexture(GL_TEXTURE_2D, 0);
+        frame.rays_texture = fixture_texture(GL_R32F, GL_RED, GL_FLOAT, width, height, values);
         assert_alike(*state, "rays", 66, 51, &frame, &s);
         gl.DeleteTextures(1, &frame.rays_texture);
+        frame.rays_texture = 0;
     }
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
 }
 
 /* Estimates are added by drawing; the passes before and after may be dispatched. */
-static void accumulated_estimates_agree(void **state)
+TEST_WITH(accumulated_estimates_agree, end_ways)
 {
     picture pictures[2];
     glssao_frame frame = room_frame(PERSPECTIVE, 64, 48, DEPTH_32F, NORMAL_32F);
@@ -306,18 +282,17 @@ static void accumulated_estimates_agree(void **state)
         assert_int_equal(make(h, i ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT, 64, 48, &effect), GLSSAO_OK);
         for (int k = 0; k < 3; ++k)
             assert_int_equal(glssao_accumulate(effect, &frame, &s), GLSSAO_OK);
-        const uint32_t map = glssao_map(effect, GLSSAO_MAP_AMBIENT, &pictures[i].width, &pictures[i].height);
-        pictures[i].values = fixture_read_texture(map, 64, 48, 1);
+        pictures[i].values = fixture_read_ambient(effect, &pictures[i].width, &pictures[i].height);
         glssao_destroy(effect);
     }
     assert_agree(&pictures[0], &pictures[1], "accumulated");
     free(pictures[0].values);
     free(pictures[1].values);
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
 }
 
 /* Which way a host's frames take, and the bits of the picture where they are drawn. */
-static void the_context_and_the_config_decide(void **state)
+TEST_WITH(the_context_and_the_config_decide, end_ways)
 {
     static const struct {
         bool knows_3_3_alone, claims_3_3, claims_gpu;
@@ -355,7 +330,7 @@ static void the_context_and_the_config_decide(void **state)
         const glssao_plan plan = glssao_plan_frame(effect, &frame, &s);
         if (plan.path != wanted_path)
             fail_msg("case %d goes way %d: %s", (int)i, plan.path, plan.path_reason);
-        picture got = shade(f, effect, &frame, &s);
+        picture got = subject_shade_by(f, effect, &frame, &s);
         assert_string_equal(f->log, "");
         if (i == 0)
             wanted = got;
@@ -366,10 +341,10 @@ static void the_context_and_the_config_decide(void **state)
         glssao_destroy(effect);
     }
     free(wanted.values);
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
 }
 
-static void an_unknown_path_is_refused(void **state)
+TEST_WITH(an_unknown_path_is_refused, end_ways)
 {
     fixture *f = *state;
     glssao_effect *none;
@@ -378,7 +353,7 @@ static void an_unknown_path_is_refused(void **state)
 }
 
 /* If the library chose compute shaders and the driver refuses them, the host notices nothing. */
-static void refused_compute_shaders_are_done_without(void **state)
+TEST_WITH(refused_compute_shaders_are_done_without, end_ways)
 {
     fixture *f = *state;
     host h = {.f = f, .claims_gpu = true, .refuses_compute = true};
@@ -393,7 +368,7 @@ static void refused_compute_shaders_are_done_without(void **state)
                                   : glssao_prepare(effect, &frame, &s),
                          GLSSAO_OK);
         assert_true(effect != NULL && glssao_plan_frame(effect, &frame, &s).path == GLSSAO_PATH_FRAGMENT);
-        picture p = shade(f, effect, &frame, &s);
+        picture p = subject_shade_by(f, effect, &frame, &s);
         assert_true(picture_least(&p) < 0.99);
         assert_string_equal(f->log, "");
         free(p.values);
@@ -403,19 +378,11 @@ static void refused_compute_shaders_are_done_without(void **state)
     assert_int_equal(make(&h, GLSSAO_PATH_COMPUTE, 64, 48, &required), GLSSAO_OK);
     assert_int_equal(glssao_compute(required, &frame, &s), GLSSAO_SHADER_ERROR);
     glssao_destroy(required);
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
 }
 
 int main(int argc, char **argv)
 {
     stride = configuration_stride(argc, argv);
-#define TEST(name) cmocka_unit_test_setup_teardown(name, NULL, end_ways)
-    const struct CMUnitTest tests[] = {
-        TEST(techniques_and_qualities_agree),     TEST(blurs_and_sizes_of_the_result_agree),
-        TEST(odd_and_small_sizes_agree),          TEST(ways_to_hand_over_agree),
-        TEST(margins_layers_and_viewports_agree), TEST(rays_agree),
-        TEST(accumulated_estimates_agree),        TEST(the_context_and_the_config_decide),
-        TEST(an_unknown_path_is_refused),         TEST(refused_compute_shaders_are_done_without),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -6,11 +6,6 @@
  */
 #include "techniques.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { W = 72, H = 56, NUMBERS = 6, PATHS = 2 };
 static const int numbers[NUMBERS] = {0, 5, 12, 17, 18, 23}; /* configurations */
 static const double PI = 3.14159265358979323846;
@@ -46,18 +41,6 @@ static subject room(analytic_projection kind)
     return subject_of(&view, shapes, ANALYTIC_ROOM_SHAPES, W, H);
 }
 
-static picture shade(fixture *f, glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings)
-{
-    fixture_clear_log(f);
-    if (glssao_compute(effect, frame, settings) != GLSSAO_OK)
-        fail_msg("glssao_compute: %s", f->log);
-    picture p;
-    const uint32_t map = glssao_map(effect, GLSSAO_MAP_AMBIENT, &p.width, &p.height);
-    p.values = fixture_read_texture(map, p.width, p.height, 1);
-    assert_true(picture_is_sound(&p));
-    return p;
-}
-
 static void assert_same(fixture *f, const glssao_frame *plain, const glssao_frame *other, double most, const char *what)
 {
     for (int i = 0; i < NUMBERS * PATHS; ++i) {
@@ -67,7 +50,8 @@ static void assert_same(fixture *f, const glssao_frame *plain, const glssao_fram
         configuration c = configuration_of(numbers[i / PATHS]);
         c.settings = settings_scaled(&c.settings, 2.0);                    /* more occlusion */
         c.settings.tiles = i % PATHS ? GLSSAO_TILES_OFF : GLSSAO_TILES_ON; /* the bounds of tiles read distances too */
-        picture a = shade(f, effect, plain, &c.settings), b = shade(f, effect, other, &c.settings);
+        picture a = subject_shade_by(f, effect, plain, &c.settings),
+                b = subject_shade_by(f, effect, other, &c.settings);
         assert_true(a.width == b.width && a.height == b.height && picture_mean(&a) < 0.999);
         double apart = 0.0;
         for (int k = 0; k < a.width * a.height; ++k)
@@ -102,7 +86,7 @@ static void turn_frame(const subject *s, double degrees, normal_store normal, gl
     free(turned.normals);
 }
 
-static void turned_cameras_see_the_same(void **state)
+TEST_GL(turned_cameras_see_the_same)
 {
     static const double degrees[] = {30.0, 90.0, 150.0, -135.0};
     static const analytic_projection kinds[] = {PERSPECTIVE_OFF_CENTRE, ORTHOGRAPHIC};
@@ -114,14 +98,14 @@ static void turned_cameras_see_the_same(void **state)
             char what[32];
             snprintf(what, sizeof what, "%g degrees", degrees[i]);
             assert_same(*state, &plain, &turned, 5e-4, what);
-            subject_frame_free(&plain);
-            subject_frame_free(&turned);
+            fixture_delete_frame(&plain);
+            fixture_delete_frame(&turned);
             subject_free(&s);
         }
 }
 
 /* The map of rebuilt normals is the host's to look at, so it is in the host's view space. */
-static void rebuilt_normals_are_in_view_space(void **state)
+TEST_GL(rebuilt_normals_are_in_view_space)
 {
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     subject s = room(PERSPECTIVE);
@@ -129,7 +113,7 @@ static void rebuilt_normals_are_in_view_space(void **state)
     turn_frame(&s, 30.0, NORMAL_NONE, &frames[1]);
     float *maps[2];
     for (int i = 0; i < 2; ++i) {
-        picture p = shade(*state, effects[0], &frames[i], &settings);
+        picture p = subject_shade_by(*state, effects[0], &frames[i], &settings);
         maps[i] = fixture_read_rebuilt(effects[0], W, H, 2);
         free(p.values);
     }
@@ -146,7 +130,7 @@ static void rebuilt_normals_are_in_view_space(void **state)
     assert_true(off < W * H / 100); /* where two sides predict equally well, rounding decides */
     for (int i = 0; i < 2; ++i) {
         free(maps[i]);
-        subject_frame_free(&frames[i]);
+        fixture_delete_frame(&frames[i]);
     }
     subject_free(&s);
 }
@@ -187,7 +171,7 @@ static void to_world(const float view[16], const float n[3], float out[3])
         out[i] = (float)(w[i] / sqrt(length));
 }
 
-static void normals_in_world_space_are_turned(void **state)
+TEST_GL(normals_in_world_space_are_turned)
 {
     static const double scales[][3] = {{1.0, 1.0, 1.0}, {0.01, 0.01, 0.01}, {-1.0, 1.0, 1.0}, {2.0, 0.5, 1.0}};
     static const normal_store stores[] = {NORMAL_32F, NORMAL_16F, NORMAL_OCTAHEDRAL, NORMAL_UNSIGNED_8};
@@ -214,14 +198,14 @@ static void normals_in_world_space_are_turned(void **state)
             turned.view[4 * k + 1] = (float)(n * (double)view[4 * k] + c * (double)view[4 * k + 1]);
         }
         assert_same(*state, &other, &turned, 1e-3, "world space, turned");
-        subject_frame_free(&plain);
-        subject_frame_free(&other);
+        fixture_delete_frame(&plain);
+        fixture_delete_frame(&other);
         subject_free(&s);
         free(world.normals);
     }
 }
 
-static void views_are_checked_where_they_count(void **state)
+TEST_GL(views_are_checked_where_they_count)
 {
     fixture *f = *state;
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
@@ -243,13 +227,13 @@ static void views_are_checked_where_they_count(void **state)
         frame.world_normals = false; /* not read */
         assert_int_equal(glssao_compute(effects[0], &frame, &settings), GLSSAO_OK);
     }
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
     subject_free(&s);
 }
 
 /* ---- rounding ---- */
 
-static void residues_change_nothing(void **state)
+TEST_GL(residues_change_nothing)
 {
     static const analytic_projection kinds[] = {PERSPECTIVE, PERSPECTIVE_INFINITE_REVERSED_ZERO_TO_ONE, ORTHOGRAPHIC};
     static const int entries[] = {1, 2, 3, 4, 6, 7};
@@ -260,14 +244,14 @@ static void residues_change_nothing(void **state)
             if (i != 1 || entries[k] % 4 != 2)
                 other.projection[entries[k]] = (k % 2 ? -2.7e-8f : 2.7e-8f) * (i == 2 ? 0.01f : 1.0f);
         assert_same(*state, &plain, &other, 0.0, "residues");
-        subject_frame_free(&plain);
+        fixture_delete_frame(&plain);
         subject_free(&s);
     }
 }
 
 /* ---- the eye of an orthographic projection ---- */
 
-static void eyes_behind_the_near_plane_see_the_same(void **state)
+TEST_GL(eyes_behind_the_near_plane_see_the_same)
 {
     static const double moves[] = {4.0, 60.0, -5000.0}; /* into the scene, behind it, far before it */
     for (int i = 0; i < 3; ++i)
@@ -278,13 +262,13 @@ static void eyes_behind_the_near_plane_see_the_same(void **state)
             char what[48];
             snprintf(what, sizeof what, "an eye that is %g farther%s", moves[i], reversed ? ", reversed" : "");
             assert_same(*state, &plain, &other, 1e-3, what);
-            subject_frame_free(&plain);
+            fixture_delete_frame(&plain);
             subject_free(&s);
         }
 }
 
 /* The settings count view distance from the host's eye. */
-static void far_fades_follow_the_hosts_eye(void **state)
+TEST_GL(far_fades_follow_the_hosts_eye)
 {
     static const double moves[] = {2.0, -5000.0};
     for (int i = 0; i < 4; ++i) {
@@ -292,14 +276,14 @@ static void far_fades_follow_the_hosts_eye(void **state)
         glssao_frame frame = subject_frame(&s, DEPTH_32F, NORMAL_32F);
         glssao_settings settings = glssao_default_settings(i % 2 ? GLSSAO_HORIZON : GLSSAO_HEMISPHERE, GLSSAO_HIGH);
         settings.radius = 2.0f;
-        picture without = shade(*state, effects[0], &frame, &settings);
+        picture without = subject_shade_by(*state, effects[0], &frame, &settings);
         settings.fade_far_start = 5.0f;
         settings.fade_far_end = 9.0f;
-        picture plain = shade(*state, effects[0], &frame, &settings);
+        picture plain = subject_shade_by(*state, effects[0], &frame, &settings);
         frame.projection[14] -= (float)moves[i / 2] * frame.projection[10];
         settings.fade_far_start -= (float)moves[i / 2];
         settings.fade_far_end -= (float)moves[i / 2];
-        picture moved = shade(*state, effects[0], &frame, &settings);
+        picture moved = subject_shade_by(*state, effects[0], &frame, &settings);
         double apart = 0.0, faded = 0.0;
         for (int k = 0; k < W * H; ++k) {
             apart = fmax(apart, fabs((double)plain.values[k] - (double)moved.values[k]));
@@ -310,7 +294,7 @@ static void far_fades_follow_the_hosts_eye(void **state)
         free(without.values);
         free(plain.values);
         free(moved.values);
-        subject_frame_free(&frame);
+        fixture_delete_frame(&frame);
         subject_free(&s);
     }
 }
@@ -343,7 +327,7 @@ static void make_oblique(subject *s, const double plane[4], bool reversed)
     s->view.sky_depth = reversed ? 0.0f : 1.0f;
 }
 
-static void oblique_near_planes_change_nothing(void **state)
+TEST_GL(oblique_near_planes_change_nothing)
 {
     static const double planes[][4] = {{0.0, 0.3, -0.9539, -1.0}, {0.4, -0.1, -0.9110, -1.2}};
     static const depth_store stores[] = {DEPTH_32F, DEPTH_24};
@@ -353,14 +337,14 @@ static void oblique_near_planes_change_nothing(void **state)
         make_oblique(&s, planes[i % 2], i == 3);
         glssao_frame other = subject_frame(&s, stores[i / 2], i % 2 ? NORMAL_NONE : NORMAL_32F);
         assert_same(*state, &plain, &other, 2e-3, "an oblique near plane");
-        subject_frame_free(&plain);
-        subject_frame_free(&other);
+        fixture_delete_frame(&plain);
+        fixture_delete_frame(&other);
         subject_free(&s);
     }
 }
 
 /* A plane in all of these stays open, whatever looks at it. */
-static void planes_stay_open(void **state)
+TEST_GL(planes_stay_open)
 {
     const analytic_shape plane = {ANALYTIC_PLANE, {0.0, -0.3, -3.0}, {0.0, 0.6, 0.8}};
     static const double near_plane[4] = {0.0, 0.3, -0.9539, -0.3};
@@ -377,12 +361,12 @@ static void planes_stay_open(void **state)
                 frame.projection[14] -= 10.0f * frame.projection[10]; /* the plane lies behind the eye */
             for (int number = 1; number < CONFIGURATIONS; number += 3) {
                 const configuration c = configuration_of(number);
-                picture p = shade(*state, effects[0], &frame, &c.settings);
+                picture p = subject_shade_by(*state, effects[0], &frame, &c.settings);
                 if (picture_least(&p) < 0.995)
                     fail_msg("case %d, %s: %g", i, c.name, picture_least(&p));
                 free(p.values);
             }
-            subject_frame_free(&frame);
+            fixture_delete_frame(&frame);
         }
         subject_free(&s);
     }
@@ -390,7 +374,7 @@ static void planes_stay_open(void **state)
 
 /* ---- matrices that were hardly meant ---- */
 
-static void doubts_are_told_once(void **state)
+TEST_GL(doubts_are_told_once)
 {
     fixture *f = *state;
     static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -414,24 +398,11 @@ static void doubts_are_told_once(void **state)
     assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_OK);
     assert_string_equal(f->log, "");
     glssao_destroy(effect);
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
     subject_free(&s);
 }
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
-    const struct CMUnitTest tests[] = {
-        GL_TEST(turned_cameras_see_the_same),
-        GL_TEST(rebuilt_normals_are_in_view_space),
-        GL_TEST(normals_in_world_space_are_turned),
-        GL_TEST(views_are_checked_where_they_count),
-        GL_TEST(residues_change_nothing),
-        GL_TEST(eyes_behind_the_near_plane_see_the_same),
-        GL_TEST(far_fades_follow_the_hosts_eye),
-        GL_TEST(oblique_near_planes_change_nothing),
-        GL_TEST(planes_stay_open),
-        GL_TEST(doubts_are_told_once),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return test_run(NULL, setup, teardown);
 }

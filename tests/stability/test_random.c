@@ -5,11 +5,6 @@
  */
 #include "techniques.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 /* Consecutive cases with the same shaders, since compiling them is most of the work. Technique, quality and formats
  * follow from the seed divided by this. */
 enum { ALIKE = 100 };
@@ -156,11 +151,11 @@ static void random_case(fixture *f, uint64_t seed)
     free(again.values);
     if (below(&s, 3) == 0)
         random_walk(f, &s, &frame, &settings, width, height, scale, seed);
-    subject_frame_free(&frame);
+    fixture_delete_frame(&frame);
     subject_free(&seen);
 }
 
-static void random_cases(void **state)
+TEST_GL(random_cases)
 {
     print_message("%d cases from seed %llu\n", cases, (unsigned long long)first_seed);
     for (int i = 0; i < cases; ++i)
@@ -178,8 +173,5 @@ int main(int argc, char **argv)
     /* The two contexts run different cases. */
     if (argc < 2 || (argc == 3 && !strcmp(argv[1], "--cases")))
         first_seed += fixture_hides_newer() ? 100000 : 0;
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(random_cases, NULL, fixture_no_gl_error),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

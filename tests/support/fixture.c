@@ -102,10 +102,15 @@ glssao_config fixture_config(fixture *f, int width, int height)
 
 glssao_effect *fixture_effect(fixture *f, int width, int height)
 {
-    fixture_clear_log(f);
-    glssao_config config = fixture_config(f, width, height);
+    const glssao_config config = fixture_config(f, width, height);
+    return fixture_effect_of(f, &config);
+}
+
+glssao_effect *fixture_effect_of(fixture *f, const glssao_config *config)
+{
     glssao_effect *effect = NULL;
-    glssao_result result = glssao_create(&config, &effect);
+    fixture_clear_log(f);
+    const glssao_result result = glssao_create(config, &effect);
     if (result != GLSSAO_OK)
         fail_msg("glssao_create: %s: %s", glssao_result_string(result), f->log);
     return effect;
@@ -119,7 +124,14 @@ glssao_effect *fixture_shared_effect(fixture *f, int width, int height)
     return f->effect;
 }
 
-static GLuint make_texture(GLenum internal_format, GLenum format, GLenum type, int width, int height, const void *data)
+void fixture_refused(fixture *f, glssao_result result, const char *words)
+{
+    if (result != GLSSAO_INVALID_ARGUMENT || !strstr(f->log, words))
+        fail_msg("%s, \"%s\", wanted a refusal with \"%s\"", glssao_result_string(result), f->log, words);
+    fixture_clear_log(f);
+}
+
+GLuint fixture_texture(GLenum internal_format, GLenum format, GLenum type, int width, int height, const void *data)
 {
     GLuint texture = 0;
     gl.GenTextures(1, &texture);
@@ -134,19 +146,20 @@ static GLuint make_texture(GLenum internal_format, GLenum format, GLenum type, i
 GLuint fixture_depth_texture(GLenum internal_format, int width, int height, const float *depth)
 {
     if (internal_format != GL_DEPTH24_STENCIL8)
-        return make_texture(internal_format, GL_DEPTH_COMPONENT, GL_FLOAT, width, height, depth);
+        return fixture_texture(internal_format, GL_DEPTH_COMPONENT, GL_FLOAT, width, height, depth);
     size_t count = (size_t)width * (size_t)height;
     uint32_t *packed = calloc(count, sizeof *packed);
     for (size_t i = 0; i < count; ++i)
         packed[i] = (uint32_t)((double)depth[i] * 16777215.0 + 0.5) << 8;
-    GLuint texture = make_texture(GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, width, height, packed);
+    GLuint texture =
+        fixture_texture(GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, width, height, packed);
     free(packed);
     return texture;
 }
 
 GLuint fixture_normal_texture(int width, int height, const float *normals)
 {
-    return make_texture(GL_RGB32F, GL_RGB, GL_FLOAT, width, height, normals);
+    return fixture_texture(GL_RGB32F, GL_RGB, GL_FLOAT, width, height, normals);
 }
 
 static float *read_texture(GLuint texture, int width, int height, GLenum format, int channels)
@@ -193,30 +206,85 @@ float *fixture_read_depth(GLuint texture, int width, int height)
     return read_texture(texture, width, height, GL_DEPTH_COMPONENT, 1);
 }
 
+fixture_target fixture_make_target(GLenum internal_format, int width, int height)
+{
+    fixture_target target = {.texture = fixture_texture(internal_format, GL_RGBA, GL_FLOAT, width, height, NULL)};
+    gl.GenFramebuffers(1, &target.framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.texture, 0);
+    return target;
+}
+
+void fixture_delete_target(const fixture_target *target)
+{
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    gl.DeleteFramebuffers(1, &target->framebuffer);
+    gl.DeleteTextures(1, &target->texture);
+}
+
+GLuint fixture_program(const char *vertex, const char *fragment)
+{
+    const char *const sources[2] = {vertex, fragment};
+    const GLuint program = gl.CreateProgram();
+    for (int i = 0; i < 2; ++i) {
+        const GLuint shader = gl.CreateShader(i ? GL_FRAGMENT_SHADER : GL_VERTEX_SHADER);
+        gl.ShaderSource(shader, 1, &sources[i], NULL);
+        gl.CompileShader(shader);
+        gl.AttachShader(program, shader);
+        gl.DeleteShader(shader);
+    }
+    gl.LinkProgram(program);
+    GLint linked = 0;
+    gl.GetProgramiv(program, GL_LINK_STATUS, &linked);
+    assert_true(linked);
+    return program;
+}
+
+glssao_frame fixture_maps_frame(const analytic_view *view, int width, int height, GLenum depth_format,
+                                const float *depth, const float *normals)
+{
+    glssao_frame frame = {.depth_texture = fixture_depth_texture(depth_format, width, height, depth),
+                          .normal_texture = normals ? fixture_normal_texture(width, height, normals) : 0,
+                          .clip_zero_to_one = view->clip_zero_to_one};
+    memcpy(frame.projection, view->projection, sizeof frame.projection);
+    return frame;
+}
+
 glssao_frame fixture_frame(const analytic_view *view, const analytic_shape *shapes, int shape_count, int width,
                            int height)
 {
     float *depth, *normals;
     analytic_render(view, shapes, shape_count, width, height, &depth, &normals);
-    glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, width, height, depth),
-                          .normal_texture = fixture_normal_texture(width, height, normals),
-                          .clip_zero_to_one = view->clip_zero_to_one};
-    memcpy(frame.projection, view->projection, sizeof frame.projection);
+    const glssao_frame frame = fixture_maps_frame(view, width, height, GL_DEPTH_COMPONENT32F, depth, normals);
     free(depth);
     free(normals);
     return frame;
 }
 
+glssao_frame fixture_room(analytic_projection kind, int width, int height)
+{
+    analytic_shape room[ANALYTIC_ROOM_SHAPES];
+    analytic_room(room, 1.0);
+    const analytic_view view = analytic_make_view(kind, (double)width / height, 0.5, 40.0, 1.0);
+    return fixture_frame(&view, room, ANALYTIC_ROOM_SHAPES, width, height);
+}
+
 void fixture_delete_frame(const glssao_frame *frame)
 {
-    gl.DeleteTextures(2, (const GLuint[2]){frame->depth_texture, frame->normal_texture});
+    gl.DeleteTextures(6, (const GLuint[6]){frame->depth_texture, frame->normal_texture, frame->back_texture,
+                                           frame->second_texture, frame->rays_texture, frame->motion_texture});
+}
+
+float *fixture_read_ambient(const glssao_effect *effect, int *out_width, int *out_height)
+{
+    const uint32_t map = glssao_map(effect, GLSSAO_MAP_AMBIENT, out_width, out_height);
+    assert_int_not_equal(map, 0);
+    return fixture_read_texture(map, *out_width, *out_height, 1);
 }
 
 float *fixture_compute(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
                        int *out_width, int *out_height)
 {
     assert_int_equal(glssao_compute(effect, frame, settings), GLSSAO_OK);
-    uint32_t map = glssao_map(effect, GLSSAO_MAP_AMBIENT, out_width, out_height);
-    assert_int_not_equal(map, 0);
-    return fixture_read_texture(map, *out_width, *out_height, 1);
+    return fixture_read_ambient(effect, out_width, out_height);
 }

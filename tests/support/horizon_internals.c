@@ -31,6 +31,11 @@ double horizon_rays_alike(void)
     return RAYS_ALIKE;
 }
 
+double horizon_correction_prior(void)
+{
+    return CORRECTION_PRIOR;
+}
+
 uint32_t horizon_sum_map(const glssao_effect *effect)
 {
     return map_of(effect, MAP_SUM)->texture;

@@ -19,8 +19,9 @@ uint32_t horizon_paired_map(const glssao_effect *effect, int number);
 
 /* One of the two maps of differences between rays and estimate. */
 uint32_t horizon_rays_map(const glssao_effect *effect, int number);
-/* The constant RAYS_ALIKE. */
+/* The constants RAYS_ALIKE and CORRECTION_PRIOR. */
 double horizon_rays_alike(void);
+double horizon_correction_prior(void);
 
 /* The sum of accumulation: linear accessibility of two replicates, full size. */
 uint32_t horizon_sum_map(const glssao_effect *effect);

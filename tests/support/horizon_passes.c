@@ -29,6 +29,13 @@ double paired_accessibility(float red)
     return (double)value;
 }
 
+void paired_set(float *red, double value)
+{
+    const float stored = (float)value;
+    const uint32_t bits = bits_of(stored) >> NORMAL_BITS << NORMAL_BITS | bits_of(*red) % (1u << NORMAL_BITS);
+    memcpy(red, &bits, sizeof *red);
+}
+
 static texel texel_at(const paired_map *map, int x, int y)
 {
     x = x < 0 ? 0 : x >= map->width ? map->width - 1 : x;
@@ -122,11 +129,11 @@ enum {
     TESTS
 };
 
-/* Five taps in a row, how much darker than its neighbours the middle one may be if nothing joins it, and as
- * pass_constants.alike. */
+/* Five taps in a row, how much darker than its neighbours the middle one may be if nothing joins it, and as in
+ * pass_constants. */
 typedef struct row {
     texel taps[5];
-    double alone, alike;
+    double alone, alike, prior;
 } row;
 
 static double blurred(const truth *t, const void *user)
@@ -143,7 +150,9 @@ static double blurred(const truth *t, const void *user)
         weights[3] = t[JOINS_AFTER] && t[NEAR_AFTER] ? 1.0 : 0.0;
     }
     const bool is_alone = weights[1] + weights[3] == 0.0;
-    double sum = 0.0, total = 0.0;
+    double sum = 0.0, total = 0.0, joined = 0.0;
+    for (int i = 0; i < 5; ++i)
+        joined += weights[i];
     for (int i = 0; i < 5; ++i) {
         const double off = taps[i].value - taps[2].value;
         if (r->alike > 0.0 && taps[2].value >= 0.0)
@@ -155,14 +164,16 @@ static double blurred(const truth *t, const void *user)
     }
     if (total <= 0.0)
         return -1.0;
-    return is_alone && taps[2].value >= 0.0 ? fmax(sum / total, fmin(taps[1].value, taps[3].value) - r->alone)
-                                            : sum / total;
+    double mean = sum / total;
+    if (r->prior > 0.0) /* the prior's taps have no difference, and all 4 taps outweigh it */
+        mean = 0.5 + (mean - 0.5) * joined / (joined + r->prior) * (4.0 + r->prior) / 4.0;
+    return is_alone && taps[2].value >= 0.0 ? fmax(mean, fmin(taps[1].value, taps[3].value) - r->alone) : mean;
 }
 
 void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic, const pass_constants *constants,
                        int x, int y, double *out_low, double *out_high)
 {
-    row r = {.alone = constants->alone, .alike = constants->alike};
+    row r = {.alone = constants->alone, .alike = constants->alike, .prior = constants->prior};
     texel *taps = r.taps;
     const int apart = constants->apart > 0 ? constants->apart : 1;
     for (int i = 0; i < 5; ++i)

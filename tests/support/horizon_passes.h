@@ -23,6 +23,7 @@ typedef struct pass_constants {
     double normal_step;
     int apart;            /* pixels between neighbours of the first round; 0: 1 */
     double alike;         /* values of rays that differ by so much do not count; 0: all do */
+    double prior;         /* taps without a difference that count besides those of the window; 0: of a mean */
     double fall;          /* upsampling without normals: see upsample_model */
     double depth_step[3]; /* step of the depth format at view distance t: coefficients of 1, t and t^2 */
 } pass_constants;
@@ -49,5 +50,7 @@ void upsample_model(const paired_map *half, bool orthographic, const pass_consta
 
 /* Accessibility of a texel without the bits of the normal. */
 double paired_accessibility(float red);
+/* Replaces the value, which keeps its normal; negative: missing. */
+void paired_set(float *red, double value);
 
 #endif

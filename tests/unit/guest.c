@@ -7,16 +7,10 @@
 guest guest_open(fixture *f, glssao_path path)
 {
     guest g = {.f = f};
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    const analytic_view view = analytic_make_view(PERSPECTIVE, (double)GUEST_W / GUEST_H, 0.5, 40.0, 1.0);
-    g.frame = fixture_frame(&view, room, ANALYTIC_ROOM_SHAPES, GUEST_W, GUEST_H);
     glssao_config config = fixture_config(f, GUEST_W, GUEST_H);
     config.path = path;
-    fixture_clear_log(f);
-    const glssao_result result = glssao_create(&config, &g.effect);
-    if (result != GLSSAO_OK)
-        fail_msg("glssao_create: %s: %s", glssao_result_string(result), f->log);
+    g.frame = fixture_room(PERSPECTIVE, GUEST_W, GUEST_H);
+    g.effect = fixture_effect_of(f, &config);
     return g;
 }
 
@@ -66,9 +60,9 @@ float *guest_picture(guest *g, const glssao_frame *frame, const glssao_settings 
     const glssao_result result = glssao_compute(g->effect, frame, settings);
     if (result != GLSSAO_OK)
         fail_msg("glssao_compute: %s: %s", glssao_result_string(result), g->f->log);
-    const uint32_t map = glssao_map(g->effect, GLSSAO_MAP_AMBIENT, &w, &h);
+    float *const picture = fixture_read_ambient(g->effect, &w, &h);
     assert_true(w == GUEST_W && h == GUEST_H);
-    return fixture_read_texture(map, w, h, 1);
+    return picture;
 }
 
 void guest_same_picture(const float *got, const float *wanted, const char *what)
@@ -100,22 +94,14 @@ void guest_refused(guest *g, glssao_result result, const char *word, const char 
     fixture_clear_log(g->f);
 }
 
-guest_target guest_make_white(void)
+fixture_target guest_make_white(void)
 {
-    guest_target t;
-    gl.GenTextures(1, &t.texture);
-    gl.BindTexture(GL_TEXTURE_2D, t.texture);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, GUEST_W, GUEST_H, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-    gl.BindTexture(GL_TEXTURE_2D, 0);
-    gl.GenFramebuffers(1, &t.framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, t.framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, t.texture, 0);
+    const fixture_target t = fixture_make_target(GL_RGBA8, GUEST_W, GUEST_H);
     gl.ClearBufferfv(GL_COLOR, 0, (const float[4]){1.0f, 1.0f, 1.0f, 1.0f});
     return t;
 }
 
-int guest_count_dark(const guest_target *t)
+int guest_count_dark(const fixture_target *t)
 {
     int count = 0;
     float *const pixels = fixture_read_texture(t->texture, GUEST_W, GUEST_H, 1);
@@ -123,11 +109,4 @@ int guest_count_dark(const guest_target *t)
         count += pixels[i] < 0.99f;
     free(pixels);
     return count;
-}
-
-void guest_delete_white(guest_target *t)
-{
-    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
-    gl.DeleteFramebuffers(1, &t->framebuffer);
-    gl.DeleteTextures(1, &t->texture);
 }

@@ -39,13 +39,8 @@ void guest_no_error(const char *what);
 void guest_refused(guest *g, glssao_result result, const char *word, const char *what);
 
 /* A white picture of the guest's size to apply to, bound. */
-typedef struct guest_target {
-    GLuint texture, framebuffer;
-} guest_target;
-
-guest_target guest_make_white(void);
+fixture_target guest_make_white(void);
 /* Pixels that are white no longer. */
-int guest_count_dark(const guest_target *t);
-void guest_delete_white(guest_target *t);
+int guest_count_dark(const fixture_target *t);
 
 #endif

@@ -5,10 +5,6 @@
  */
 #include "guest.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { W = 40, H = 30, SPLIT = 13 };
 
 static const struct format {
@@ -85,7 +81,7 @@ static void check_depth(const glssao_effect *effect, int width, int height, int 
     free(depth);
 }
 
-static void every_depth_format_arrives(void **state)
+TEST_GL(every_depth_format_arrives)
 {
     glssao_effect *effect = fixture_effect(*state, W, H);
     const glssao_settings settings = make_settings();
@@ -120,13 +116,10 @@ static void put_depth(GLuint texture, const host *h, int x, int y)
 }
 
 /* Anywhere in the framebuffer, with normals or without, the result is that of glssao_compute. */
-static void the_result_is_that_of_the_depth_as_a_texture(void **state)
+TEST_GL(the_result_is_that_of_the_depth_as_a_texture)
 {
     fixture *f = *state;
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
-    glssao_frame frame = fixture_frame(&view, room, ANALYTIC_ROOM_SHAPES, W, H);
+    glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
     const GLuint normals = frame.normal_texture;
     host h = make_host(&formats[4], 0, 2 * W, 2 * H);
     put_depth(frame.depth_texture, &h, W, H / 2);
@@ -141,7 +134,7 @@ static void the_result_is_that_of_the_depth_as_a_texture(void **state)
         copied.depth_texture = 0;
         memcpy(copied.viewport, (const int[4]){W, H / 2, W, H}, sizeof copied.viewport);
         assert_int_equal(glssao_compute_framebuffer(window, h.framebuffer, &copied, &settings), GLSSAO_OK);
-        float *got = fixture_read_texture(glssao_map(window, GLSSAO_MAP_AMBIENT, &w, &height), W, H, 1);
+        float *got = fixture_read_ambient(window, &w, &height);
         assert_true(w == W && height == H);
         assert_memory_equal(got, wanted, W * H * sizeof *got);
         free(got);
@@ -155,17 +148,13 @@ static void the_result_is_that_of_the_depth_as_a_texture(void **state)
 }
 
 /* glViewport says which part, the effect takes its size, and glssao_apply covers it. */
-static void viewport_and_size_of_the_host_are_followed(void **state)
+TEST_GL(viewport_and_size_of_the_host_are_followed)
 {
     glssao_effect *effect = fixture_effect(*state, 8, 8);
     const glssao_settings settings = make_settings();
     const glssao_frame frame = make_frame();
     host h = make_host(&formats[2], 0, W, H);
-    GLuint color;
-    gl.GenTextures(1, &color);
-    gl.BindTexture(GL_TEXTURE_2D, color);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, W, H, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
-    gl.BindTexture(GL_TEXTURE_2D, 0);
+    const GLuint color = fixture_texture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, W, H, NULL);
     gl.BindFramebuffer(GL_FRAMEBUFFER, h.framebuffer);
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
     gl.DrawBuffer(GL_COLOR_ATTACHMENT0);
@@ -183,9 +172,8 @@ static void viewport_and_size_of_the_host_are_followed(void **state)
         options.show = true;
         assert_int_equal(glssao_apply_with(effect, &options), GLSSAO_OK);
         int w, height;
-        const GLuint map = glssao_map(effect, GLSSAO_MAP_AMBIENT, &w, &height);
+        float *access = fixture_read_ambient(effect, &w, &height), *got = fixture_read_texture(color, W, H, 1);
         assert_true(w == p[2] && height == p[3]);
-        float *access = fixture_read_texture(map, w, height, 1), *got = fixture_read_texture(color, W, H, 1);
         for (int k = 0; k < W * H; ++k) {
             const int x = k % W - p[0], y = k / W - p[1];
             const bool inside = x >= 0 && y >= 0 && x < p[2] && y < p[3];
@@ -212,7 +200,7 @@ static void check_refused(fixture *f, glssao_result got, glssao_result wanted, c
     fixture_clear_log(f);
 }
 
-static void bad_arguments_are_named(void **state)
+TEST_GL(bad_arguments_are_named)
 {
     fixture *f = *state;
     glssao_effect *effect = fixture_effect(f, 8, 8);
@@ -251,7 +239,7 @@ static void bad_arguments_are_named(void **state)
     glssao_destroy(effect);
 }
 
-static void framebuffers_that_hold_no_depth_are_named(void **state)
+TEST_GL(framebuffers_that_hold_no_depth_are_named)
 {
     fixture *f = *state;
     glssao_effect *effect = fixture_effect(f, 8, 8);
@@ -358,7 +346,7 @@ static glssao_effect *effect_of_a_driver(fixture *f, bool host_restores_state)
     return effect;
 }
 
-static void drivers_that_refuse_the_blit_copy_texels(void **state)
+TEST_GL(drivers_that_refuse_the_blit_copy_texels)
 {
     fixture *f = *state;
     const glssao_settings settings = make_settings();
@@ -388,7 +376,7 @@ static void drivers_that_refuse_the_blit_copy_texels(void **state)
 }
 
 /* An error that the host had is there afterwards; later copies don't ask for errors. */
-static void errors_of_the_host_stay(void **state)
+TEST_GL(errors_of_the_host_stay)
 {
     if (GLSSAO_CHECK_GL)
         skip(); /* such builds ask for errors after every pass and take the host's */
@@ -412,7 +400,7 @@ static void errors_of_the_host_stay(void **state)
 }
 
 /* With config.host_restores_state the part is told, not looked up. test_guest_calls counts its queries. */
-static void hosts_that_restore_state_name_the_part(void **state)
+TEST_GL(hosts_that_restore_state_name_the_part)
 {
     fixture *f = *state;
     glssao_effect *effect = effect_of_a_driver(f, true);
@@ -433,18 +421,43 @@ static void hosts_that_restore_state_name_the_part(void **state)
     glssao_destroy(effect);
 }
 
+/* The copy counts in the time of the inputs, of frames that came to something. */
+TEST_GL(the_copy_is_timed)
+{
+    fixture *f = *state;
+    glssao_effect *effect = fixture_effect(f, W, H);
+    const glssao_settings settings = make_settings();
+    glssao_frame frame = make_frame(), bad = make_frame();
+    bad.normal_texture = 4242;
+    memcpy(frame.viewport, (const int[4]){0, 0, W, H}, sizeof frame.viewport);
+    memcpy(bad.viewport, frame.viewport, sizeof bad.viewport);
+    host h = make_host(&formats[1], 0, W, H);
+    for (int i = 0; i < 6; ++i) { /* more often than there are sets of timers */
+        assert_int_equal(glssao_compute_framebuffer(effect, h.framebuffer, &frame, &settings), GLSSAO_OK);
+        assert_int_equal(glssao_compute_framebuffer(effect, h.framebuffer, &bad, &settings), GLSSAO_INVALID_ARGUMENT);
+        bad.multisample = !bad.multisample; /* refused before the copy, then after it */
+        gl.Finish();
+        const glssao_stats stats = glssao_get_stats(effect);
+        assert_true(stats.frame == (uint64_t)i + 1 && stats.timed_frame == stats.frame);
+        double sum = 0.0;
+        for (int pass = 0; pass < GLSSAO_PASS_COUNT; ++pass)
+            sum += fmax(stats.passes[pass].gpu_ms, 0.0);
+        assert_true(stats.passes[GLSSAO_PASS_INPUTS].gpu_ms > 0.0);
+        assert_true(fabs(stats.gpu_ms - sum) < 1e-9);
+        assert_int_equal(stats.passes[GLSSAO_PASS_INPUTS].draw_calls, 0);
+    }
+    memset(frame.viewport, 0, sizeof frame.viewport);
+    frame.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT24, W, H, NULL);
+    assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_OK);
+    gl.Finish();
+    assert_true(glssao_get_stats(effect).passes[GLSSAO_PASS_INPUTS].gpu_ms < 0.0); /* no copy */
+    fixture_clear_log(f);
+    gl.DeleteTextures(1, &frame.depth_texture);
+    delete_host(&h);
+    glssao_destroy(effect);
+}
+
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
-    const struct CMUnitTest tests[] = {
-        GL_TEST(every_depth_format_arrives),
-        GL_TEST(the_result_is_that_of_the_depth_as_a_texture),
-        GL_TEST(viewport_and_size_of_the_host_are_followed),
-        GL_TEST(bad_arguments_are_named),
-        GL_TEST(framebuffers_that_hold_no_depth_are_named),
-        GL_TEST(drivers_that_refuse_the_blit_copy_texels),
-        GL_TEST(errors_of_the_host_stay),
-        GL_TEST(hosts_that_restore_state_name_the_part),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

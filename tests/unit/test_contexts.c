@@ -8,13 +8,11 @@
 #include "fixture.h"
 
 #include <pthread.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { W = 80, H = 60, ROUNDS = 8 };
 
 typedef struct inputs {
+    analytic_view view;
     float *depth, *normals;
     glssao_frame frame;
 } inputs;
@@ -23,23 +21,19 @@ static inputs make_inputs(double scale)
 {
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     analytic_room(room, scale);
-    analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
-    inputs in = {.frame = {.depth_kind = GLSSAO_DEPTH_WINDOW}};
-    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, W, H, &in.depth, &in.normals);
-    memcpy(in.frame.projection, view.projection, sizeof in.frame.projection);
+    inputs in = {.view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0)};
+    analytic_render(&in.view, room, ANALYTIC_ROOM_SHAPES, W, H, &in.depth, &in.normals);
     return in;
 }
 
 static void upload(inputs *in)
 {
-    in->frame.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT24, W, H, in->depth);
-    in->frame.normal_texture = fixture_normal_texture(W, H, in->normals);
+    in->frame = fixture_maps_frame(&in->view, W, H, GL_DEPTH_COMPONENT24, in->depth, in->normals);
 }
 
 static void delete_inputs(inputs *in)
 {
-    gl.DeleteTextures(1, &in->frame.depth_texture);
-    gl.DeleteTextures(1, &in->frame.normal_texture);
+    fixture_delete_frame(&in->frame);
     free(in->depth);
     free(in->normals);
 }
@@ -70,7 +64,7 @@ static context *another_context(context *share)
     return c;
 }
 
-static void two_effects_in_one_context_do_not_mix(void **state)
+TEST_GL(two_effects_in_one_context_do_not_mix)
 {
     fixture *f = *state;
     float *alone[2] = {compute_alone(f, GLSSAO_HORIZON, 1.0), compute_alone(f, GLSSAO_CLASSIC, 0.7)};
@@ -87,8 +81,7 @@ static void two_effects_in_one_context_do_not_mix(void **state)
             assert_int_equal(glssao_compute(effects[i], &in[i].frame, &settings[i]), GLSSAO_OK);
     for (int i = 0; i < 2; ++i) {
         int width, height;
-        GLuint map = glssao_map(effects[i], GLSSAO_MAP_AMBIENT, &width, &height);
-        float *got = fixture_read_texture(map, width, height, 1);
+        float *got = fixture_read_ambient(effects[i], &width, &height);
         assert_memory_equal(got, alone[i], (size_t)width * (size_t)height * sizeof *got);
         free(got);
         free(alone[i]);
@@ -189,14 +182,14 @@ static void check_threads(fixture *f, job jobs[2])
     }
 }
 
-static void contexts_on_two_threads_do_not_mix(void **state)
+TEST_GL(contexts_on_two_threads_do_not_mix)
 {
     /* Different techniques, so that the same object names mean different things in the two contexts. */
     job jobs[2] = {{.technique = GLSSAO_HORIZON, .scale = 1.0}, {.technique = GLSSAO_CLASSIC, .scale = 0.7}};
     check_threads(*state, jobs);
 }
 
-static void contexts_that_share_objects_take_each_other_s_textures(void **state)
+TEST_GL(contexts_that_share_objects_take_each_other_s_textures)
 {
     fixture *f = *state;
     inputs in[2] = {make_inputs(1.0), make_inputs(0.7)};
@@ -213,7 +206,7 @@ static void contexts_that_share_objects_take_each_other_s_textures(void **state)
 }
 
 /* The result of one context is read in another that shares objects with it. */
-static void a_map_is_read_in_a_sharing_context(void **state)
+TEST_GL(a_map_is_read_in_a_sharing_context)
 {
     fixture *f = *state;
     float *alone = compute_alone(f, GLSSAO_HORIZON, 1.0);
@@ -241,12 +234,5 @@ static void a_map_is_read_in_a_sharing_context(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
-    const struct CMUnitTest tests[] = {
-        GL_TEST(two_effects_in_one_context_do_not_mix),
-        GL_TEST(contexts_on_two_threads_do_not_mix),
-        GL_TEST(contexts_that_share_objects_take_each_other_s_textures),
-        GL_TEST(a_map_is_read_in_a_sharing_context),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -5,9 +5,6 @@
  */
 #include "guest.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-
 /* ---- queries ---- */
 
 /* What was asked since counting began; with the state that was asked for where that is what distinguishes. */
@@ -89,12 +86,41 @@ static GLenum APIENTRY check_framebuffer(GLenum target)
     return gl.CheckFramebufferStatus(target);
 }
 
-static PFNGLGETTEXPARAMETERIVPROC real_get_texture_parameter; /* not in the tests' table of functions */
+/* Not in the tests' table of functions. */
+static PFNGLGETTEXPARAMETERIVPROC real_get_texture_parameter;
+static PFNGLGETTEXTUREPARAMETERIVPROC real_get_parameter_of_texture;
+static PFNGLGETFRAMEBUFFERATTACHMENTPARAMETERIVPROC real_get_attachment;
+static PFNGLISFRAMEBUFFERPROC real_is_framebuffer;
+static PFNGLGETERRORPROC real_get_error;
 
 static void APIENTRY get_texture_parameter(GLenum target, GLenum name, GLint *out)
 {
     note(name);
     real_get_texture_parameter(target, name, out);
+}
+
+static void APIENTRY get_parameter_of_texture(GLuint texture, GLenum name, GLint *out)
+{
+    note(name);
+    real_get_parameter_of_texture(texture, name, out);
+}
+
+static void APIENTRY get_attachment(GLenum target, GLenum attachment, GLenum name, GLint *out)
+{
+    note(name);
+    real_get_attachment(target, attachment, name, out);
+}
+
+static GLboolean APIENTRY is_framebuffer(GLuint framebuffer)
+{
+    note(GL_FRAMEBUFFER);
+    return real_is_framebuffer(framebuffer);
+}
+
+static GLenum APIENTRY get_error(void)
+{
+    note(GL_NO_ERROR);
+    return real_get_error();
 }
 
 static void *watched_user; /* of load, for loaders without an argument */
@@ -140,8 +166,15 @@ static void *load(const char *name, void *user)
     if (strcmp(name, function) == 0)                                                                                   \
         memcpy(&address, &(type[1]){wrapper}, sizeof address);
     void *address = fixture_load(name, user);
-    if (strcmp(name, "glGetTexParameteriv") == 0)
-        memcpy(&real_get_texture_parameter, &address, sizeof address);
+#define KEEP(function, real)                                                                                           \
+    if (strcmp(name, function) == 0)                                                                                   \
+        memcpy(&real, &address, sizeof address);
+    KEEP("glGetTexParameteriv", real_get_texture_parameter)
+    KEEP("glGetTextureParameteriv", real_get_parameter_of_texture)
+    KEEP("glGetFramebufferAttachmentParameteriv", real_get_attachment)
+    KEEP("glIsFramebuffer", real_is_framebuffer)
+    KEEP("glGetError", real_get_error)
+#undef KEEP
     WRAP(PFNGLGETINTEGERVPROC, "glGetIntegerv", get_integer)
     WRAP(PFNGLGETFLOATVPROC, "glGetFloatv", get_float)
     WRAP(PFNGLGETBOOLEANVPROC, "glGetBooleanv", get_boolean)
@@ -154,6 +187,11 @@ static void *load(const char *name, void *user)
     WRAP(PFNGLGETTEXLEVELPARAMETERIVPROC, "glGetTexLevelParameteriv", get_level)
     WRAP(PFNGLCHECKFRAMEBUFFERSTATUSPROC, "glCheckFramebufferStatus", check_framebuffer)
     WRAP(PFNGLGETTEXPARAMETERIVPROC, "glGetTexParameteriv", get_texture_parameter)
+    if (address) /* newer than OpenGL 3.3 */
+        WRAP(PFNGLGETTEXTUREPARAMETERIVPROC, "glGetTextureParameteriv", get_parameter_of_texture)
+    WRAP(PFNGLGETFRAMEBUFFERATTACHMENTPARAMETERIVPROC, "glGetFramebufferAttachmentParameteriv", get_attachment)
+    WRAP(PFNGLISFRAMEBUFFERPROC, "glIsFramebuffer", is_framebuffer)
+    WRAP(PFNGLGETERRORPROC, "glGetError", get_error)
     WRAP(PFNGLQUERYCOUNTERPROC, "glQueryCounter", query_counter)
     WRAP(PFNGLGETQUERYOBJECTIVPROC, "glGetQueryObjectiv", get_query)
     WRAP(PFNGLGETQUERYOBJECTUI64VPROC, "glGetQueryObjectui64v", get_query_64)
@@ -189,7 +227,7 @@ static GLuint bind_target(GLuint *out_texture)
 }
 
 /* glssao_apply draws once, with one texture, into one framebuffer: it changes nothing of these. */
-static void apply_asks_only_for_what_it_changes(void **state)
+TEST_GL(apply_asks_only_for_what_it_changes)
 {
     static const struct {
         GLenum name;
@@ -240,7 +278,7 @@ static glssao_proc get_proc(const char *name)
     return function;
 }
 
-static void hosts_that_restore_state_are_asked_nothing(void **state)
+TEST_GL(hosts_that_restore_state_are_asked_nothing)
 {
     guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
@@ -258,12 +296,24 @@ static void hosts_that_restore_state_are_asked_nothing(void **state)
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
     glssao_frame window = {.viewport = {0, 0, GUEST_W, GUEST_H}};
     memcpy(window.projection, g.frame.projection, sizeof window.projection);
+    const GLuint weights = fixture_normal_texture(GUEST_W, GUEST_H, NULL);
     for (int i = 0; i < 3; ++i) {
         queries.count = 0;
         assert_int_equal(glssao_begin_normals(g.effect, depth), GLSSAO_OK);
         assert_int_equal(glssao_end_normals(g.effect), GLSSAO_OK);
         assert_int_equal(glssao_compute(g.effect, &g.frame, &settings), GLSSAO_OK);
         assert_int_equal(glssao_apply(g.effect, framebuffer), GLSSAO_OK);
+        for (unsigned k = 0; k < 32; ++k) {
+            const glssao_apply_options options = {.framebuffer = framebuffer,
+                                                  .intensity = 0.5f,
+                                                  .color = {k & 1 ? 0.25f : 0.0f},
+                                                  .strength_texture = k & 2 ? weights : 0,
+                                                  .albedo_texture = k & 4 ? weights : 0,
+                                                  .show = k & 8,
+                                                  .keep_scissor = k & 16,
+                                                  .keep_stencil = k & 16};
+            assert_int_equal(glssao_apply_with(g.effect, &options), GLSSAO_OK);
+        }
         assert_int_equal(glssao_compute_framebuffer(g.effect, framebuffer, &window, &settings), GLSSAO_OK);
         if (i > 0 && queries.count > 0)
             fail_msg("%d queries, the first for 0x%04X", queries.count, queries.names[0]);
@@ -276,14 +326,14 @@ static void hosts_that_restore_state_are_asked_nothing(void **state)
     gl.UseProgram(0); /* as such a host does */
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     gl.DeleteFramebuffers(1, &framebuffer);
-    gl.DeleteTextures(2, (const GLuint[2]){depth, texture});
+    gl.DeleteTextures(3, (const GLuint[3]){depth, texture, weights});
     free(got);
     free(wanted);
     guest_close(&g);
 }
 
 /* A driver blocks where a query is begun whose last result is still to come, or where a result is asked for early. */
-static void timers_never_make_the_cpu_wait(void **state)
+TEST_GL(timers_never_make_the_cpu_wait)
 {
     guest g = open_watched(state);
     memset(&timers, 0, sizeof timers);
@@ -350,7 +400,7 @@ static void compute_all(guest *g)
             }
 }
 
-static void a_debug_context_has_nothing_to_say(void **state)
+TEST_GL(a_debug_context_has_nothing_to_say)
 {
     PFNGLDEBUGMESSAGECALLBACKPROC set_callback;
     fixture *f = *state;
@@ -385,12 +435,5 @@ static void a_debug_context_has_nothing_to_say(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
-    const struct CMUnitTest tests[] = {
-        GL_TEST(apply_asks_only_for_what_it_changes),
-        GL_TEST(timers_never_make_the_cpu_wait),
-        GL_TEST(hosts_that_restore_state_are_asked_nothing),
-        GL_TEST(a_debug_context_has_nothing_to_say),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

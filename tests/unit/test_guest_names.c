@@ -5,17 +5,14 @@
  */
 #include "guest.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-
 /* ---- framebuffer names ---- */
 
-static void apply_refuses_a_name_that_is_no_framebuffer(void **state)
+TEST_GL(apply_refuses_a_name_that_is_no_framebuffer)
 {
     guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     assert_int_equal(glssao_compute(g.effect, &g.frame, &settings), GLSSAO_OK);
-    guest_target bound = guest_make_white();
+    const fixture_target bound = guest_make_white();
     GLuint deleted;
     gl.GenFramebuffers(1, &deleted);
     gl.BindFramebuffer(GL_FRAMEBUFFER, deleted);
@@ -35,7 +32,7 @@ static void apply_refuses_a_name_that_is_no_framebuffer(void **state)
     fixture_clear_log(g.f);
     assert_int_equal(glssao_apply(g.effect, bound.framebuffer), GLSSAO_OK);
     assert_true(guest_count_dark(&bound) > 0);
-    guest_delete_white(&bound);
+    fixture_delete_target(&bound);
     guest_close(&g);
 }
 
@@ -105,7 +102,7 @@ static void refuse_everywhere(guest *g, GLuint name, bool multisample, const cha
     }
 }
 
-static void a_texture_of_another_target_leaves_no_error(void **state)
+TEST_GL(a_texture_of_another_target_leaves_no_error)
 {
     static const struct {
         GLenum value;
@@ -141,7 +138,7 @@ static void a_texture_of_another_target_leaves_no_error(void **state)
 }
 
 /* An error of the host's own that nobody asked for yet is the host's to find. */
-static void the_hosts_own_error_stays(void **state)
+TEST_GL(the_hosts_own_error_stays)
 {
     if (GLSSAO_CHECK_GL)
         skip(); /* such builds ask for errors after every pass and take the host's */
@@ -163,30 +160,15 @@ static void the_hosts_own_error_stays(void **state)
 
 /* ---- programs and pairs ---- */
 
-static GLuint make_program(void)
-{
-    static const char *const sources[2] = {"#version 330\nvoid main() { gl_Position = vec4(0.0); }\n",
-                                           "#version 330\nout vec4 o_color;\nvoid main() { o_color = vec4(1.0); }\n"};
-    const GLuint program = gl.CreateProgram();
-    for (int i = 0; i < 2; ++i) {
-        const GLuint shader = gl.CreateShader(i == 0 ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER);
-        gl.ShaderSource(shader, 1, &sources[i], NULL);
-        gl.CompileShader(shader);
-        gl.AttachShader(program, shader);
-        gl.DeleteShader(shader);
-    }
-    gl.LinkProgram(program);
-    return program;
-}
-
 /* GL deletes a program that is current once another becomes current, and no call brings it back. */
-static void a_deleted_program_that_is_current_stays_current(void **state)
+TEST_GL(a_deleted_program_that_is_current_stays_current)
 {
     guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     assert_int_equal(glssao_compute(g.effect, &g.frame, &settings), GLSSAO_OK);
-    guest_target t = guest_make_white();
-    const GLuint program = make_program();
+    const fixture_target t = guest_make_white();
+    const GLuint program = fixture_program("#version 330\nvoid main() { gl_Position = vec4(0.0); }\n",
+                                           "#version 330\nout vec4 o_color;\nvoid main() { o_color = vec4(1.0); }\n");
     gl.UseProgram(program);
     gl.DeleteProgram(program);
     guest_no_error("deleting the current program");
@@ -210,16 +192,16 @@ static void a_deleted_program_that_is_current_stays_current(void **state)
     }
     gl.UseProgram(0);
     assert_int_equal(glssao_compute(g.effect, &g.frame, &settings), GLSSAO_OK);
-    guest_delete_white(&t);
+    fixture_delete_target(&t);
     guest_close(&g);
 }
 
 /* Either the pairs are undone in any order, or the end that comes too early is refused, changes nothing, and works
  * once the inner pair has ended. */
-static void crossed_pairs_give_the_hosts_framebuffer_back(void **state)
+TEST_GL(crossed_pairs_give_the_hosts_framebuffer_back)
 {
     guest a = guest_open(*state, GLSSAO_PATH_AUTO), b = guest_open(*state, GLSSAO_PATH_AUTO);
-    guest_target t = guest_make_white();
+    const fixture_target t = guest_make_white();
     gl.Viewport(3, 5, 17, 19);
     GLuint depth[2];
     for (int i = 0; i < 2; ++i)
@@ -246,7 +228,7 @@ static void crossed_pairs_give_the_hosts_framebuffer_back(void **state)
     assert_true(draw == (GLint)t.framebuffer && read == draw);
     assert_true(viewport[0] == 3 && viewport[1] == 5 && viewport[2] == 17 && viewport[3] == 19);
     guest_no_error("crossed pairs");
-    guest_delete_white(&t);
+    fixture_delete_target(&t);
     gl.DeleteTextures(2, depth);
     guest_close(&a);
     guest_close(&b);
@@ -254,14 +236,6 @@ static void crossed_pairs_give_the_hosts_framebuffer_back(void **state)
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
-    const struct CMUnitTest tests[] = {
-        GL_TEST(apply_refuses_a_name_that_is_no_framebuffer),
-        GL_TEST(a_texture_of_another_target_leaves_no_error),
-        GL_TEST(the_hosts_own_error_stays),
-        GL_TEST(a_deleted_program_that_is_current_stays_current),
-        GL_TEST(crossed_pairs_give_the_hosts_framebuffer_back),
-    };
-    const int core = cmocka_run_group_tests_name("core", tests, fixture_setup, fixture_teardown);
-    return core + cmocka_run_group_tests_name("compatibility", tests, guest_setup_compatibility, fixture_teardown);
+    const int core = test_run("core", fixture_setup, fixture_teardown);
+    return core + test_run("compatibility", guest_setup_compatibility, fixture_teardown);
 }

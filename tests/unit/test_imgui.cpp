@@ -4,18 +4,17 @@
  * after every call that draws, and the effect gives the same map before and after it.
  */
 #include <backends/imgui_impl_opengl3.h>
-#include <imgui.h>
-
-extern "C" {
-#include "analytic.h"
-#include "fixture.h"
-}
-
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <imgui.h>
 #include <set>
 #include <vector>
+
+extern "C" { /* after the C++ headers, which its own would include */
+#include "fixture.h"
+}
 
 namespace
 {
@@ -36,33 +35,15 @@ picture draw_imgui(GLuint color)
     return result;
 }
 
-glssao_frame make_frame()
-{
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    const analytic_view view = analytic_make_view(PERSPECTIVE, double(W) / H, 0.5, 40.0, 1.0);
-    float *depth, *normals;
-    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, W, H, &depth, &normals);
-    glssao_frame frame = {};
-    frame.depth_texture = fixture_depth_texture(GL_DEPTH24_STENCIL8, W, H, depth);
-    std::memcpy(frame.projection, view.projection, sizeof frame.projection);
-    free(depth);
-    free(normals);
-    return frame;
-}
-
 void imgui_draws_the_same_before_and_after(void **state)
 {
     fixture *f = static_cast<fixture *>(*state);
-    GLuint framebuffer, color;
-    gl.GenTextures(1, &color);
-    gl.BindTexture(GL_TEXTURE_2D, color);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, W, H, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
-    gl.GenFramebuffers(1, &framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
+    const fixture_target target = fixture_make_target(GL_RGBA8, W, H);
+    const GLuint color = target.texture;
     gl.Viewport(0, 0, W, H);
-    glssao_frame frame = make_frame();
+    const glssao_frame room = fixture_room(PERSPECTIVE, W, H);
+    glssao_frame frame = room;
+    frame.normal_texture = 0;
 
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
@@ -92,7 +73,7 @@ void imgui_draws_the_same_before_and_after(void **state)
         free(map);
         free(again);
     }
-    assert_int_equal(glssao_apply(effect, framebuffer), GLSSAO_OK);
+    assert_int_equal(glssao_apply(effect, target.framebuffer), GLSSAO_OK);
     assert_true(draw_imgui(color) == before);
     assert_int_equal(glssao_begin_normals(effect, frame.depth_texture), GLSSAO_OK);
     assert_int_equal(glssao_end_normals(effect), GLSSAO_OK);
@@ -104,10 +85,8 @@ void imgui_draws_the_same_before_and_after(void **state)
 
     ImGui_ImplOpenGL3_Shutdown();
     ImGui::DestroyContext();
-    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
-    gl.DeleteFramebuffers(1, &framebuffer);
-    gl.DeleteTextures(1, &color);
-    gl.DeleteTextures(1, &frame.depth_texture);
+    fixture_delete_target(&target);
+    fixture_delete_frame(&room);
 }
 
 } // namespace

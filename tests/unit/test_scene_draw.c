@@ -2,14 +2,10 @@
  *
  * Draws what other scenes do not have: primitives without normals, lines and points, and four uv sets.
  */
-#include "draw.h"
 #include "draw_frame.h"
+#include "draw_internal.h"
 #include "fixture.h"
 #include "small_scene.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* A quad, turned, seen without perspective, and a second one mirrored and double-sided. Each has its plane's normals.
  */
@@ -31,9 +27,8 @@ static small_scene *turned_quads(bool flat)
     return s;
 }
 
-static void flat_primitives_take_the_normal_of_their_triangles(void **state)
+TEST(flat_primitives_take_the_normal_of_their_triangles)
 {
-    (void)state;
     const scene_lighting lighting = scene_default_lighting();
     small_scene *scenes[2] = {turned_quads(false), turned_quads(true)};
     frame frames[2];
@@ -87,9 +82,8 @@ static int count_blue(const frame *f)
     return count;
 }
 
-static void lines_and_points_are_drawn_over_what_is_behind_them(void **state)
+TEST(lines_and_points_are_drawn_over_what_is_behind_them)
 {
-    (void)state;
     const scene_lighting lighting = {.direction_world = {0, -1, 0}};
     static const struct {
         scene_topology topology;
@@ -115,9 +109,8 @@ static void lines_and_points_are_drawn_over_what_is_behind_them(void **state)
 }
 
 /* Emission reads a uv set of its own: the texture's left half is black, its right half white. */
-static void each_map_reads_its_uv_set(void **state)
+TEST(each_map_reads_its_uv_set)
 {
-    (void)state;
     static const uint8_t halves[2 * 4] = {0, 0, 0, 255, 255, 255, 255, 255};
     const scene_lighting lighting = {.direction_world = {0, -1, 0}};
     float more_uvs[4][2][2];
@@ -146,9 +139,8 @@ static void each_map_reads_its_uv_set(void **state)
 }
 
 /* The texels of opaque images alone are freed, once, also where an image is uploaded in two spaces. */
-static void spending_renderer_frees_opaque_texels(void **state)
+TEST(spending_renderer_frees_opaque_texels)
 {
-    (void)state;
     const scene_lighting lighting = scene_default_lighting();
     uint8_t *texels[2];
     small_scene *s = small_scene_create();
@@ -180,13 +172,43 @@ static void spending_renderer_frees_opaque_texels(void **state)
     free(s);
 }
 
+/* A quad without normals, and in most cases a second one: the buffer holds what either needs. */
+TEST(vertices_are_uploaded_without_what_no_draw_call_reads)
+{
+    static const uint8_t white[4] = {255, 255, 255, 255};
+    enum { POSITION = 3, NORMAL = 3, UVS = 4, COLOR = 4 };
+    static const struct {
+        bool second, textured, colored;
+        int floats;
+    } cases[] = {{false, false, false, POSITION},
+                 {true, false, false, POSITION + NORMAL},
+                 {true, true, false, POSITION + NORMAL + UVS},
+                 {true, false, true, POSITION + NORMAL + COLOR},
+                 {true, true, true, POSITION + NORMAL + UVS + COLOR}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char error[512];
+        small_scene *s = frame_one_quad(small_scene_material(), NULL);
+        s->primitives[0].flat = true;
+        if (cases[i].second) {
+            scene_material material = small_scene_material();
+            if (cases[i].textured)
+                material.base_color_texture = small_scene_add_texture(s, 1, 1, white);
+            frame_add_quad(s, material, NULL);
+            s->vertices[s->scene.vertex_count - 1].color[2] = cases[i].colored ? 0.5f : 1;
+        }
+        scene_renderer *r = scene_renderer_create(&s->scene, error, sizeof error);
+        assert_non_null(r);
+        GLint size = 0;
+        gl.BindBuffer(GL_ARRAY_BUFFER, r->vertex_buffer);
+        gl.GetBufferParameteriv(GL_ARRAY_BUFFER, GL_BUFFER_SIZE, &size);
+        gl.BindBuffer(GL_ARRAY_BUFFER, 0);
+        assert_int_equal(size, (int)s->scene.vertex_count * cases[i].floats * 4);
+        scene_renderer_destroy(r);
+        free(s);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(flat_primitives_take_the_normal_of_their_triangles),
-        cmocka_unit_test(lines_and_points_are_drawn_over_what_is_behind_them),
-        cmocka_unit_test(each_map_reads_its_uv_set),
-        cmocka_unit_test(spending_renderer_frees_opaque_texels),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

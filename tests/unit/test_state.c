@@ -3,12 +3,7 @@
  * Scrambles every listed piece of the host's GL state, calls each public function, and compares: the state must read
  * back as it was, and the host's state must not harm the picture. Runs in core and compatibility contexts.
  */
-#include "analytic.h"
-#include "fixture.h"
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "guest.h"
 
 enum { W = 64, H = 48, UNITS = 7 };
 
@@ -100,13 +95,6 @@ static const struct {
     {"polygon stipple", 0x0B42, true}, /* GL_POLYGON_STIPPLE */
 };
 
-static bool is_compatibility(void)
-{
-    GLint mask = 0;
-    gl.GetIntegerv(GL_CONTEXT_PROFILE_MASK, &mask);
-    return (mask & GL_CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0;
-}
-
 /* From versions later than 3.3: if they are NULL, their state is skipped. */
 static PFNGLCLIPCONTROLPROC clip_control;
 static PFNGLBLENDFUNCIPROC blend_func_i;
@@ -120,7 +108,7 @@ static void take(snapshot *s)
     memset(s, 0, sizeof *s);
     for (size_t i = 0; i < sizeof integers / sizeof *integers; ++i)
         gl.GetDoublev(integers[i].value, row(s, integers[i].name));
-    bool compatibility = is_compatibility();
+    bool compatibility = guest_is_compatibility();
     for (size_t i = 0; i < sizeof toggles / sizeof *toggles; ++i)
         if (compatibility || !toggles[i].compatibility_only)
             row(s, toggles[i].name)[0] = gl.IsEnabled(toggles[i].cap);
@@ -196,23 +184,23 @@ static void(APIENTRY *polygon_stipple)(const GLubyte *mask);
 
 static void load_newer(fixture *f)
 {
-    void *address = context_load("glAlphaFunc", f->context);
-    memcpy(&alpha_func, &address, sizeof address);
-    address = context_load("glPolygonStipple", f->context);
-    memcpy(&polygon_stipple, &address, sizeof address);
-    address = fixture_load("glClipControl", f->context);
-    memcpy(&clip_control, &address, sizeof address);
-    address = fixture_load("glBlendFunci", f->context);
-    memcpy(&blend_func_i, &address, sizeof address);
-    address = fixture_load("glViewportIndexedf", f->context);
-    memcpy(&viewport_indexed, &address, sizeof address);
-    address = fixture_load("glGetFloati_v", f->context);
-    memcpy(&get_float_i, &address, sizeof address);
-    address = fixture_load("glBindImageTexture", f->context);
-    memcpy(&bind_image, &address, sizeof address);
-    address = fixture_load("glTexImage3D", f->context);
-    memcpy(&tex_image_3d, &address, sizeof address);
-    assert_non_null(tex_image_3d);
+    const struct {
+        const char *name;
+        void *pointer; /* to the function's */
+    } newer[] = {{"glClipControl", &clip_control},
+                 {"glBlendFunci", &blend_func_i},
+                 {"glViewportIndexedf", &viewport_indexed},
+                 {"glGetFloati_v", &get_float_i},
+                 {"glBindImageTexture", &bind_image}};
+    for (size_t i = 0; i < sizeof newer / sizeof *newer; ++i) {
+        void *const address = fixture_load(newer[i].name, f->context);
+        memcpy(newer[i].pointer, &address, sizeof address);
+    }
+    guest_load(f, "glTexImage3D", &tex_image_3d);
+    if (guest_is_compatibility()) {
+        guest_load(f, "glAlphaFunc", &alpha_func);
+        guest_load(f, "glPolygonStipple", &polygon_stipple);
+    }
     if (fixture_hides_newer())
         assert_false(bind_image || clip_control || blend_func_i || viewport_indexed || get_float_i);
     else
@@ -221,32 +209,22 @@ static void load_newer(fixture *f)
 
 static void make_host(host *h)
 {
-    if (is_compatibility()) {
+    if (guest_is_compatibility()) {
         static const GLubyte nothing[128];
         alpha_func(GL_NEVER, 0.0f);
         polygon_stipple(nothing);
     }
-    static const char *const sources[2] = {"#version 330\nvoid main() { gl_Position = vec4(0.0); }\n",
-                                           "#version 330\nout vec4 o_color;\nvoid main() { o_color = vec4(1.0); }\n"};
-    h->program = gl.CreateProgram();
-    for (int i = 0; i < 2; ++i) {
-        GLuint shader = gl.CreateShader(i == 0 ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER);
-        gl.ShaderSource(shader, 1, &sources[i], NULL);
-        gl.CompileShader(shader);
-        gl.AttachShader(h->program, shader);
-        gl.DeleteShader(shader);
-    }
-    gl.LinkProgram(h->program);
+    h->program = fixture_program("#version 330\nvoid main() { gl_Position = vec4(0.0); }\n",
+                                 "#version 330\nout vec4 o_color;\nvoid main() { o_color = vec4(1.0); }\n");
     gl.GenVertexArrays(1, &h->vertex_array);
     gl.GenFramebuffers(3, h->framebuffers);
     gl.GenRenderbuffers(3, h->renderbuffers);
-    gl.GenTextures(3, h->color);
     gl.GenTextures(UNITS, h->textures);
     gl.GenSamplers(UNITS, h->samplers);
     gl.GenBuffers(4, h->buffers);
     for (int i = 0; i < 3; ++i) {
+        h->color[i] = fixture_texture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, W, H, NULL);
         gl.BindTexture(GL_TEXTURE_2D, h->color[i]);
-        gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, W, H, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
         gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* glssao_apply may dispatch over it */
     }
     for (int i = 0; i < 2; ++i) {
@@ -337,7 +315,7 @@ static void scramble(const host *h)
     gl.CullFace(GL_FRONT_AND_BACK);
     if (clip_control)
         clip_control(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
-    bool compatibility = is_compatibility();
+    bool compatibility = guest_is_compatibility();
     for (size_t i = 0; i < sizeof toggles / sizeof *toggles; ++i)
         if (compatibility || !toggles[i].compatibility_only)
             gl.Enable(toggles[i].cap);
@@ -347,7 +325,7 @@ static void scramble(const host *h)
 static void calm(void)
 {
     for (size_t i = 0; i < sizeof toggles / sizeof *toggles; ++i)
-        if (!toggles[i].compatibility_only || is_compatibility())
+        if (!toggles[i].compatibility_only || guest_is_compatibility())
             gl.Disable(toggles[i].cap);
     gl.UseProgram(0);
     gl.BindVertexArray(0);
@@ -381,18 +359,9 @@ typedef struct inputs {
 
 static inputs make_inputs(void)
 {
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
-    float *depth, *normals;
-    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, W, H, &depth, &normals);
-    inputs in = {.frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT24, W, H, depth),
-                           .normal_texture = fixture_normal_texture(W, H, normals)},
-                 .spare_depth = fixture_depth_texture(GL_DEPTH24_STENCIL8, W, H, depth)};
-    memcpy(in.frame.projection, view.projection, sizeof in.frame.projection);
-    free(depth);
-    free(normals);
-    return in;
+    const float near[W * H] = {0};
+    return (inputs){.frame = fixture_room(PERSPECTIVE, W, H),
+                    .spare_depth = fixture_depth_texture(GL_DEPTH24_STENCIL8, W, H, near)};
 }
 
 /* Failed calls leave the state alone too. */
@@ -599,38 +568,18 @@ static void check_all(fixture *f)
     }
     check_apply(f, &in, &h, calm_picture);
     delete_host(&h);
-    gl.DeleteTextures(1, &in.frame.depth_texture);
-    gl.DeleteTextures(1, &in.frame.normal_texture);
+    fixture_delete_frame(&in.frame);
     gl.DeleteTextures(1, &in.spare_depth);
     free(calm_picture);
 }
 
-static void host_state_comes_back_and_does_no_harm(void **state)
+TEST_GL(host_state_comes_back_and_does_no_harm)
 {
     check_all(*state);
 }
 
-static void host_state_comes_back_in_a_compatibility_context(void **state)
-{
-    fixture *f = *state, other = *f;
-    const char *wanted = getenv("GLSSAO_TEST_CONTEXT");
-    context_options options = {.kind = wanted && strcmp(wanted, "osmesa") == 0 ? CONTEXT_OSMESA : CONTEXT_EGL,
-                               .compatibility = true};
-    char error[512];
-    other.context = context_create(&options, error, sizeof error);
-    if (!other.context)
-        fail_msg("%s", error);
-    assert_true(gl_load(fixture_load, other.context, error, sizeof error));
-    assert_true(is_compatibility());
-    check_all(&other);
-    assert_int_equal(gl.GetError(), 0);
-    context_destroy(other.context);
-    assert_true(context_make_current(f->context));
-    assert_true(gl_load(fixture_load, f->context, error, sizeof error));
-}
-
 /* glssao_apply writes no undefined colours into other draw buffers of the host's framebuffer. */
-static void apply_writes_the_first_draw_buffer_alone(void **state)
+TEST_GL(apply_writes_the_first_draw_buffer_alone)
 {
     fixture *f = *state;
     load_newer(f);
@@ -658,18 +607,12 @@ static void apply_writes_the_first_draw_buffer_alone(void **state)
     free(second);
     glssao_destroy(effect);
     delete_host(&h);
-    gl.DeleteTextures(1, &in.frame.depth_texture);
-    gl.DeleteTextures(1, &in.frame.normal_texture);
+    fixture_delete_frame(&in.frame);
     gl.DeleteTextures(1, &in.spare_depth);
 }
 
 int main(void)
 {
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
-    const struct CMUnitTest tests[] = {
-        GL_TEST(host_state_comes_back_and_does_no_harm),
-        GL_TEST(host_state_comes_back_in_a_compatibility_context),
-        GL_TEST(apply_writes_the_first_draw_buffer_alone),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run("core", fixture_setup, fixture_teardown) +
+           test_run("compatibility", guest_setup_compatibility, fixture_teardown);
 }

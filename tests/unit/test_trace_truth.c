@@ -86,6 +86,58 @@ static void wall_blocks_a_segment_of_the_disk(void **state)
     free(s);
 }
 
+/* The mean open direction where floor and wall meet, at that distance from the other one and with a radius of 1. The
+ * other one takes the directions of its segment of the disk: the integrals of x and of sqrt(1 - x^2 - z^2), over pi. */
+static void mean_beside_a_wall(double distance, double *out_away, double *out_normal)
+{
+    const double d = fmin(distance, 1);
+    *out_away = 2 / (3 * pi) * pow(1 - d * d, 1.5);
+    *out_normal = 2.0 / 3 - 0.5 * (2.0 / 3 - d + d * d * d / 3);
+}
+
+static void open_directions_have_their_closed_form_beside_a_wall(void **state)
+{
+    (void)state;
+    enum { SIDE = TRACE_SHOT_SIDE };
+    static float got[TRACE_SHOT_PIXELS][3];
+    char error[ERROR_LENGTH];
+    small_scene *s = make_room(1);
+    trace_scene *t = trace_shot_open(&s->scene);
+    const float eye[3] = {2.5f, 2, 50};
+    const scene_view view = trace_shot_view(eye, (float[3]){0, 0.2f, 49}, 1);
+    const trace_options options = {.radius = 1, .samples = 4096};
+    assert_true(trace_open_directions(t, &view, &options, got, NULL, error, sizeof error));
+    int floors = 0, walls = 0;
+    for (int i = 0; i < TRACE_SHOT_PIXELS; i++) {
+        const float *m = view.view_from_world, *p = view.clip_from_view;
+        const double x = (2 * (i % SIDE + 0.5) / SIDE - 1) / (double)p[0];
+        const double y = (2 * (i / SIDE + 0.5) / SIDE - 1) / (double)p[5];
+        double way[3], wanted[3] = {0, 0, 0};
+        for (int k = 0; k < 3; k++) {
+            way[k] = x * (double)m[4 * k] + y * (double)m[4 * k + 1] - (double)m[4 * k + 2];
+        }
+        const double to_floor = way[1] < 0 ? -(double)eye[1] / way[1] : INFINITY, to_wall = -(double)eye[0] / way[0];
+        const bool is_floor = to_floor < to_wall;
+        if (way[0] >= 0 || (!is_floor && (double)eye[1] + to_wall * way[1] < 1e-3)) {
+            continue;
+        }
+        mean_beside_a_wall(is_floor ? (double)eye[0] + to_floor * way[0] : (double)eye[1] + to_wall * way[1],
+                           &wanted[!is_floor], &wanted[is_floor]);
+        for (int k = 0; k < 3; k++) {
+            const double in_view =
+                wanted[0] * (double)m[k] + wanted[1] * (double)m[4 + k] + wanted[2] * (double)m[8 + k];
+            if (!(fabs((double)got[i][k] - in_view) < 3e-3)) {
+                fail_msg("pixel %d, axis %d: %.4f instead of %.4f", i, k, (double)got[i][k], in_view);
+            }
+        }
+        floors += is_floor;
+        walls += !is_floor;
+    }
+    assert_true(floors > TRACE_SHOT_PIXELS / 8 && walls > TRACE_SHOT_PIXELS / 8);
+    trace_scene_destroy(t);
+    free(s);
+}
+
 /* The share of the disk with both x >= a and y >= b. */
 static double disk_corner(double a, double b)
 {
@@ -267,6 +319,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(empty_plane_is_fully_accessible),
         cmocka_unit_test(wall_blocks_a_segment_of_the_disk),
+        cmocka_unit_test(open_directions_have_their_closed_form_beside_a_wall),
         cmocka_unit_test(corner_of_a_box_blocks_two_segments),
         cmocka_unit_test(sphere_on_a_plane_blocks_its_form_factor),
         cmocka_unit_test(radius_cuts_hard),

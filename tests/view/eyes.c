@@ -3,6 +3,7 @@
  * What view.sh sees with: screenshots of a window of the X server, and pictures compared.
  *   eyes shot WINDOW FILE.png [BEFORE.png]   once it differs from BEFORE, if that is given, and then stands still
  *   eyes differ ONE.png OTHER.png [X,Y,WxH]  prints how many pixels differ; X,Y from the upper left
+ *   eyes rms ONE.png OTHER.png               prints the RMS difference of their values from 0 to 1
  *   eyes colors FILE.png                     prints how many colours it has
  */
 #define _POSIX_C_SOURCE 200809L
@@ -11,6 +12,7 @@
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -125,6 +127,21 @@ static int differ(const char *one_path, const char *other_path, const char *regi
     return 0;
 }
 
+static int rms(const char *one_path, const char *other_path)
+{
+    image one = read_file(one_path), other = read_file(other_path);
+    const size_t count = 3 * (size_t)one.width * (size_t)one.height;
+    double sum = 0;
+    if (one.width != other.width || one.height != other.height)
+        return 1;
+    for (size_t i = 0; i < count; i++)
+        sum += (one.rgb[i] - other.rgb[i]) * (one.rgb[i] - other.rgb[i]) / (255.0 * 255.0);
+    printf("%.6f\n", sqrt(sum / (double)count));
+    free(one.rgb);
+    free(other.rgb);
+    return 0;
+}
+
 static int colors(const char *path)
 {
     image i = read_file(path);
@@ -147,6 +164,8 @@ int main(int argc, char **argv)
         return shot(strtoul(argv[2], NULL, 0), argv[3], argc > 4 ? argv[4] : NULL);
     if (argc >= 4 && !strcmp(argv[1], "differ"))
         return differ(argv[2], argv[3], argc > 4 ? argv[4] : NULL);
+    if (argc == 4 && !strcmp(argv[1], "rms"))
+        return rms(argv[2], argv[3]);
     if (argc == 3 && !strcmp(argv[1], "colors"))
         return colors(argv[2]);
     return 2;

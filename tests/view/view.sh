@@ -7,6 +7,7 @@ view=$1
 render=$2
 eyes=$3
 hands=$4
+cases=$(dirname "$(realpath "${BASH_SOURCE[0]}")")/../cases
 work=${GLSSAO_VIEW_SHOTS:-$(mktemp -d)}
 server=
 viewer=
@@ -64,6 +65,13 @@ different() { # what, at least, one, other
     fail "$1: $3 and $4 differ in $count pixels alone"
 }
 
+# The picture saved last is that one, within what rounding moves.
+close() {
+    local rms
+    rms=$("$eyes" rms saved.png "$1")
+    awk -v rms="$rms" 'BEGIN { exit !(rms != "" && rms <= 0.005) }' || fail "saved.png and $1 differ by $rms"
+}
+
 # A screenshot once the window shows something else than in the last one, and then stands still.
 last=
 shot() {
@@ -97,12 +105,13 @@ save() {
 }
 work_us() { awk '{printf "%d", $1 / 1000}' /proc/$viewer/schedstat; } # the main thread's, on the processor
 draw() { "$render" "$@" 2>/dev/null || fail "glssao-render $*"; }
+# Each frame alone, unless `history` says how many count.
 start() {
-    "$view" "$@" >view.out 2>view.err &
+    "$view" --history "${history:-0}" "$@" >view.out 2>view.err &
     viewer=$!
     local try
     for try in $(seq 200); do # it has the scene's name once the picture is whole
-        window=$(xdotool search --onlyvisible --name '^(columns|plane|steps|cornell|moving.gltf)$' 2>/dev/null | head -n 1)
+        window=$(xdotool search --onlyvisible --name '^(columns|plane|steps|cornell|moving.gltf|off1000000.glb|utm-node.glb)$' 2>/dev/null | head -n 1)
         [ -n "$window" ] && break
         kill -0 $viewer 2>/dev/null || break
         sleep 0.05
@@ -132,6 +141,23 @@ stop
 read -r frames updates < <(sed -n 's/.*; \([0-9]*\) frames drawn, \([0-9]*\) screen updates.*/\1 \2/p' view.err)
 [ "${frames:-99}" -le 2 ] || fail "$frames frames for a picture that stands still"
 [ "${updates:-99}" -le 25 ] || fail "$updates screen updates while nothing happens"
+
+# With a history, the view at rest comes to the picture of --error, whether it moved before or not, and then rests.
+history=16 start -s 240x160 --scene columns -o saved.png
+press g
+save
+[[ $command = *" --error 0.002 "* ]] || fail "left out: $command"
+press Left Left
+save
+sleep 0.5
+before=$(work_us)
+sleep 1
+work=$(($(work_us) - before))
+[ "$work" -le 50000 ] || fail "at rest it works for $work microseconds in a second"
+stop
+read -r reused rests < <(sed -n 's/.*; \([0-9]*\) frames with a history, \([0-9]*\) steps at rest.*/\1 \2/p' view.err)
+[ "${reused:-0}" -ge 3 ] || fail "$reused frames with a history"
+[ "${rests:-0}" -ge 20 ] || fail "$rests steps at rest"
 
 # Minimised, it does not even blink, and comes back as it was.
 start -s 320x200 --scene plane
@@ -173,6 +199,28 @@ save
 draw -s 320x200 -o resting.png moving.gltf
 different "the file at half a second and as it stands" 500 saved.png resting.png
 stop
+
+# Far from the origin the camera turns as at it: what is seen there is what a copy shows whose nodes are moved back.
+for file in "off1000000.glb 1000000.0 0.0 -1000000.0" "utm-node.glb 512345.678 35.2 -5401234.5"; do
+    read -r name x y z <<<"$file"
+    far="$x, $y, $z"
+    LC_ALL=C sed "s/$far/$(printf "%${#far}s" '0, 0, 0')/g" "$cases/$name" >near.glb
+    start -s 320x200 -o saved.png "$cases/$name"
+    press g
+    save
+    draw -s 320x200 -o framed.png near.glb
+    close framed.png
+    xdotool mousemove 200 100 mousedown 1 mousemove 230 90 mousemove 260 80 mouseup 1
+    xdotool click 4
+    save
+    different "turned" 2000 saved.png framed.png
+    view_arguments=$(sed -n 's/.*\(--eye [^ ]* --target [^ ]*\).*/\1/p' <<<"$command" | awk -F'[ ,]' -v x="$x" -v y="$y" -v z="$z" '{
+        printf "--eye %.9f,%.9f,%.9f --target %.9f,%.9f,%.9f", $2 - x, $3 - y, $4 - z, $6 - x, $7 - y, $8 - z }')
+    # shellcheck disable=SC2086
+    draw -s 320x200 $view_arguments -o turned.png near.glb
+    close turned.png
+    stop
+done
 
 # It overwrites nothing that it reads, and saves in the formats that glssao-render has.
 draw -s 64x32 --scene plane -o sky.png

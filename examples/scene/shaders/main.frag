@@ -7,7 +7,7 @@
 // the opaque surface behind them.
 // Macros, 0 or 1: TEXTURED (any map), BASE_MAPPED, COLORED, MASKED, BLENDED, LIT, and where LIT: DOUBLE_SIDED,
 // NORMAL_MAPPED, REFLECTIVE, ROUGHNESS_MAPPED, BAKED, EMISSIVE, EMISSION_MAPPED, SHADOWED, LIGHTS,
-// SPECULAR_OCCLUSION, MULTI_BOUNCE, ENVIRONMENT.
+// SPECULAR_OCCLUSION, MULTI_BOUNCE, ENVIRONMENT, BENT.
 // In:  what scene.vert writes.
 // Out: linear colour, alpha (1 unless BLENDED); the framebuffer encodes sRGB.
 
@@ -40,7 +40,7 @@ uniform vec3 u_up_view;      // the sky's up, unit
 uniform vec3 u_directional;  // irradiance / pi
 uniform vec3 u_to_light_view;
 #if !BLENDED
-uniform sampler2D u_ambient_map; // accessibility in red
+uniform sampler2D u_ambient_map; // accessibility in red; BENT 1: bent normals, and accessibility in alpha
 uniform float u_intensity;       // of occlusion, 0 none to 1 full
 uniform vec2 u_pixel_uv;         // size of a pixel in the ambient map's uv
 uniform vec2 u_origin;           // its lower left corner, in pixels
@@ -152,15 +152,16 @@ vec3 lit_by_lights(surface s)
 }
 #endif
 
-// Irradiance / pi on a surface with that normal, and the radiance that a mirror reflects.
+// Irradiance / pi on a surface with that normal, and the radiance that a mirror reflects. `bands`: how much more of the first
+// and second spherical harmonics arrives than from a whole hemisphere.
 #if ENVIRONMENT
-vec3 matte_light(vec3 normal_view)
+vec3 matte_light(vec3 normal_view, vec2 bands)
 {
-    vec3 n = u_sky_from_view * normal_view;
-    vec3 flat_part = u_irradiance[0] + u_irradiance[1] * n.y + u_irradiance[2] * n.z + u_irradiance[3] * n.x;
-    return max(flat_part + u_irradiance[4] * (n.x * n.y) + u_irradiance[5] * (n.y * n.z) +
-                   u_irradiance[6] * (3.0 * n.z * n.z - 1.0) + u_irradiance[7] * (n.x * n.z) +
-                   u_irradiance[8] * (n.x * n.x - n.y * n.y), 0.0);
+    vec3 n = u_sky_from_view * normal_view, m = bands.x * n;
+    vec3 flat_part = u_irradiance[0] + u_irradiance[1] * m.y + u_irradiance[2] * m.z + u_irradiance[3] * m.x;
+    return max(flat_part + u_irradiance[4] * (bands.y * (n.x * n.y)) + u_irradiance[5] * (bands.y * (n.y * n.z)) +
+                   u_irradiance[6] * (bands.y * (3.0 * n.z * n.z - 1.0)) + u_irradiance[7] * (bands.y * (n.x * n.z)) +
+                   u_irradiance[8] * (bands.y * (n.x * n.x - n.y * n.y)), 0.0);
 }
 #if REFLECTIVE
 vec3 glossy_light(vec3 mirror_view, float roughness)
@@ -171,9 +172,9 @@ vec3 glossy_light(vec3 mirror_view, float roughness)
 #else
 // The gradient is linear in the height of the direction, whose mean over a cosine lobe is 2/3 of the lobe's; a rough
 // mirror's lobe is taken to be in between.
-vec3 matte_light(vec3 normal_view)
+vec3 matte_light(vec3 normal_view, vec2 bands)
 {
-    return u_ambient + u_ambient_tilt * (dot(normal_view, u_up_view) * (2.0 / 3.0));
+    return u_ambient + u_ambient_tilt * (dot(normal_view, u_up_view) * (2.0 / 3.0 * bands.x));
 }
 #if REFLECTIVE
 vec3 glossy_light(vec3 mirror_view, float roughness)
@@ -183,9 +184,14 @@ vec3 glossy_light(vec3 mirror_view, float roughness)
 #endif
 #endif
 
-vec3 ambient_light(surface s, float accessibility)
+// `open_view`: where the light comes from that arrives, the bent normal with BENT 1.
+vec3 ambient_light(surface s, vec3 open_view, float accessibility)
 {
-    vec3 matte = matte_light(s.normal_view);
+#if BENT && !BLENDED
+    vec3 matte = matte_light(open_view, bands_of_cone(accessibility));
+#else
+    vec3 matte = matte_light(open_view, vec2(1.0));
+#endif
 #if MULTI_BOUNCE && !BLENDED
     // Jimenez et al. 2016, "Practical Realtime Strategies for Accurate Indirect Occlusion", equation 10: light that
     // bounces between near surfaces takes on their colour.
@@ -203,7 +209,9 @@ vec3 ambient_light(surface s, float accessibility)
     vec4 r = s.roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
     float a004 = min(r.x * r.x, exp2(-9.28 * cos_eye)) * r.x + r.y;
     vec2 scale_bias = vec2(-1.04, 1.04) * a004 + r.zw;
-#if SPECULAR_OCCLUSION && !BLENDED
+#if BENT && !BLENDED
+    accessibility = specular_accessibility(vec4(open_view, accessibility), mirror_view, s.roughness);
+#elif SPECULAR_OCCLUSION && !BLENDED
     // Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based Rendering", listing 26.
     float open = pow(cos_eye + accessibility, exp2(-16.0 * s.roughness - 1.0)) - 1.0 + accessibility;
     accessibility = clamp(open, 0.0, 1.0);
@@ -249,13 +257,20 @@ void main()
 #endif
 
     float accessibility = 1.0;
+    vec3 open_view = s.normal_view;
 #if !BLENDED
-    accessibility = mix(1.0, texture(u_ambient_map, (gl_FragCoord.xy - u_origin) * u_pixel_uv).r, u_intensity);
+    vec4 open = texture(u_ambient_map, (gl_FragCoord.xy - u_origin) * u_pixel_uv);
+#if BENT
+    accessibility = mix(1.0, open.a, u_intensity);
+    open_view = normalize(mix(s.normal_view, open.rgb, u_intensity) + 1e-6 * s.normal_view);
+#else
+    accessibility = mix(1.0, open.r, u_intensity);
+#endif
 #endif
 #if BAKED
     accessibility *= 1.0 + u_occlusion_strength * (texture(u_occlusion_map, map_uv(u_occlusion_uv)).r - 1.0);
 #endif
-    color.rgb = ambient_light(s, accessibility);
+    color.rgb = ambient_light(s, open_view, accessibility);
 
     vec3 direct = lit(s, u_to_light_view, u_directional);
 #if SHADOWED

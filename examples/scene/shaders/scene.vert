@@ -4,7 +4,7 @@
 // Draws the scene in every pass. gl_Position is invariant and computed by the same expression from the same inputs in
 // each variant, so that the main pass can compare with the pre-pass's depth by EQUAL.
 // Macros, 0 or 1: TEXTURED (any map is read), MORE_UVS, COLORED, LIT (normals are wanted), and where LIT: FLAT,
-// NORMAL_MAPPED, REFLECTIVE, LIGHTS, SHADOWED.
+// NORMAL_MAPPED, REFLECTIVE, LIGHTS, SHADOWED. MOVES, without LIT: the motion pass.
 // In:  mesh-space vertex; per instance, world_from_mesh and the inverse transpose of its upper 3x3.
 // Out: clip position; unit normal and tangent in view space; both uv sets; vertex colour, linear; position in view
 //      space and in the shadow map (uv and depth, 0..1).
@@ -47,6 +47,15 @@ out vec3 v_position_shadow;
 #endif
 #endif
 
+#if MOVES
+// Where the lit variants have normals and tangents.
+layout(location = 1) in vec3 a_last_position_mesh;
+layout(location = 8) in mat4x3 a_last_world_from_mesh;
+uniform mat4 u_last_view_from_world;
+uniform mat4 u_last_clip_from_view;
+out vec3 v_clip, v_last_clip; // x, y and w
+#endif
+
 #if TEXTURED
 layout(location = 2) in vec4 a_uvs;
 out vec4 v_uvs;
@@ -82,6 +91,11 @@ void main()
 #if SHADOWED
     v_position_shadow = (u_shadow_from_world * vec4(position_world, 1.0)).xyz;
 #endif
+#endif
+#if MOVES
+    vec3 last_world = a_last_world_from_mesh * vec4(a_last_position_mesh, 1.0);
+    v_clip = gl_Position.xyw;
+    v_last_clip = (u_last_clip_from_view * (u_last_view_from_world * vec4(last_world, 1.0))).xyw;
 #endif
 #if TEXTURED
     v_uvs = a_uvs;

@@ -279,7 +279,8 @@ typedef struct glssao_constants {
 } glssao_constants;
 
 typedef enum glssao_pass { /* in the order of the frame */
-    GLSSAO_PASS_INPUTS = 0,  /* copies multisample, larger or logarithmic textures to plain ones */
+    GLSSAO_PASS_INPUTS = 0,  /* copies multisample, larger or logarithmic textures to plain ones. The copy of
+                                glssao_compute_framebuffer counts in its time alone */
     GLSSAO_PASS_NORMALS,     /* rebuilds normals from depth */
     GLSSAO_PASS_DISTANCE,    /* view distance at the estimate's size */
     GLSSAO_PASS_TILES,       /* looks for tiles without any occlusion, which later passes leave out */
@@ -373,7 +374,7 @@ GLSSAO_API glssao_result glssao_prepare(glssao_effect *effect, const glssao_fram
  * floats. The mean is the result; with the number of estimates its error falls to the technique's own. It starts anew after
  * glssao_compute, glssao_resize and glssao_restart_accumulation, and when frame, radius or sample_count differ from the last
  * call's. It can't see that the contents of a texture changed. half_resolution and upsample are ignored. The planar blur
- * smooths a mean of fewer than 16 estimates, unless blur is GLSSAO_BLUR_NONE. May fail as glssao_compute, and with
+ * smooths a mean of fewer than 16 estimates, unless blur is GLSSAO_BLUR_NONE. A history stays as it was. May fail as glssao_compute, and with
  * INVALID_ARGUMENT for another technique. */
 GLSSAO_API glssao_result glssao_accumulate(glssao_effect *effect, const glssao_frame *frame,
                                            const glssao_settings *settings);

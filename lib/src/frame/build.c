@@ -109,6 +109,8 @@ void glssao__build_tiles(const glssao__builder *b, glssao__step *step, int facto
     const bool is_estimate = step->pass == GLSSAO_PASS_ESTIMATE && step->second == MAP_NONE;
     if (!b->c.has_tiles || (b->c.bent && !is_estimate)) /* open tiles have bent normals too */
         return;
+    if (b->c.corrects && step->pass == GLSSAO_PASS_UPSAMPLE) /* rays may see what is not in the picture */
+        return;
     step->tiles = (glssao__tile_range){factor * TILE_SIDE, least, most};
     glssao__build_point(step, UNIT_TILES, MAP_TILE_RINGS);
 }

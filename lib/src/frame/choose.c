@@ -96,7 +96,7 @@ static const char *tiles_refusal(const glssao__choice *c, const glssao__request 
     const int rows = (c->estimate[1] + TILE_SIDE - 1) / TILE_SIDE;
     if (q->settings->tiles == GLSSAO_TILES_OFF)
         return "settings.tiles is off: every pixel is estimated";
-    if (c->is_rays || c->corrects)
+    if (c->is_rays)
         return "rays may see what is not in the picture";
     if (c->compute)
         return "compute shaders leave out open pixels themselves";
@@ -121,11 +121,14 @@ static void choose_pass(glssao__choice *c, glssao_pass pass, bool runs, const ch
 static void choose_blur(glssao__choice *c, const glssao__request *q)
 {
     const glssao_settings *settings = q->settings;
-    const bool asked = settings->blur != GLSSAO_BLUR_NONE && settings->blur_rounds > 0;
     const bool is_smooth = c->accumulates && q->estimates >= TILE_ESTIMATES;
-    if (c->compute && c->upsamples && c->is_planar && !c->is_rays && !c->corrects && asked)
-        c->inner_rounds = settings->blur_rounds < ROUNDS_OF_A_DISPATCH ? settings->blur_rounds : ROUNDS_OF_A_DISPATCH;
-    c->blurs = asked && !is_smooth && settings->blur_rounds > c->inner_rounds;
+    c->blur_rounds = settings->blur == GLSSAO_BLUR_NONE ? 0 : settings->blur_rounds;
+    if (c->corrects && c->is_planar && c->blur_rounds > 1)
+        c->blur_rounds = 1; /* the correction takes out what later rounds would */
+    const bool asked = c->blur_rounds > 0;
+    if (c->compute && c->upsamples && c->is_planar && !c->is_rays && !c->corrects)
+        c->inner_rounds = c->blur_rounds < ROUNDS_OF_A_DISPATCH ? c->blur_rounds : ROUNDS_OF_A_DISPATCH;
+    c->blurs = asked && !is_smooth && c->blur_rounds > c->inner_rounds;
     choose_pass(c, GLSSAO_PASS_BLUR, c->blurs,
                 !asked      ? "no blur is asked for"
                 : is_smooth ? "a mean of as many estimates as the tile of noise has pixels is smooth"
@@ -213,15 +216,13 @@ static void choose_reach(glssao__choice *c, const glssao_settings *settings)
 {
     const int first = c->is_planar || settings->blur == GLSSAO_BLUR_BOX ? 2 : 5, later = c->is_planar ? 3 : first;
     const bool blurs = c->blurs || c->inner_rounds > 0;
-    c->rays_rounds = c->corrects           ? CORRECTION_ROUNDS + (c->factor == 1)
-                     : c->is_rays && blurs ? settings->blur_rounds
-                                           : 0;
+    c->rays_rounds = c->corrects ? CORRECTION_ROUNDS + (c->factor == 1) : c->is_rays && blurs ? c->blur_rounds : 0;
     if (blurs && !c->is_rays)
-        c->reach = first + later * (settings->blur_rounds - 1);
-    for (int i = 0; i < c->rays_rounds; ++i)
-        c->reach += 2 << glssao__rays_stride(i);
+        c->reach = first + later * (c->blur_rounds - 1);
     c->reach += c->upsamples || (c->has_history && c->factor == 2) ? 1 : 0;
     c->tile_rings = (c->reach + TILE_SIDE - 1) / TILE_SIDE;
+    for (int i = 0; i < c->rays_rounds; ++i) /* in all tiles */
+        c->reach += 2 << glssao__rays_stride(i);
 }
 
 /* Windows of 4, 8, 16 and 32 pixels. */

@@ -32,6 +32,7 @@ typedef struct glssao__choice {
     int factor;    /* full-size pixels to one of the estimate: 1 or 2 */
     int margin, estimate_margin;
     int rays_rounds;                 /* of the blur of values from rays */
+    int blur_rounds;                 /* of the estimate's blur */
     int inner_rounds;                /* rounds of the blur within the dispatch that upsamples */
     int reach;                       /* texels of the estimate beyond a pixel that later passes read */
     int tile_rings;                  /* the same in tiles, rounded up */

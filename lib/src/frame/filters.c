@@ -25,7 +25,7 @@ static void add_separable_blur(glssao__builder *b)
     static const uint8_t filters[] = {[GLSSAO_BLUR_GAUSSIAN] = FILTER_GAUSSIAN,
                                       [GLSSAO_BLUR_BILATERAL] = FILTER_BILATERAL,
                                       [GLSSAO_BLUR_BOX] = FILTER_BOX};
-    const int count = 2 * b->settings->blur_rounds;
+    const int count = 2 * b->c.blur_rounds;
     for (int i = 1; i <= count; ++i) {
         const bool is_last = i == count, bilateral = b->settings->blur == GLSSAO_BLUR_BILATERAL;
         glssao__step *step =
@@ -50,7 +50,7 @@ static void add_separable_blur(glssao__builder *b)
 /* The planar blur by draws: two directions of the first round, one pass for each later one. */
 static void add_planar_draws(glssao__builder *b)
 {
-    const int count = b->settings->blur_rounds + 1;
+    const int count = b->c.blur_rounds + 1;
     for (int i = 1; i <= count; ++i) {
         glssao__step *step =
             glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_PLANAR_BLUR, i, i == count && !glssao__build_has_more(b));
@@ -71,7 +71,6 @@ static void set_rays_blur(const glssao__builder *b, glssao__step *step, int i, e
     step->is_horizontal = i % 2 == 0;
     glssao__build_set(step, MACRO_STRIDE, glssao__rays_stride(i / 2));
     glssao__build_set(step, MACRO_RAYS, 1);
-    glssao__build_set(step, MACRO_CORRECTS, b->c.corrects);
     glssao__build_finish(b, step);
     set_normals_for_bent(step);
 }
@@ -100,7 +99,7 @@ static void set_tile(const glssao__builder *b, glssao__step *step, int rounds, b
 /* The planar blur by dispatches of up to two rounds; those that the dispatch of the upsampling runs are left out. */
 static void add_planar_dispatches(glssao__builder *b)
 {
-    const int rounds = b->settings->blur_rounds - b->c.inner_rounds;
+    const int rounds = b->c.blur_rounds - b->c.inner_rounds;
     for (int done = 0, i = 1; done < rounds; ++i) {
         const int now = rounds - done < ROUNDS_OF_A_DISPATCH ? rounds - done : ROUNDS_OF_A_DISPATCH;
         glssao__step *step = glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_PLANAR_TILE, i,
@@ -131,7 +130,7 @@ static int count_turns(const glssao__builder *b)
 {
     int turns = 0;
     for (int i = 0; i < b->s->count; ++i)
-        turns += b->s->steps[i].pass == GLSSAO_PASS_BLUR || b->s->steps[i].shader == SHADER_CORRECT;
+        turns += b->s->steps[i].pass == GLSSAO_PASS_BLUR || b->s->steps[i].variant.values[MACRO_CORRECTS] == 2;
     return turns;
 }
 
@@ -144,30 +143,31 @@ void glssao__build_rays(glssao__builder *b, glssao__step *step, bool is_last)
     glssao__build_finish(b, step);
 }
 
-/* The difference between rays and estimate, its blur, and the sum with the estimate. */
+/* The difference between rays and estimate and its blur, whose last pass adds it to the estimate. */
 void glssao__add_correction(glssao__builder *b)
 {
     const int turns = count_turns(b);
     const enum glssao__map estimate = glssao__build_turn_map(b, turns);
     for (int i = 0; i < 2; ++i)
         glssao__build_map(b, (enum glssao__map)(MAP_RAYS_0 + i), "ray difference", GL_RG32F, b->c.estimate);
-    for (int i = 0; i <= 2 * b->c.rays_rounds; ++i) {
+    const int count = 2 * b->c.rays_rounds;
+    for (int i = 0; i < count; ++i) {
         glssao__step *step = glssao__build_step(b, GLSSAO_PASS_RAYS, i == 0 ? SHADER_RAYS : SHADER_PLANAR_BLUR,
                                                 (enum glssao__map)(MAP_RAYS_0 + i % 2));
         step->region = glssao__region_of(&b->c, GLSSAO_PASS_RAYS);
         glssao__build_set(step, MACRO_OUTPUT, OUTPUT_PAIRED);
+        glssao__build_set(step, MACRO_CORRECTS, 1);
         if (i == 0) {
             glssao__build_point(step, UNIT_AMBIENT, estimate);
-            glssao__build_set(step, MACRO_CORRECTS, 1);
             glssao__build_rays(b, step, false);
         } else {
             set_rays_blur(b, step, i - 1, (enum glssao__map)(MAP_RAYS_0 + (i - 1) % 2));
         }
     }
-    glssao__step *step = glssao__build_turn(b, GLSSAO_PASS_RAYS, SHADER_CORRECT, turns + 1, !b->c.upsamples);
-    glssao__build_point(step, UNIT_AMBIENT, estimate);
-    glssao__build_point(step, UNIT_RAYS, MAP_RAYS_0);
-    glssao__build_finish(b, step);
+    glssao__step *step = glssao__build_turn(b, GLSSAO_PASS_RAYS, SHADER_PLANAR_BLUR, turns + 1, !b->c.upsamples);
+    glssao__build_set(step, MACRO_CORRECTS, 2);
+    glssao__build_point(step, UNIT_RAYS, estimate);
+    set_rays_blur(b, step, count - 1, (enum glssao__map)(MAP_RAYS_0 + (count - 1) % 2));
 }
 
 enum glssao__map glssao__last_turn(const glssao__builder *b)

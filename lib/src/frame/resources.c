@@ -63,8 +63,8 @@ static glssao_result prepare_program(glssao__resources *r, enum glssao__shader s
     const bool compute = variant->values[MACRO_COMPUTE];
     char name[128];
     glssao__shader_describe(shader, variant, name, sizeof name);
-    char *own = glssao__shader_source(shader, variant, r->gl->version);
-    char *vertex = compute ? NULL : glssao__shader_vertex_source();
+    char *own = glssao__shader_source(shader, variant, r->gl->version, r->gl->is_software);
+    char *vertex = compute ? NULL : glssao__shader_vertex_source(r->gl->is_software);
     const glssao__program_source source = {
         .name = name, .vertex = vertex, .fragment = compute ? NULL : own, .compute = compute ? own : NULL};
     glssao_result result = GLSSAO_OUT_OF_MEMORY;

@@ -95,10 +95,10 @@ static void add_tiles(glssao__builder *b)
     for (int i = 0; i < 2; ++i) {
         if (b->c.paired)
             glssao__build_clear(b, GLSSAO_PASS_TILES, (enum glssao__map)(MAP_PAIRED_0 + i), STEP_CLEAR_TO_OPEN);
-        if (!b->c.paired || !b->c.result_apart)
+        if ((!b->c.paired || !b->c.result_apart) && !b->c.corrects)
             glssao__build_clear(b, GLSSAO_PASS_TILES, (enum glssao__map)(MAP_AMBIENT_0 + i), STEP_CLEAR_TO_OPEN);
     }
-    if (b->c.result_apart && !b->c.has_history)
+    if (b->c.result_apart && !b->c.has_history && !b->c.corrects)
         glssao__build_clear(b, GLSSAO_PASS_TILES, MAP_RESULT, STEP_CLEAR_TO_OPEN);
 }
 

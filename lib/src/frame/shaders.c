@@ -5,6 +5,7 @@
 #include "frame/shaders.h"
 
 #include "frame/unroll.h"
+#include "gpu/programs.h"
 #include "shaders_text.h"
 
 #include <stdio.h>
@@ -87,17 +88,13 @@ static const struct shader {
                          BIT(RADIUS_GROWS) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PERSPECTIVE) |
                              BIT(BRANCHES) | BIT(BENT),
                          {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
-                          shader_bent_glsl, shader_paired_glsl, shader_upsample_glsl, shader_packed_direction_glsl,
-                          shader_upsample_frag}},
-    [SHADER_SPREAD] = {"spread", BIT(BENT), {shader_pixel_glsl, shader_packed_direction_glsl, shader_spread_frag}},
+                          shader_bent_glsl, shader_paired_glsl, shader_upsample_glsl, shader_upsample_frag}},
+    [SHADER_SPREAD] = {"spread", BIT(BENT), {shader_pixel_glsl, shader_spread_frag}},
     [SHADER_RAYS] = {"rays",
                      BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(OUTPUT) | BIT(COMPUTE) | BIT(PERSPECTIVE) |
                          BIT(RAYS) | BIT(CORRECTS),
                      {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                       shader_paired_glsl, shader_rays_frag, shader_entry_glsl}},
-    [SHADER_CORRECT] = {"correct",
-                        BIT(OUTPUT) | BIT(COMPUTE),
-                        {shader_pixel_glsl, shader_paired_glsl, shader_correct_frag, shader_entry_glsl}},
     [SHADER_HISTORY] = {"history",
                         BIT(DENSE) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PERSPECTIVE) | BIT(BRANCHES) |
                             BIT(COMPUTE) | BIT(UPSAMPLE) | BIT(MOTION),
@@ -225,36 +222,94 @@ static void append_version(text *t, int gl_version, bool compute)
                   "#extension GL_ARB_shader_image_load_store : require\n");
 }
 
-char *glssao__shader_vertex_source(void)
+static void append_block(text *t, const char *name, const char *members)
+{
+    append(t, "layout(std140) uniform ");
+    append(t, name);
+    append(t, " {\n");
+    append(t, members);
+    append(t, "};\n");
+}
+
+/* ---- uniforms as flat inputs ----
+ *
+ * Mesa's software rasteriser loads every component of a uniform one pixel after the other, which takes longer than most
+ * arithmetic. A flat input is one load for all of them, so the vertex stage hands uniforms on. The linker leaves out
+ * those that a program does not read. */
+
+/* Uniforms of single draws, written as the members of a block. */
+static const char step_uniforms[] = "vec2 gOrigin;\nint gHorizontalBlur;\n";
+static const char *const handed_on[] = {step_uniforms, shader_cb_ssao_glsl, shader_cb_frame_glsl};
+
+enum flat_line { FLAT_OUTPUT, FLAT_HANDED_ON, FLAT_INPUT };
+
+/* Longer arrays are indexed by loops, which gains nothing and may exceed the number of inputs. */
+enum { MOST_FLAT_ELEMENTS = 4 };
+
+/* For each of these uniforms its line of the vertex or fragment stage. */
+static void append_flat(text *t, enum flat_line line)
+{
+    for (size_t i = 0; i < sizeof handed_on / sizeof *handed_on; ++i) {
+        glssao__block_member m;
+        size_t offset = 0;
+        for (const char *rest = handed_on[i]; glssao__block_next(&rest, &offset, &m);) {
+            char words[160], array[8] = "";
+            if (m.count > MOST_FLAT_ELEMENTS)
+                continue;
+            if (m.count > 0)
+                snprintf(array, sizeof array, "[%d]", (int)m.count);
+            if (line == FLAT_OUTPUT)
+                snprintf(words, sizeof words, "flat out %s v_%s%s;\n", m.type, m.name, array);
+            else if (line == FLAT_HANDED_ON)
+                snprintf(words, sizeof words, "    v_%s = %s;\n", m.name, m.name);
+            else
+                snprintf(words, sizeof words, "flat in %s v_%s%s;\n#define %s v_%s\n", m.type, m.name, array, m.name,
+                         m.name);
+            append(t, words);
+        }
+    }
+}
+
+char *glssao__shader_vertex_source(bool flat)
 {
     text t = {0};
     append_version(&t, 33, false);
+    append_define(&t, "FLAT", flat);
+    if (flat) {
+        append_block(&t, "cbSsao", shader_cb_ssao_glsl);
+        append_block(&t, "cbFrame", shader_cb_frame_glsl);
+        append(&t, "uniform vec2 gOrigin;\nuniform int gHorizontalBlur;\n");
+        append_flat(&t, FLAT_OUTPUT);
+        append(&t, "void hand_on()\n{\n");
+        append_flat(&t, FLAT_HANDED_ON);
+        append(&t, "}\n");
+    }
     append(&t, shader_fullscreen_vert);
     return t.at;
 }
 
-char *glssao__shader_source(enum glssao__shader shader, const glssao__variant *variant, int gl_version)
+char *glssao__shader_source(enum glssao__shader shader, const glssao__variant *variant, int gl_version, bool flat)
 {
     const struct group *group = group_of(shader);
     text t = {0};
+    flat = flat && !variant->values[MACRO_COMPUTE];
     append_version(&t, gl_version, variant->values[MACRO_COMPUTE]);
     for (int i = 0; i < MACRO_COUNT; ++i)
         append_define(&t, macros[i].name, variant->values[i]);
     append_define(&t, "GROUP_X", group->x);
     append_define(&t, "GROUP_Y", group->y);
     append_define(&t, "GROUP_ROWS", group->rows);
+    append_define(&t, "FLAT", flat);
     append(&t, shader_values_glsl);
     append(&t, shader_tuned_glsl);
-    append(&t, "#define UNROLL_IF_SHORT\nlayout(std140) uniform cbSsao {\n");
-    append(&t, shader_cb_ssao_glsl);
-    append(&t, "};\nlayout(std140) uniform cbFrame {\n");
-    append(&t, shader_cb_frame_glsl);
-    append(&t, "};\n");
-    if (shader == SHADER_HEMISPHERE) {
-        append(&t, "layout(std140) uniform cbHemisphere {\n");
-        append(&t, shader_cb_hemisphere_glsl);
-        append(&t, "};\n");
-    }
+    append(&t, shader_octahedral_glsl);
+    append(&t, "#define UNROLL_IF_SHORT\n");
+    append_block(&t, "cbSsao", shader_cb_ssao_glsl);
+    append_block(&t, "cbFrame", shader_cb_frame_glsl);
+    if (shader == SHADER_HEMISPHERE)
+        append_block(&t, "cbHemisphere", shader_cb_hemisphere_glsl);
+    if (flat)
+        append_flat(&t, FLAT_INPUT);
     for (int i = 0; i < FILES && shaders[shader].files[i]; ++i)
         append(&t, shaders[shader].files[i]);
     char *const source = t.at;

@@ -29,7 +29,6 @@ enum glssao__shader {
     SHADER_STEADY,
     SHADER_APPLY,
     SHADER_RAYS,
-    SHADER_CORRECT,
     SHADER_TILE_ROWS,
     SHADER_TILE_BOUNDS,
     SHADER_TILE_CLASS,
@@ -57,7 +56,7 @@ enum glssao__shader {
     X(WIDE, 1)            /* planar blur: the first round is not the blur's first */                                   \
     X(STRIDE, 3)          /* planar blur: the neighbours are 2 to that power of pixels apart */                        \
     X(RAYS, 2)            /* values come from the host's rays: they may be missing; the same, but not in the output */ \
-    X(CORRECTS, 1)        /* rays: the difference to another technique's estimate is wanted */                         \
+    X(CORRECTS, 2)        /* rays: the difference to another technique's estimate; 2: its sum with that */             \
     X(ROUNDS, 2)          /* planar blur: rounds of one dispatch */                                                    \
     X(UPSAMPLE, 1)        /* planar tile: brings the result to full size */                                            \
     X(MULTISAMPLE, 1)     /* input: of several samples */                                                              \
@@ -97,8 +96,9 @@ void glssao__shader_describe(enum glssao__shader shader, const glssao__variant *
 void glssao__shader_group(enum glssao__shader shader, const glssao__variant *variant, int out_pixels[2]);
 
 /* The source of a stage: fragment or compute, whichever the variant asks for, or the vertex stage that all draws share.
- * `gl_version`: 10 major + minor. NULL where there is no memory; the caller frees. */
-char *glssao__shader_source(enum glssao__shader shader, const glssao__variant *variant, int gl_version);
-char *glssao__shader_vertex_source(void);
+ * `gl_version`: 10 major + minor. `flat`: in draws, uniforms come from the vertex stage as flat inputs; both stages of
+ * a program must agree. NULL where there is no memory; the caller frees. */
+char *glssao__shader_source(enum glssao__shader shader, const glssao__variant *variant, int gl_version, bool flat);
+char *glssao__shader_vertex_source(bool flat);
 
 #endif

@@ -74,13 +74,15 @@ bool glssao__block_next(const char **text, size_t *offset, glssao__block_member 
         return false;
     const char *name = type + type_length + strspn(type + type_length, " ");
     const size_t length = strcspn(name, "[;");
-    const size_t count = name[length] == '[' ? (size_t)atoi(name + length + 1) : 1;
-    if (length >= sizeof out->name)
+    if (type_length >= sizeof out->type || length >= sizeof out->name)
         return false;
+    memcpy(out->type, type, type_length);
+    out->type[type_length] = '\0';
     memcpy(out->name, name, length);
     out->name[length] = '\0';
+    out->count = name[length] == '[' ? (size_t)atoi(name + length + 1) : 0;
     out->offset = *offset;
-    *offset += 4 * numbers * count;
+    *offset += 4 * numbers * (out->count ? out->count : 1);
     *text = name + strcspn(name, ";") + 1;
     return true;
 }

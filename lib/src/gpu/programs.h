@@ -23,7 +23,9 @@ typedef struct glssao__program_source {
 
 /* One member of a uniform block, and where C keeps it. */
 typedef struct glssao__block_member {
+    char type[8]; /* of GLSL */
     char name[32];
+    size_t count; /* of elements; 0: no array */
     size_t offset;
 } glssao__block_member;
 

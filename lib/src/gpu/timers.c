@@ -21,6 +21,8 @@ void glssao__timers_destroy(glssao__timers *timers, const glssao__gl *gl)
 
 void glssao__timers_frame(glssao__timers *timers, uint64_t frame)
 {
+    if (timers->current && timers->current->frame == frame)
+        return;
     timers->current = NULL;
     for (int i = 0; timers->enabled && i < TIMER_FRAMES && !timers->current; ++i)
         if (timers->frames[i].frame == 0)
@@ -29,6 +31,14 @@ void glssao__timers_frame(glssao__timers *timers, uint64_t frame)
         return;
     timers->current->frame = frame;
     timers->current->used = 0;
+}
+
+void glssao__timers_drop(glssao__timers *timers, uint64_t frame)
+{
+    if (!timers->current || timers->current->frame != frame)
+        return;
+    timers->current->frame = 0;
+    timers->current = NULL;
 }
 
 void glssao__timers_begin(glssao__timers *timers, const glssao__gl *gl, int section)

@@ -8,7 +8,7 @@
 
 #include "gpu/functions.h"
 
-enum { TIMER_FRAMES = 4, TIMER_SECTIONS = 16 };
+enum { TIMER_FRAMES = 4, TIMER_SECTIONS = 16, SECTION_DEPTH_COPY = TIMER_SECTIONS - 1 }; /* the others: glssao_pass */
 
 typedef struct glssao__timer_frame {
     gl_uint queries[TIMER_SECTIONS][2]; /* before and after */
@@ -27,8 +27,10 @@ typedef struct glssao__timers {
 
 void glssao__timers_make(glssao__timers *timers, const glssao__gl *gl);
 void glssao__timers_destroy(glssao__timers *timers, const glssao__gl *gl);
-/* Starts the frame of that number, from 1. */
+/* Starts the frame of that number, from 1; goes on with it where it was started already. */
 void glssao__timers_frame(glssao__timers *timers, uint64_t frame);
+/* Forgets that frame, which came to nothing, where it was started last. */
+void glssao__timers_drop(glssao__timers *timers, uint64_t frame);
 void glssao__timers_begin(glssao__timers *timers, const glssao__gl *gl, int section);
 void glssao__timers_end(glssao__timers *timers, const glssao__gl *gl, int section);
 /* Reads what the GPU has finished into known_frame and known_ms, and frees those queries. */

@@ -139,35 +139,43 @@ static glssao_result look_at(const glssao__depth_copy *c, const glssao__gl *gl, 
     return GLSSAO_OK;
 }
 
-glssao_result glssao__depth_copy_take(glssao__depth_copy *c, const glssao__gl *gl, const glssao__log *log,
-                                      gl_uint framebuffer, const int r[4], bool host_restores, bool *out_is_new)
+/* As the last copy went, or by trying. */
+static bool copy(glssao__depth_copy *c, const glssao__gl *gl, const int r[4], bool is_like_last)
 {
-    const bool has_size = c->width == r[2] && c->height == r[3], is_same = has_size && c->source == framebuffer;
+    if (!is_like_last)
+        return try_both(c, gl, r);
+    if (c->blit_fails)
+        copy_texels(c, gl, r);
+    else
+        blit(c, gl, r);
+    return true;
+}
+
+glssao_result glssao__depth_copy_take(glssao__depth_copy *c, const glssao__gl *gl, glssao__timers *timers,
+                                      const glssao__log *log, gl_uint framebuffer, const int r[4], bool host_restores)
+{
+    const bool has_size = c->width == r[2] && c->height == r[3],
+               is_like_last = has_size && c->source == framebuffer && c->is_checked;
     gl_enum format = c->format;
-    *out_is_new = false;
+    c->is_new = false;
     gl->BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
-    if (!(is_same && c->is_checked && host_restores)) {
+    if (!(is_like_last && host_restores)) {
         const glssao_result result = look_at(c, gl, log, framebuffer, &format);
         if (result != GLSSAO_OK)
             return result;
     }
     if (!has_size || c->format != format) {
-        *out_is_new = true;
+        c->is_new = true;
         const glssao_result result = fit(c, gl, log, format, r[2], r[3]);
         if (result != GLSSAO_OK)
             return result;
     }
-    if (is_same && c->is_checked && !*out_is_new) {
-        if (c->blit_fails)
-            copy_texels(c, gl, r);
-        else
-            blit(c, gl, r);
-        return GLSSAO_OK;
-    }
     c->source = framebuffer;
-    return try_both(c, gl, r)
-               ? GLSSAO_OK
-               : glssao__log_refuse(log, "framebuffer = %u: the driver copies no depth from it", framebuffer);
+    glssao__timers_begin(timers, gl, SECTION_DEPTH_COPY);
+    const bool is_copied = copy(c, gl, r, is_like_last && !c->is_new);
+    glssao__timers_end(timers, gl, SECTION_DEPTH_COPY);
+    return is_copied ? GLSSAO_OK
+                     : glssao__log_refuse(log, "framebuffer = %u: the driver copies no depth from it", framebuffer);
 }
 
 void glssao__depth_copy_destroy(glssao__depth_copy *c, const glssao__gl *gl)

@@ -91,10 +91,51 @@ def depth(folder):
     return table(["level", "ms", "ms, depth alone", "ratio", "RMSE", "depth alone", "depth alone, flat truth"], rows)
 
 
+def plain_rays(a):
+    """Ray tracing as it comes: rays-N."""
+    return [c for c in a.configs(technique="rays") if c.split("-")[1].isdigit()]
+
+
+def traced(folder, use="tuning"):
+    """A few rays alone and as corrections, beside screen space and plain ray tracing, from fast to slow."""
+    a = Accuracy(folder, use)
+    few = [c for c in a.by_config if data.is_few_rays(c)]
+    beside = [f"horizon-{level}" for level in LEVELS if a.has(f"horizon-{level}")]
+    if not few:
+        return None
+    base = a.time("horizon-high", "cpu_ms") if a.has("horizon-high") else None
+    rows = []
+    for c in sorted(few + beside + plain_rays(a), key=lambda c: (a.time(c, "cpu_ms") or 0, -a.figure(c, "rmse"))):
+        time = a.time(c, "cpu_ms")
+        rows.append([f"`{c}`", ms(time), number(time / base if time and base else None, 2), number(a.figure(c, "rmse")),
+                     number(a.figure(c, "rmse", "mean")), number(a.figure(c, "ssim"), 3), number(a.figure(c, "grain"))])
+    return table(["configuration", "CPU ms", "of `horizon-high`'s", "RMSE", "mean of the scenes' RMSE", "SSIM", "grain"], rows)
+
+
+def bent(folder, use="tuning"):
+    """Bent normals of each level, in degrees off the traced mean open direction; each scene counts the same."""
+    t, scenes = load(folder, "bent"), load(folder, "scenes")
+    if not t or not scenes:
+        return None
+    uses = {row["scene"]: row["use"] for row in scenes.rows}
+    rows = []
+    for c in t.values("configuration"):
+        cells = [f"`{c}`"]
+        for inputs in ("normals", "depth"):
+            own = [r for r in t.where(configuration=c, inputs=inputs) if uses.get(r["scene"]) == use]
+            for column in ("mean", "occluded_mean", "p95"):
+                values = [r[column] for r in own if r[column] is not None]
+                cells.append(number(combine(values, "mean"), 1))
+        rows.append(cells)
+    head = ["configuration"] + [f"{text}{inputs}" for inputs in ("", ", depth alone")
+                                for text in ("mean", "where occluded", "95th percentile")]
+    return table(head, rows)
+
+
 def rays(folder):
     a = Accuracy(folder)
     rows = []
-    for c in a.configs(technique="rays"):
+    for c in plain_rays(a):
         rows.append([c.split("-")[1], ms(a.time(c)), number(a.figure(c, "rmse")), number(a.figure(c, "ssim"), 3),
                      number(a.figure(c, "flip"), 3), number(a.figure(c, "grain"))])
     return table(["rays a pixel", "ms (CPU)", "RMSE", "SSIM", "FLIP", "grain"], rows, 0) if rows else None

@@ -70,6 +70,8 @@ class Figures(unittest.TestCase):
         plain = {"inputs": "normals", "technique": "horizon"}
         self.assertFalse(charts.needs_scene("horizon-high", plain))
         self.assertTrue(charts.needs_scene("horizon-high-with-2-rays", plain))
+        self.assertTrue(charts.needs_scene("horizon-high-with-2-rays-adaptive", plain))
+        self.assertFalse(charts.needs_scene("horizon-high", plain))
         self.assertTrue(charts.needs_scene("horizon-high-beyond", {**plain, "inputs": "beyond"}))
         self.assertTrue(charts.needs_scene("rays-low", {**plain, "technique": "rays"}))
 

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * How far bent normals are off the traced mean open direction.
+ */
+#ifndef GLSSAO_BENCH_BENT_H
+#define GLSSAO_BENCH_BENT_H
+
+#include "effects.h"
+#include "results.h"
+
+/* Measures every level of horizon on every view and writes bent.tsv. With r->options->check it also fails where a level
+ * is no better than the normal itself. False, with one line in `error`. */
+bool bent_measure(const results *r, effects *e, char *error, size_t error_size);
+
+#endif
