@@ -37,7 +37,7 @@ const setting setting_table[] = {
      AT(fade_start), 0, 1e12f, true, NULL, CLASSIC},
     {"fade-end", "scene units", "occluders that are nearer to the camera by more than this do not count",
      SETTING_NUMBER, AT(fade_end), 0, 1e12f, true, NULL, CLASSIC},
-    {"epsilon", "scene units", "occluders that are nearer to the camera by less than this do not count", SETTING_NUMBER,
+    {"epsilon", "scene units", "depths that differ by less than this hide nothing", SETTING_NUMBER,
      AT(surface_epsilon), 0, 1e12f, true, NULL, ALL},
     {"blur", "", "how noise is smoothed", SETTING_WORD, AT(blur), 0, 4, false, BLUR_WORDS, ALL},
     {"blur-rounds", "rounds", "each round is a horizontal and a vertical pass", SETTING_WHOLE, AT(blur_rounds), 0, 16,

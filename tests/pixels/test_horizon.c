@@ -352,8 +352,8 @@ static double mean_difference(const float *a, const float *b, int count)
     return sum / count;
 }
 
-/* Edge lines and noise up to 0.08 radii high, over a floor and a wall. Measured: off by 0.033 to 0.137, with an epsilon of
- * that height by 0.003 to 0.012. */
+/* Edge lines and noise up to 0.08 radii high, over a floor and a wall. Measured: off by 0.033 to 0.137, with an epsilon
+ * of that height by 0.003 to 0.012. */
 TEST_GL(what_stands_out_by_less_than_epsilon_hides_nothing)
 {
     const double k = sqrt(0.5), height = 0.08;
