@@ -48,12 +48,14 @@ CHANGE(no_ambient, f->no_ambient_light = true)
 CHANGE(only_sky, f->only_sky = true)
 CHANGE(no_radius, s->radius = 0)
 CHANGE(no_power, s->power = 0)
-CHANGE(half_size, s->upsample = false; s->blur = GLSSAO_BLUR_NONE)
+CHANGE(half_size, s->upsample = false)
+CHANGE(raw_half_size, s->upsample = false; s->blur = GLSSAO_BLUR_NONE)
 CHANGE(no_rounds, s->blur_rounds = 0)
 CHANGE(second_layer, f->back_texture = f->second_texture = f->depth_texture)
 CHANGE(three_rounds, s->blur_rounds = 3)
+CHANGE(half_three_rounds, s->upsample = false; s->blur_rounds = 3)
 CHANGE(tiles_on, s->tiles = GLSSAO_TILES_ON)
-CHANGE(margin, f->margin = 8)
+CHANGE(half_margin, s->upsample = false; f->margin = 8)
 
 static const struct row {
     const char *what;
@@ -65,17 +67,18 @@ static const struct row {
         int draws, programs, textures; /* of the first frame; later ones create nothing */
     } fragment, compute;               /* draws and dispatches together; no passes: the same */
 } rows[] = {
-    {"horizon low", GLSSAO_HORIZON, GLSSAO_LOW, NULL, {"DEB", 5, 4, 3}, {"DEB", 3, 3, 3}},
+    {"horizon low", GLSSAO_HORIZON, GLSSAO_LOW, NULL, {"DEBU", 7, 6, 5}, {"DEU", 3, 3, 4}},
     {"horizon medium", GLSSAO_HORIZON, GLSSAO_MEDIUM, NULL, {"DEBU", 7, 6, 5}, {"DEU", 3, 3, 4}},
     {"horizon ultra", GLSSAO_HORIZON, GLSSAO_ULTRA, NULL, {"DEB", 5, 4, 5}, {"DEB", 3, 3, 5}},
     {"classic", GLSSAO_CLASSIC, GLSSAO_HIGH, NULL, {"EB", 7, 2, 0}, {NULL, 0, 0, 0}},
     {"hemisphere", GLSSAO_HEMISPHERE, GLSSAO_HIGH, NULL, {"EB", 3, 2, 2}, {NULL, 0, 0, 0}},
     {"normals rebuilt", GLSSAO_HORIZON, GLSSAO_MEDIUM, rebuild_normals, {"NDEBU", 8, 7, 6}, {"NDEU", 4, 4, 5}},
-    {"half size, raw", GLSSAO_HORIZON, GLSSAO_MEDIUM, half_size, {"DE", 2, 2, 1}, {NULL, 0, 0, 0}},
+    {"half size", GLSSAO_HORIZON, GLSSAO_LOW, half_size, {"DEB", 5, 4, 3}, {"DEB", 3, 3, 3}},
+    {"half size, raw", GLSSAO_HORIZON, GLSSAO_MEDIUM, raw_half_size, {"DE", 2, 2, 1}, {NULL, 0, 0, 0}},
     {"no blur rounds", GLSSAO_HORIZON, GLSSAO_MEDIUM, no_rounds, {"DEU", 4, 4, 5}, {"DEU", 3, 3, 4}},
-    {"three blur rounds", GLSSAO_HORIZON, GLSSAO_LOW, three_rounds, {"DEB", 6, 5, 3}, {"DEB", 4, 4, 3}},
+    {"three blur rounds", GLSSAO_HORIZON, GLSSAO_LOW, half_three_rounds, {"DEB", 6, 5, 3}, {"DEB", 4, 4, 3}},
     {"three rounds, upsampled", GLSSAO_HORIZON, GLSSAO_HIGH, three_rounds, {"DEBU", 8, 6, 5}, {"DEBU", 4, 4, 4}},
-    {"margin", GLSSAO_HORIZON, GLSSAO_LOW, margin, {"DEB", 5, 4, 4}, {"DEB", 3, 3, 4}},
+    {"margin", GLSSAO_HORIZON, GLSSAO_LOW, half_margin, {"DEB", 5, 4, 4}, {"DEB", 3, 3, 4}},
     {"a second layer", GLSSAO_HORIZON, GLSSAO_MEDIUM, second_layer, {"DEBU", 7, 6, 5}, {"DEU", 3, 3, 4}},
     {"tiles, paired maps", GLSSAO_HORIZON, GLSSAO_MEDIUM, tiles_on, {"DTEBU", 12, 11, 9}, {NULL, 0, 0, 0}},
     {"tiles, plain maps", GLSSAO_CLASSIC, GLSSAO_HIGH, tiles_on, {"TEB", 11, 6, 4}, {NULL, 0, 0, 0}},
