@@ -147,6 +147,11 @@ static bool check_together(const options *o, bool is_viewer, failure *why)
     if (o->rays && (o->error.given || o->budget_ms.given))
         return fault_set(why, "--rays %d and --%s cannot be used together: a mean of many estimates needs no rays",
                          o->rays, o->error.given ? "error" : "budget");
+    if (o->adaptive_rays && !o->rays && o->technique != GLSSAO_RAYS)
+        return fault_set(why, "--adaptive-rays: no rays are traced without --rays or --technique rays");
+    if (o->adaptive_rays && o->rays > 16)
+        return fault_set(why, "--rays %d: at most 16 with --adaptive-rays, which traces up to four times as many",
+                         o->rays);
     if (o->technique == GLSSAO_RAYS && o->sample_count)
         return fault_set(why, "--samples %d: --rays sets how many rays are traced", o->sample_count);
     if (traced && o->bench)

@@ -5,19 +5,12 @@
 #define _POSIX_C_SOURCE 200809L /* mkstemp */
 #include "map_file.h"
 
+#include "testing.h"
+
 #include <errno.h>
-#include <math.h>
 #include <png.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 #if HAS_OPENEXR
 #include "write_exr.h"
@@ -83,9 +76,8 @@ static void expect_refusal(const char *line)
     assert_null(map.values);
 }
 
-static void test_pfm(void **state)
+TEST(test_pfm)
 {
-    (void)state;
     const float bottom_first[] = {3.0f, 4.0f, 1.0f, 2.0f}, top_first[] = {1.0f, 2.0f, 3.0f, 4.0f};
     char bytes[64] = "Pf\n2 2\n-1.0\n";
     memcpy(bytes + 12, bottom_first, sizeof bottom_first);
@@ -97,9 +89,8 @@ static void test_pfm(void **state)
     expect(1, 1, 3, top_first);
 }
 
-static void test_npy(void **state)
+TEST(test_npy)
 {
-    (void)state;
     const float values[] = {1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f};
     write_npy("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }\n", values, sizeof values);
     expect(3, 2, 1, values);
@@ -120,9 +111,8 @@ static void test_npy(void **state)
     expect(4, 1, 1, (const float[]){1.0f, -2.0f, 0x1p-24f, INFINITY});
 }
 
-static void test_png(void **state)
+TEST(test_png)
 {
-    (void)state;
     uint8_t grey[] = {0x00, 0x00, 0x13, 0x88, 0xff, 0xff, 0x00, 0x01};
     write_png(2, 2, 16, PNG_COLOR_TYPE_GRAY, grey);
     expect(2, 2, 1, (const float[]){0.0f, 5000.0f, 65535.0f, 1.0f});
@@ -148,9 +138,8 @@ static void test_png(void **state)
     assert_non_null(strstr(error, ": 8 bits a pixel: depth needs 16"));
 }
 
-static void test_exr(void **state)
+TEST(test_exr)
 {
-    (void)state;
 #if HAS_OPENEXR
     float values[] = {9.0f, 9.0f, 9.0f, 1.5f, 8.0f, 8.0f, 8.0f, INFINITY};
     static const char *const names[] = {"R", "G", "B", "Depth.Z"};
@@ -168,9 +157,8 @@ static void test_exr(void **state)
 #endif
 }
 
-static void test_damaged_headers_give_one_line(void **state)
+TEST(test_damaged_headers_give_one_line)
 {
-    (void)state;
     static const struct {
         const char *bytes, *line;
     } files[] = {
@@ -239,9 +227,8 @@ static void damage(bool must_fail_when_cut)
     }
 }
 
-static void test_damaged_files_give_one_line(void **state)
+TEST(test_damaged_files_give_one_line)
 {
-    (void)state;
     const float values[16] = {1.0f, 2.0f, 3.0f};
     char bytes[128] = "Pf\n4 4\n-1.0\n";
     memcpy(bytes + 12, values, sizeof values);
@@ -277,13 +264,5 @@ static int teardown(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_pfm),
-        cmocka_unit_test(test_npy),
-        cmocka_unit_test(test_png),
-        cmocka_unit_test(test_exr),
-        cmocka_unit_test(test_damaged_headers_give_one_line),
-        cmocka_unit_test(test_damaged_files_give_one_line),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return test_run(NULL, setup, teardown);
 }
