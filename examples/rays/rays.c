@@ -18,18 +18,6 @@ void rays_close(rays *r)
     *r = (rays){0};
 }
 
-static GLuint make_texture(GLenum internal_format, GLenum format, int width, int height)
-{
-    GLuint texture;
-    gl.GenTextures(1, &texture);
-    gl.BindTexture(GL_TEXTURE_2D, texture);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)internal_format, width, height, 0, format, GL_FLOAT, NULL);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* the default filter needs mipmaps */
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl.BindTexture(GL_TEXTURE_2D, 0);
-    return texture;
-}
-
 /* The first row of a strip. */
 static int strip_row(const rays *r, int strip)
 {
@@ -48,12 +36,9 @@ bool rays_open(rays *r, int full_width, int full_height, int step, failure *why)
     r->rows = malloc((size_t)height * sizeof *r->rows);
     if (!r->accessibility || !r->rows)
         return fault_set(why, "rays for %d x %d pixels: out of memory", width, height);
-    r->surfaces = make_texture(GL_RGBA32F, GL_RGBA, width, height);
-    r->texture = make_texture(GL_R32F, GL_RED, width, height);
-    gl.GenFramebuffers(1, &r->framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, r->framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, r->surfaces, 0);
-    const bool complete = gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+    r->surfaces = gl_make_texture(GL_RGBA32F, GL_RGBA, GL_FLOAT, width, height, NULL);
+    r->texture = gl_make_texture(GL_R32F, GL_RED, GL_FLOAT, width, height, NULL);
+    const bool complete = gl_make_framebuffer(r->surfaces, 0, &r->framebuffer);
     gl.GenBuffers(RAYS_STRIPS, r->buffers);
     for (int i = 0; i < RAYS_STRIPS; i++) {
         const size_t rows = (size_t)(strip_row(r, i + 1) - strip_row(r, i));
