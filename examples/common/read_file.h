@@ -12,8 +12,8 @@
 extern "C" {
 #endif
 
-/* Opens a regular file. Refuses anything else, so that a FIFO cannot block the program. -1 on failure, with the reason in
- * words. */
+/* Opens a regular file. Refuses anything else, so that a FIFO cannot block the program. -1 on failure, with the reason
+ * in words. */
 int read_file_open(const char *path, const char **out_reason);
 
 /* Reads a regular file of at most `limit` bytes. NULL on failure, with the reason in words. */
@@ -23,7 +23,8 @@ uint8_t *read_file(const char *path, size_t limit, size_t *out_size, const char 
  */
 uint8_t *read_stream(int descriptor, size_t limit, size_t *out_size, const char **out_reason);
 
-/* Recognises by their first bytes files that were fetched or packed wrongly, and says what they are; NULL for others. */
+/* Recognises by their first bytes files that were fetched or packed wrongly, and says what they are; NULL for others.
+ */
 const char *read_file_find_mistake(const void *data, size_t size);
 
 #ifdef __cplusplus

@@ -107,6 +107,8 @@ static const option table[] = {
      OPTION_FILE, AT(file.root), 0, 0, "", SCOPE_PICTURE},
     {0, "strict", NULL, "refuse a scene that would cause a warning", OPTION_FLAG, AT(file.strict), 0, 0, NULL,
      SCOPE_PICTURE},
+    {0, "flat-normals", NULL, "ignore the file's normals: every triangle has its own", OPTION_FLAG,
+     AT(file.flat_normals), 0, 0, NULL, SCOPE_PICTURE},
     {0, "memory", "MIB", "memory limit for loading a scene (default: half of the machine's memory)", OPTION_INT,
      AT(memory_mib), 1, 1e9, "a whole number from 1", SCOPE_PICTURE},
     {0, "scene", "NAME", "draw a built-in scene: columns, cornell, steps or plane (default columns)", OPTION_TEXT,

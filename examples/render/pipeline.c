@@ -297,7 +297,7 @@ static bool trace_rays(pipeline *p, const scene_view *view, int index, failure *
                           .options = {.radius = p->settings.radius,
                                       .samples = p->ray_count,
                                       .adaptive = p->adaptive_rays,
-                                      .seed = p->seed + (uint32_t)index * 0x9e3779b9u,
+                                      .seed = p->seed + (uint32_t)index * 0x9e3779b9u + p->frame_number * 0x85ebca6bu,
                                       .stopped = is_stopped}};
     return rays_trace(&p->rays, p->traced, &job, why);
 }
@@ -317,6 +317,7 @@ static bool find_accessibility(pipeline *p, const scene_view *view, int index, i
     if (p->goal.error <= 0 && p->goal.budget_ms <= 0) {
         p->has_last = pipeline_check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", why);
         p->last_view = *view;
+        p->frame_number += p->settings.history > 0;
         p->is_posed = false;
         return p->has_last;
     }

@@ -294,3 +294,33 @@ def bandwidth(folder):
     t = load(folder, "bandwidth")
     return table(["what", "how", "ms", "GB/s"], [[r["what"], r["how"], number(r["ms"]), f"{r['gb_per_s']:.0f}"] for r in t.rows],
                  2) if t else None
+
+
+# The cut is none of a history's motions, and where nothing moves there is no flicker to see.
+MOTIONS = ["orbit", "walk", "pan", "dolly", "bend"]
+
+
+def motion(folder):
+    """Settings with a history beside single frames, over all motions of all scenes; the lag where a box leaves."""
+    t = load(folder, "motion")
+    if not t:
+        return None
+    rows, base = [], None
+    for setting in ["ultra"] + t.values("setting"):
+        own = [r for r in t.where(setting=setting) if r["motion"] in MOTIONS]
+        lags = [r["lag"] for r in t.where(setting=setting, motion="box")]
+        figures = [combine((r[c] for r in own), how) for c, how in (
+            ("rmse", "rms"), ("ssim", "mean"), ("flip", "mean"), ("frame_change", "rms"), ("new_rmse", "rms"), ("cpu_ms", "mean"))]
+        base = base or figures
+        rmse, ssim, flip, change, new, time = figures
+        rows.append([f"`{setting}`", f"{number(rmse)} ({rmse / base[0]:.2f})", number(ssim, 3), number(flip, 3),
+                     f"{number(change)} ({change / base[3]:.2f})", number(new), f"{max(lags):.0f}" if setting.endswith("-16") else "",
+                     f"{ms(time)} ({time / base[5]:.2f})"])
+    head = ["setting", "RMSE (of ultra's)", "SSIM", "FLIP", "frame change (of ultra's)", "RMSE of new pixels", "lag, frames",
+            "CPU ms (of ultra's)"]
+    return table(head, rows[1:])
+
+
+def motion_command(folder):
+    t = load(folder, "motion")
+    return f"Made by `{t.command}`; {t.notes['context']}." if t else None
