@@ -6,21 +6,20 @@
 
 #include <math.h>
 
-void open_light_bands(double accessibility, double out[2])
+double open_light_linear(double accessibility)
 {
     const double c = sqrt(fmax(1.0 - accessibility, 0.0));
-    out[0] = (1.0 + c + c * c) / (1.0 + c);
-    out[1] = 1.0 + 3.0 * c * c;
+    return (1.0 + c + c * c) / (1.0 + c);
 }
 
-void open_light_matte(const float irradiance[9][3], const double direction[3], const double bands[2], double out[3])
+void open_light_matte(const float irradiance[9][3], const double direction[3], double linear, double out[3])
 {
     const double x = direction[0], y = direction[1], z = direction[2];
     const double terms[9] = {1.0, y, z, x, x * y, y * z, 3.0 * z * z - 1.0, x * z, x * x - y * y};
     for (int k = 0; k < 3; ++k) {
         out[k] = 0.0;
         for (int i = 0; i < 9; ++i)
-            out[k] += (double)irradiance[i][k] * terms[i] * (i == 0 ? 1.0 : bands[i > 3]);
+            out[k] += (double)irradiance[i][k] * terms[i] * (i >= 1 && i <= 3 ? linear : 1.0);
         out[k] = fmax(out[k], 0.0);
     }
 }

@@ -3,12 +3,13 @@
 // Light from a bent normal: what is open is taken to be a cone about it (C. Oat and P. Sander, "Ambient Aperture Lighting",
 // 2007), whose cosine-weighted share of the hemisphere is the accessibility (J. Jimenez et al., "Practical Real-Time
 // Strategies for Accurate Indirect Occlusion", 2016).
-// In a cone about the normal with the cosine c at its edge, the mean of that light's first spherical harmonic, by the cosine,
-// is 2/3 (1 - c^3) / (1 - c^2) of it, that of the second (1 + 3 c^2) / 4. Over the hemisphere, c = 0, they are 2/3 and 1/4.
-vec2 bands_of_cone(float accessibility)
+// In a cone about the normal with the cosine c at its edge, the mean by the cosine of light that is linear in direction is
+// 2/3 (1 - c^3) / (1 - c^2) of that along the axis; over the hemisphere, c = 0, it is 2/3. This is how much more that is. (The
+// second spherical harmonics would grow fourfold, and ring in creases.)
+float linear_light_of_cone(float accessibility)
 {
     float c = sqrt(max(1.0 - accessibility, 0.0));
-    return vec2((1.0 + c + c * c) / (1.0 + c), 1.0 + 3.0 * c * c);
+    return (1.0 + c + c * c) / (1.0 + c);
 }
 
 // snippet: bent shader
