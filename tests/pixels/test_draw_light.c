@@ -174,7 +174,7 @@ static void bent_normals_light_as_their_cones_say(void **state)
         s = frame_one_quad(metal, NULL);
         bent_color(s, &lighting, open, 1, 0, even);
         bent_color(s, &lighting, bent, accessibility, 0, got);
-        const double share = open_light_cone(bent, accessibility, n, (double)metal.roughness);
+        const double share = open_light_cone(bent, accessibility, open, n, (double)metal.roughness);
         assert_near(got[0], even[0] * share, 0.008, "metal");
         darkened += share < 0.9 && share > 0.1;
         free(s);

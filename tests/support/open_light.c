@@ -24,14 +24,20 @@ void open_light_matte(const float irradiance[9][3], const double direction[3], d
     }
 }
 
-double open_light_cone(const double bent[3], double accessibility, const double mirror[3], double roughness)
+static double overlap(const double axis[3], double open, const double mirror[3], double lobe)
 {
-    const double dot = bent[0] * mirror[0] + bent[1] * mirror[1] + bent[2] * mirror[2];
-    const double open = acos(sqrt(fmin(fmax(1.0 - accessibility, 0.0), 1.0)));
-    const double lobe = acos(exp2(-3.32193 * fmax(roughness * roughness, 1e-3)));
+    const double dot = axis[0] * mirror[0] + axis[1] * mirror[1] + axis[2] * mirror[2];
     const double between = acos(fmin(fmax(dot, -1.0), 1.0)), inside = fabs(open - lobe);
     const double t = fmin(fmax((between - inside) / fmax(open + lobe - inside, 1e-4), 0.0), 1.0);
     return (1.0 - t * t * (3.0 - 2.0 * t)) * (1.0 - cos(fmin(open, lobe))) / (1.0 - cos(lobe));
+}
+
+double open_light_cone(const double bent[3], double accessibility, const double normal[3], const double mirror[3],
+                       double roughness)
+{
+    const double lobe = acos(exp2(-3.32193 * fmax(roughness * roughness, 1e-3)));
+    const double open = overlap(bent, acos(sqrt(fmin(fmax(1.0 - accessibility, 0.0), 1.0))), mirror, lobe);
+    return fmin(open / fmax(overlap(normal, acos(0.0), mirror, lobe), 1e-3), 1.0);
 }
 
 double open_light_lobe(double cos_eye, double accessibility, double roughness)

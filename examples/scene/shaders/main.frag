@@ -210,7 +210,7 @@ vec3 ambient_light(surface s, vec3 open_view, float accessibility)
     float a004 = min(r.x * r.x, exp2(-9.28 * cos_eye)) * r.x + r.y;
     vec2 scale_bias = vec2(-1.04, 1.04) * a004 + r.zw;
 #if BENT && !BLENDED
-    accessibility = specular_accessibility(vec4(open_view, accessibility), mirror_view, s.roughness);
+    accessibility = specular_accessibility(vec4(open_view, accessibility), s.normal_view, mirror_view, s.roughness);
 #elif SPECULAR_OCCLUSION && !BLENDED
     // Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based Rendering", listing 26.
     float open = pow(cos_eye + accessibility, exp2(-16.0 * s.roughness - 1.0)) - 1.0 + accessibility;
