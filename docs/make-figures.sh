@@ -25,10 +25,15 @@ cd "$root"
 
 glssao-bench --scenes "$scenes" "${peers[@]}" --frames 2 --sequence-frames 4 --split-seeds 6 --oracle-step 8 --out "$work" "${options[@]}"
 glssao-bench --bent --scenes "$scenes" --out "$work" "${options[@]}"
+# Views that no constant was chosen on.
+glssao-bench --scenes "$scenes" --all-views --pick courtyard-2,interior-2,drive-2,ship-2,house-2,town-2,blend-mode \
+  --only rays,horizon-high,horizon-ultra --frames 0 --sequence-frames 0 --split-seeds 0 --out "$work/others" "${options[@]}"
 glssao-economy --scenes "$scenes" --time-size 1280x720 --frames 2 --time-scene columns --check --out "$work" "${options[@]}"
 glssao-cost --frames 3 --out "$work" "${options[@]}"
 FRAMES=${FRAMES:-8} "$docs/make-performance.sh" "$work" "$build"
 cp "$work"/*.tsv "$data"
+mkdir -p "$data-others"
+cp "$work/others/"{accuracy,scenes}.tsv "$data-others"
 [ -z "${MEASURE_ONLY:-}" ] || exit 0
 
 # Of a built-in scene, which needs no credit, and of the worst places of all scenes.

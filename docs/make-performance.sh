@@ -14,6 +14,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$folder"
 levels="classic-high horizon-low horizon-medium horizon-high horizon-ultra"
+alone="horizon-low-depth horizon-medium-depth horizon-high-depth horizon-ultra-depth" # on a software rasteriser glssao-cost times these
 
 "$bench/glssao-bandwidth" egl >"$work/bandwidth"
 renderer=$(head -n 1 "$work/bandwidth")
@@ -26,12 +27,12 @@ head() { # the columns' names
 # On a GPU: frames without timers about their passes, which delay them; passes from timers.
 measured() { # path, size
     "$bench/glssao-bench" --context egl --pick steps --size 160x90 --rays 16 --most-rays 0 --sequence-frames 0 --split-seeds 0 \
-        --frames "$frames" --time-size "$2" --only "${levels// /,}" --path "$1" --cache "$work/cache" --out "$work/out" 2>/dev/null
-    awk -F '\t' -v levels="$levels" -v way="$1" -v size="$2" '
+        --frames "$frames" --time-size "$2" --only "${levels// /,},${alone// /,}" --path "$1" --cache "$work/cache" --out "$work/out" 2>/dev/null
+    awk -F '\t' -v levels="$levels $alone" -v way="$1" -v size="$2" '
         BEGIN { split(levels, list, " "); for (i in list) wanted[list[i]] = 1 }
         !/^#/ && !("median_ms" in column) { for (i = 1; i <= NF; i++) column[$i] = i; next }
         $1 in wanted && $column["median_ms"] != "" {
-            print $1 "\t" way "\t" size "\t" $column["median_ms"] "\t" $column["distance_ms"] "\t" $column["estimate_ms"] "\t" \
+            print $1 "\t" way "\t" size "\t" $column["median_ms"] "\t" $column["normals_ms"] "\t" $column["distance_ms"] "\t" $column["estimate_ms"] "\t" \
                 $column["blur_ms"] "\t" $column["upsample_ms"]
         }' "$work/out/accuracy.tsv"
 }
@@ -44,7 +45,7 @@ rendered() { # path, size
             --path "$1" --bench "$frames" -o "$work/picture.png" 2>/dev/null |
             awk -v level="$level" -v way="$1" -v size="$2" '
                 /, GPU +median/ { name = $1; sub(",", "", name); ms[name] = $4; sum += $4 }
-                END { print level "\t" way "\t" size "\t" sum "\t" ms["distance"] "\t" ms["estimate"] "\t" ms["blur"] "\t" ms["upsample"] }'
+                END { print level "\t" way "\t" size "\t" sum "\t\t" ms["distance"] "\t" ms["estimate"] "\t" ms["blur"] "\t" ms["upsample"] }'
     done
 }
 
@@ -53,7 +54,7 @@ if [[ $renderer == *llvmpipe* || $renderer == *softpipe* ]]; then
     software=1 measure=rendered
 fi
 {
-    head level shaders size frame distance estimate blur upsample
+    head level shaders size frame normals distance estimate blur upsample
     for size in "${@:-1920x1080}"; do
         $measure fragment "$size"
         $measure compute "$size"

@@ -5,6 +5,7 @@
 #include "bake.h"
 #include "inputs.h"
 #include "stop.h"
+#include "streams.h"
 
 #include <stdio.h>
 
@@ -25,6 +26,7 @@ int main(int argc, char **argv)
 {
     static char error[ERROR_LENGTH];
     bake_options options;
+    streams_guard("glssao-bake", EXIT_NOT_BAKED);
     switch (bake_parse_options(argc, argv, &options, error, sizeof error)) {
     case BAKE_DONE:
         return EXIT_DONE;

@@ -4,6 +4,7 @@
  */
 #include "bake.h"
 #include "option.h"
+#include "words.h"
 
 #include <glssao/glssao.h>
 
@@ -77,8 +78,7 @@ bake_result bake_parse_options(int argc, char **argv, bake_options *out, char *e
         return BAKE_WRONG;
     }
     if (out->in_place && out->input && !out->output) {
-        const char *end = strrchr(out->input, '.');
-        if (!end || strcmp(end, ".glb") != 0) {
+        if (words_find_ending(".glb", out->input) < 0) {
             snprintf(error, error_size, "--in-place: the result is a .glb file, and %s is none", out->input);
             return BAKE_WRONG;
         }

@@ -70,10 +70,9 @@ static bool parse_pair(const char *text, char between, double first_min, double 
 
 static bool ends_as_wanted(const char *path, const char *endings)
 {
-    const char *dot = strrchr(path, '.');
     if (strcmp(path, "-") == 0)
         return words_find(endings, path) >= 0 || endings[0] == '\0';
-    return path[0] != '\0' && (endings[0] == '\0' || (dot && dot != path && words_find(endings, dot) >= 0));
+    return path[0] != '\0' && (endings[0] == '\0' || words_find_ending(endings, path) >= 0);
 }
 
 /* Sets the member of the option. False if `text` is no valid value. */

@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -52,21 +53,32 @@ static uint8_t *read_all(int descriptor, size_t expected, size_t limit, size_t *
     return data;
 }
 
-uint8_t *read_file(const char *path, size_t limit, size_t *out_size, const char **out_reason)
+int read_file_open(const char *path, const char **out_reason)
 {
     const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC); /* a FIFO without a writer would block */
     struct stat about;
+    if (file >= 0 && fstat(file, &about) == 0 && S_ISREG(about.st_mode))
+        return file;
+    *out_reason = file >= 0 ? "not a regular file" : strerror(errno);
+    if (file >= 0)
+        close(file);
+    return -1;
+}
+
+uint8_t *read_file(const char *path, size_t limit, size_t *out_size, const char **out_reason)
+{
+    struct stat about;
     uint8_t *data = NULL;
-    if (file < 0 || fstat(file, &about) != 0)
+    const int file = read_file_open(path, out_reason);
+    if (file < 0)
+        return NULL;
+    if (fstat(file, &about) != 0)
         *out_reason = strerror(errno);
-    else if (!S_ISREG(about.st_mode))
-        *out_reason = "not a regular file";
     else if ((uintmax_t)about.st_size > limit)
         *out_reason = "too large";
     else if ((data = read_all(file, (size_t)about.st_size + 1, limit, out_size, out_reason)))
         inputs_note(file, path);
-    if (file >= 0)
-        close(file);
+    close(file);
     return data;
 }
 
@@ -74,4 +86,25 @@ uint8_t *read_stream(int descriptor, size_t limit, size_t *out_size, const char 
 {
     inputs_note(descriptor, "standard input");
     return read_all(descriptor, 0, limit, out_size, out_reason);
+}
+
+const char *read_file_find_mistake(const void *data, size_t size)
+{
+    static const struct {
+        const char *begin, *meaning;
+    } mistakes[] = {
+        {"version https://git-lfs", "this is a Git LFS pointer, not the file itself: fetch it with \"git lfs pull\""},
+        {"<!doctype html", "this is an HTML page: the download was probably answered by a web page"},
+        {"<html", "this is an HTML page: the download was probably answered by a web page"},
+        {"\x1f\x8b\x08", "this is compressed with gzip: unpack it first"},
+        {"PK\x03\x04", "this is a ZIP archive: unpack it first"},
+        {"\xff\xfe", "this is text in UTF-16: save it as UTF-8"},
+        {"\xfe\xff", "this is text in UTF-16: save it as UTF-8"},
+    };
+    for (size_t i = 0; i < sizeof mistakes / sizeof *mistakes; ++i) {
+        const size_t length = strlen(mistakes[i].begin);
+        if (size >= length && !strncasecmp(data, mistakes[i].begin, length))
+            return mistakes[i].meaning;
+    }
+    return NULL;
 }

@@ -112,7 +112,9 @@ bool whole_file_open(whole_file *f, const char *path, char *error, size_t error_
         }
         memcpy(f->path, path, strlen(path) + 1);
     }
-    if (!exists || S_ISREG(status.st_mode)) {
+    const bool is_regular = !exists || S_ISREG(status.st_mode);
+    const bool is_protected = exists && access(f->path, W_OK) != 0; /* renaming would replace it all the same */
+    if (is_regular && !is_protected) {
         f->file = open_temporary(f->path, &f->temporary);
         if (f->file && exists) {
             (void)fchmod(fileno(f->file), status.st_mode & 07777);
@@ -136,6 +138,7 @@ bool whole_file_close(whole_file *f, bool written, char *error, size_t error_siz
         if (fflush(stdout) == 0 || !written)
             return written;
         snprintf(error, error_size, "%s: %s", f->name, strerror(errno));
+        (void)!freopen("/dev/null", "w", stdout); /* the loss is told once */
         return false;
     }
     const bool is_regular = fstat(fileno(f->file), &status) == 0 && S_ISREG(status.st_mode);

@@ -19,6 +19,17 @@ int words_find(const char *words, const char *text)
     return words_find_span(words, text, strlen(text));
 }
 
+int words_find_ending(const char *endings, const char *path)
+{
+    word lower = {""};
+    const char *dot = strrchr(path, '.');
+    if (!dot || dot == path || strlen(dot) >= sizeof lower.text)
+        return -1;
+    for (size_t i = 0; dot[i]; i++)
+        lower.text[i] = dot[i] >= 'A' && dot[i] <= 'Z' ? (char)(dot[i] - 'A' + 'a') : dot[i];
+    return words_find(endings, lower.text);
+}
+
 word words_at(const char *words, int index)
 {
     word w = {""};

@@ -23,6 +23,9 @@ int words_find(const char *words, const char *text);
 /* The same for the first `length` characters of `text`. */
 int words_find_span(const char *words, const char *text, size_t length);
 
+/* Index of the ending (".png") that a file name has, in letters of either case; -1: none. */
+int words_find_ending(const char *endings, const char *path);
+
 typedef struct word {
     char text[32];
 } word;

@@ -2,13 +2,16 @@
  *
  * Finds out which format a file has, and what its numbers mean.
  */
+#define _POSIX_C_SOURCE 200809L
 #include "map_format.h"
+#include "read_file.h"
 
 #include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 bool map_fail(const map_reader *r, const char *format, ...)
 {
@@ -90,7 +93,7 @@ float map_decode(const uint8_t *bytes, map_number kind, int size, bool big_endia
     return (float)value;
 }
 
-static bool read(const char *path, int wanted, map_file *out_map, char *error, size_t error_size)
+static bool read_map(const char *path, int wanted, map_file *out_map, char *error, size_t error_size)
 {
     static const struct {
         const char *magic;
@@ -104,11 +107,16 @@ static bool read(const char *path, int wanted, map_file *out_map, char *error, s
         {"\x76\x2f\x31\x01", 4, map_read_exr},
     };
     *out_map = (map_file){0};
-    map_reader r = {
-        .file = fopen(path, "rb"), .path = path, .wanted = wanted, .error = error, .error_size = error_size};
-    if (!r.file)
-        return map_fail(&r, "%s", strerror(errno));
-    char magic[8] = {0};
+    map_reader r = {.path = path, .wanted = wanted, .error = error, .error_size = error_size};
+    const char *reason = NULL;
+    const int descriptor = read_file_open(path, &reason);
+    r.file = descriptor >= 0 ? fdopen(descriptor, "rb") : NULL;
+    if (!r.file) {
+        if (descriptor >= 0)
+            close(descriptor);
+        return map_fail(&r, "%s", reason ? reason : strerror(errno));
+    }
+    char magic[64] = {0};
     const size_t length = fread(magic, 1, sizeof magic, r.file);
     rewind(r.file);
     bool known = false, ok = false;
@@ -118,7 +126,10 @@ static bool read(const char *path, int wanted, map_file *out_map, char *error, s
             ok = formats[i].read(&r, out_map);
         }
     if (!known)
-        map_fail(&r, length == 0 ? "empty, or no file" : "neither PFM, PNG, .npy nor OpenEXR");
+        map_fail(&r, "%s",
+                 read_file_find_mistake(magic, length) ? read_file_find_mistake(magic, length)
+                 : length == 0                         ? "it is empty"
+                                                       : "neither PFM, PNG, .npy nor OpenEXR");
     fclose(r.file);
     if (ok && wanted != 0 && out_map->channels != wanted)
         ok = map_fail(&r, "%d channels, where %s", out_map->channels,
@@ -130,7 +141,7 @@ static bool read(const char *path, int wanted, map_file *out_map, char *error, s
 
 bool map_file_read(const char *path, map_file *out_map, char *error, size_t error_size)
 {
-    return read(path, 0, out_map, error, error_size);
+    return read_map(path, 0, out_map, error, error_size);
 }
 
 /* A map that is not wanted is freed, with the reason in the error. */
@@ -145,7 +156,7 @@ static bool require(bool good, map_file *map, const char *path, const char *reas
 
 bool map_file_read_depth(const char *path, float scale, map_file *out_map, char *error, size_t error_size)
 {
-    if (!read(path, 1, out_map, error, error_size) ||
+    if (!read_map(path, 1, out_map, error, error_size) ||
         !require(out_map->full != 255, out_map, path, "8 bits a pixel: depth needs 16", error, error_size) ||
         !require(scale > 0.0f && isfinite(scale), out_map, path, "the scale is not a positive number", error,
                  error_size))
@@ -158,7 +169,7 @@ bool map_file_read_depth(const char *path, float scale, map_file *out_map, char 
 
 bool map_file_read_normals(const char *path, map_file *out_map, char *error, size_t error_size)
 {
-    if (!read(path, 3, out_map, error, error_size))
+    if (!read_map(path, 3, out_map, error, error_size))
         return false;
     const size_t count = 3 * (size_t)out_map->width * (size_t)out_map->height;
     for (size_t i = 0; i < count && out_map->full != 1; ++i)

@@ -121,9 +121,11 @@ bool batch_list_read(batch_list *list, const options *defaults, failure *why)
     if (strlen(list->text) != size) {
         return fault_set(why, "%s: contains a zero byte, so it is not text", defaults->batch);
     }
+    static const char byte_order_mark[] = "\xef\xbb\xbf"; /* as Windows editors write it */
+    const size_t skipped = strncmp(list->text, byte_order_mark, 3) == 0 ? 3 : 0;
     int number = 1;
     bool room = true;
-    for (char *line = list->text; room && *line; number++) {
+    for (char *line = list->text + skipped; room && *line; number++) {
         char *end = line + strcspn(line, "\n");
         char *next = *end ? end + 1 : end;
         *end = '\0';

@@ -4,6 +4,7 @@
 #include "map_file.h"
 #include "outputs.h"
 #include "pipeline.h"
+#include "words.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -131,7 +132,7 @@ static bool estimate(depth_mapper *d, const options *o, map_file *depth, const m
     if (!accessibility)
         return fault_set(why, "%s: out of memory", o->depth_in);
     char line[512];
-    const bool as_floats = o->ao && strcmp(strrchr(o->ao, '.'), ".pfm") == 0;
+    const bool as_floats = o->ao && words_find_ending(".pfm", o->ao) >= 0;
     bool done = occlude_compute(d->occlude, &input, &settings, accessibility, line, sizeof line) ||
                 fault_set(why, "%s: %s", o->depth_in, line);
     done = done && write_picture(o->ao, as_floats ? PIXELS_FLOAT : PIXELS_GREY8, accessibility, depth, w, slip, why) &&

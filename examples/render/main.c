@@ -6,6 +6,7 @@
 #include "clock.h"
 #include "job.h"
 #include "stop.h"
+#include "streams.h"
 
 #include <stdio.h>
 
@@ -17,6 +18,7 @@ int main(int argc, char **argv)
     static options o;
     static char error[ERROR_LENGTH], late[128];
     size_t pictures;
+    streams_guard("glssao-render", EXIT_NOT_RENDERED);
     switch (options_parse(argc, argv, &o, FAULT(error))) {
     case OPTIONS_DONE:
         return EXIT_DONE;

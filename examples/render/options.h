@@ -29,7 +29,8 @@ typedef struct options {
     option_number thickness;
     option_pair fade_far;
     option_vector eye, target, up, sky_up;
-    int sample_count;  /* 0: the default of the quality */
+    int sample_count; /* 0: the default of the quality */
+    bool adaptive_rays;
     int rays;          /* a traced pixel; 0: the default of the quality with -t rays, none with another technique */
     int blur_rounds;   /* -1: the default of the quality */
     int history;       /* -1: not given */

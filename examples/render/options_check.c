@@ -84,13 +84,6 @@ static bool check_extent(const options *o, failure *why)
     return true;
 }
 
-/* Whether the name of a file ends in `end`. */
-static bool ends_in(const char *path, const char *end)
-{
-    const size_t length = strlen(path), end_length = strlen(end);
-    return length > end_length && strcmp(path + length - end_length, end) == 0;
-}
-
 static bool check_picture(const options *o, options_program program, failure *why)
 {
     float color[4];
@@ -99,9 +92,9 @@ static bool check_picture(const options *o, options_program program, failure *wh
     if (!o->output)
         return true;
     const bool is_transparent = o->background && strcmp(o->background, "none") == 0;
-    if (is_transparent && (ends_in(o->output, ".jpg") || ends_in(o->output, ".jpeg")))
+    if (is_transparent && words_find_ending(".jpg|.jpeg", o->output) >= 0)
         return fault_set(why, "--background none: a JPEG (%s) has no transparency; .png and .webp have", o->output);
-    if (ends_in(o->output, ".webp") && !picture_has_webp())
+    if (words_find_ending(".webp", o->output) >= 0 && !picture_has_webp())
         return fault_set(why, "--output %s: this program was built without libwebp", o->output);
     if (strcmp(o->output, "-") == 0 && (program != OPTIONS_RENDER || o->frames || o->plan || o->bench))
         return fault_set(why, "--output -: standard output takes one picture, and nothing else");
@@ -154,6 +147,11 @@ static bool check_together(const options *o, bool is_viewer, failure *why)
     if (o->rays && (o->error.given || o->budget_ms.given))
         return fault_set(why, "--rays %d and --%s cannot be used together: a mean of many estimates needs no rays",
                          o->rays, o->error.given ? "error" : "budget");
+    if (o->adaptive_rays && !o->rays && o->technique != GLSSAO_RAYS)
+        return fault_set(why, "--adaptive-rays: no rays are traced without --rays or --technique rays");
+    if (o->adaptive_rays && o->rays > 16)
+        return fault_set(why, "--rays %d: at most 16 with --adaptive-rays, which traces up to four times as many",
+                         o->rays);
     if (o->technique == GLSSAO_RAYS && o->sample_count)
         return fault_set(why, "--samples %d: --rays sets how many rays are traced", o->sample_count);
     if (traced && o->bench)

@@ -54,6 +54,9 @@ static const option table[] = {
      "a "
      "correction with another technique (default none)",
      OPTION_INT, AT(rays), 1, 64, "a whole number from 1 to 64", SCOPE_RENDERED},
+    {0, "adaptive-rays", NULL,
+     "more rays where few neighbours can be averaged, fewer where all say the same; --rays is at most 16 then",
+     OPTION_FLAG, AT(adaptive_rays), 0, 0, NULL, SCOPE_RENDERED},
     {0, "blur-rounds", "N", "rounds of blur, 0 to 16", OPTION_INT, AT(blur_rounds), 0, 16,
      "a whole number from 0 to 16", SCOPE_PICTURE},
     {0, "history", "N",

@@ -4,6 +4,7 @@
  */
 #define _POSIX_C_SOURCE 200809L
 #include "outputs.h"
+#include "words.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -65,7 +66,7 @@ bool outputs_check(const options *o, failure *why)
 bool outputs_take(const options *o, pipeline *p, const scene_view *view, int number, readback *r, writer_slip *slip,
                   failure *why)
 {
-    const pixel_kind ao_kind = o->ao && strcmp(strrchr(o->ao, '.'), ".pfm") == 0 ? PIXELS_FLOAT : PIXELS_GREY8;
+    const pixel_kind ao_kind = o->ao && words_find_ending(".pfm", o->ao) >= 0 ? PIXELS_FLOAT : PIXELS_GREY8;
     const struct {
         const char *file;
         pipeline_output output;

@@ -182,6 +182,7 @@ bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_us
     p->debug_map = (options_map)o->debug_map;
     if (!scene_renderer_configure(p->renderer, &p->lighting, &p->draw_options, why->text, why->size))
         return false;
+    p->adaptive_rays = o->adaptive_rays;
     p->ray_count = o->technique == GLSSAO_RAYS ? p->settings.sample_count : o->rays;
     if (wants.rays && (!stage_trace(st, why) || !rays_open(&p->rays, p->width, p->height, ray_step(p), why)))
         return false;
@@ -295,7 +296,8 @@ static bool trace_rays(pipeline *p, const scene_view *view, int index, failure *
                           .step = ray_step(p),
                           .options = {.radius = p->settings.radius,
                                       .samples = p->ray_count,
-                                      .seed = p->seed + (uint32_t)index * 0x9e3779b9u,
+                                      .adaptive = p->adaptive_rays,
+                                      .seed = p->seed + (uint32_t)index * 0x9e3779b9u + p->frame_number * 0x85ebca6bu,
                                       .stopped = is_stopped}};
     return rays_trace(&p->rays, p->traced, &job, why);
 }
@@ -315,6 +317,7 @@ static bool find_accessibility(pipeline *p, const scene_view *view, int index, i
     if (p->goal.error <= 0 && p->goal.budget_ms <= 0) {
         p->has_last = pipeline_check(glssao_compute(p->effect, &frame, &p->settings), "glssao_compute", why);
         p->last_view = *view;
+        p->frame_number += p->settings.history > 0;
         p->is_posed = false;
         return p->has_last;
     }

@@ -52,10 +52,12 @@ typedef struct pipeline {
     truth truth; /* only if wants.traced */
     rays rays;   /* only if wants.rays */
     const trace_scene *traced;
+    bool adaptive_rays;
     int ray_count; /* from each traced pixel */
     glssao_settings settings;
     scene_view last_view;  /* of the last occlusion passes that may be reused */
     bool has_last;         /* false: none may */
+    uint32_t frame_number; /* with a history, of the rays' pattern */
     bool is_posed;         /* the scene was posed anew since then, and scene_draw_motion knows how */
     progressive_goal goal; /* all 0: one estimate with the settings */
     progressive_report reached;

@@ -37,7 +37,8 @@ void pipeline_print_plan(const pipeline *p, const scene_view *view)
         const glssao_frame frame = pipeline_frame(p, view);
         const glssao_plan plan = glssao_plan_frame(p->effect, &frame, &p->settings);
         char traced[96];
-        snprintf(traced, sizeof traced, "%d rays from each pixel of the estimate, on the processor", p->ray_count);
+        snprintf(traced, sizeof traced, "%s%d rays from each pixel of the estimate, on the processor",
+                 p->adaptive_rays ? "about " : "", p->ray_count);
         print_row("tracing", p->wants.rays && occludes, 0, p->rays.width, p->rays.height,
                   !p->wants.rays ? "no rays are asked for"
                   : occludes     ? traced

@@ -100,6 +100,7 @@ bool session_begin(session *s, const options *o, stage *st, failure *why)
         return false;
     }
     s->pipeline.has_last = s->pipeline.is_posed = false;
+    s->pipeline.frame_number = 0;
     stopwatch_lap(&s->times, PHASE_SETUP);
     if (o->plan)
         pipeline_print_plan(&s->pipeline, &view);

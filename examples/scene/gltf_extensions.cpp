@@ -31,17 +31,8 @@ const char *const known[] = {"EXT_mesh_gpu_instancing",
 const struct {
     const char *name, *instead;
 } approximated[] = {
-    {"KHR_materials_anisotropy", "with the core material"},
-    {"KHR_materials_clearcoat", "with the core material"},
-    {"KHR_materials_diffuse_transmission", "with the core material"},
-    {"KHR_materials_dispersion", "with the core material"},
-    {"KHR_materials_ior", "with the core material"},
-    {"KHR_materials_iridescence", "with the core material"},
     {"KHR_materials_pbrSpecularGlossiness", "with its diffuse part"},
-    {"KHR_materials_sheen", "with the core material"},
-    {"KHR_materials_specular", "with the core material"},
     {"KHR_materials_transmission", "as blended glass"},
-    {"KHR_materials_volume", "with the core material"},
     {"KHR_animation_pointer", "without what it animates"},
     {"EXT_lights_image_based", "without its light"},
     {"KHR_texture_basisu", "without its textures, which need a decoder for Basis Universal that this program lacks"},
@@ -73,6 +64,11 @@ void check_extension(gltf_source *source, const std::string &name)
     for (const auto &extension : approximated)
         if (name == extension.name) {
             warn(source, "it requires " + name + ", and is drawn " + extension.instead);
+            return;
+        }
+    for (const char *prefix : {"KHR_materials_", "EXT_materials_"})
+        if (name.rfind(prefix, 0) == 0) {
+            warn(source, "it requires " + name + ", and is drawn with the core material");
             return;
         }
     throw gltf_json_error("the extension " + name.substr(0, 80) + " is required but not supported");

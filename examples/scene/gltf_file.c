@@ -8,37 +8,16 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <unistd.h>
 
 enum { CHUNK_HEADER = 8, MOST_JSON_DEPTH = 64, JSON_VALUE_BYTES = 200 };
-
-/* Recognises files that were fetched or packed wrongly by their first bytes; NULL for all others. */
-static const char *find_mistake(const uint8_t *data, size_t size)
-{
-    static const struct {
-        const char *begin, *meaning;
-    } mistakes[] = {
-        {"version https://git-lfs", "this is a Git LFS pointer, not the file itself: fetch it with \"git lfs pull\""},
-        {"<!doctype html", "this is an HTML page: the download was probably answered by a web page"},
-        {"<html", "this is an HTML page: the download was probably answered by a web page"},
-        {"\x1f\x8b\x08", "this is compressed with gzip: unpack it first"},
-        {"PK\x03\x04", "this is a ZIP archive: unpack it first"},
-    };
-    for (size_t i = 0; i < sizeof mistakes / sizeof *mistakes; ++i) {
-        const size_t length = strlen(mistakes[i].begin);
-        if (size >= length && !strncasecmp((const char *)data, mistakes[i].begin, length))
-            return mistakes[i].meaning;
-    }
-    return NULL;
-}
 
 uint8_t *gltf_read_file(const char *path, uint64_t limit, size_t *out_size, const char **out_reason)
 {
     const size_t most = limit < SIZE_MAX / 4 ? (size_t)limit : SIZE_MAX / 4;
     uint8_t *data = strcmp(path, "-") != 0 ? read_file(path, most, out_size, out_reason)
                                            : read_stream(STDIN_FILENO, most, out_size, out_reason);
-    const char *mistake = data ? find_mistake(data, *out_size) : NULL;
+    const char *mistake = data ? read_file_find_mistake(data, *out_size) : NULL;
     if (mistake) {
         *out_reason = mistake;
         free(data);

@@ -6,6 +6,7 @@
 
 #include "fault.h"
 #include "whole_file.h"
+#include "words.h"
 
 #include <setjmp.h>
 #include <stdio.h> /* before jpeglib.h, which needs it */
@@ -148,9 +149,7 @@ bool picture_write_webp(const char *path, int width, int height, int channels, c
 bool picture_write(const char *path, int width, int height, int channels, const uint8_t *pixels, char *error,
                    size_t error_size)
 {
-    const char *end = strrchr(path, '.');
-    const bool is_jpeg = end && (strcmp(end, ".jpg") == 0 || strcmp(end, ".jpeg") == 0);
-    const bool is_webp = end && strcmp(end, ".webp") == 0;
+    const bool is_jpeg = words_find_ending(".jpg|.jpeg", path) >= 0, is_webp = words_find_ending(".webp", path) >= 0;
     return (is_jpeg   ? picture_write_jpeg
             : is_webp ? picture_write_webp
                       : picture_write_png)(path, width, height, channels, pixels, error, error_size);

@@ -28,6 +28,7 @@ typedef void (*trace_progress_fn)(double done, void *user);
 typedef struct trace_options {
     float radius;               /* scene units: a hit farther away does not block (hard cut) */
     int samples;                /* rays a pixel or point, >= 1 */
+    bool adaptive;              /* trace_picture alone: see trace_picture_begin */
     uint32_t seed;              /* the same seed gives the same bits for any number of threads */
     int threads;                /* 0: as many as there are cores */
     trace_progress_fn progress; /* may be NULL */
@@ -87,7 +88,11 @@ typedef struct trace_picture trace_picture;
 
 /* Starts to trace a picture. `out`: accessibility of each texel, negative where there is no surface. `counts`: NULL, or
  * rays for each texel, at most options->samples; those with 0 become negative. All must live until trace_picture_end.
- * options->samples is 1 to 64. `seed` turns the pattern. NULL, with one line in `error`, on failure. */
+ * options->samples is 1 to 64. `seed` turns the pattern. NULL, with one line in `error`, on failure.
+ *
+ * options->adaptive (no `counts`, at most 16 samples): as many rays as a blur over 4 x 4 needs. Texels get two or four
+ * times options->samples where few neighbours lie on their surface, and only the first quarter of them (at least one)
+ * where those of all 16 x 16 texels say the same. */
 trace_picture *trace_picture_begin(const trace_scene *t, const scene_view *view, const trace_seen *seen,
                                    const uint8_t *counts, const trace_options *options, float *out, char *error,
                                    size_t error_size);

@@ -4,6 +4,7 @@
  */
 #include "gui.h"
 #include "statistics.h"
+#include "streams.h"
 #include "viewer.h"
 
 #include <GLFW/glfw3.h>
@@ -136,6 +137,7 @@ static void run(viewer *v)
 int main(int argc, char **argv)
 {
     static viewer v; /* too large for the stack; starts as 0 */
+    streams_guard("glssao-view", EXIT_NOT_SHOWN);
     switch (options_parse_for_viewer(argc, argv, &v.options, FAULT(v.error))) {
     case OPTIONS_DONE:
         return EXIT_DONE;

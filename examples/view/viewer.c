@@ -6,6 +6,7 @@
 
 #include "gui.h"
 #include "setting_table.h"
+#include "words.h"
 
 #include <GLFW/glfw3.h>
 
@@ -154,16 +155,6 @@ bool viewer_open(viewer *v, const char *path, const char *name)
     return true;
 }
 
-static bool is_picture(const char *path)
-{
-    static const char *const ends[] = {".hdr", ".pic", ".png", ".jpg", ".jpeg"};
-    const char *end = strrchr(path, '.');
-    bool any = false;
-    for (size_t i = 0; end && i < sizeof ends / sizeof ends[0]; i++)
-        any = any || strcmp(end, ends[i]) == 0;
-    return any;
-}
-
 static bool surround(viewer *v, const char *path)
 {
     if (!pipeline_surround(&v->pipeline, &v->pipeline.own, path, FAULT(v->error))) {
@@ -179,7 +170,7 @@ static bool surround(viewer *v, const char *path)
 
 bool viewer_open_file(viewer *v, const char *path)
 {
-    return is_picture(path) ? surround(v, path) : viewer_open(v, path, NULL);
+    return words_find_ending(".hdr|.pic|.png|.jpg|.jpeg", path) >= 0 ? surround(v, path) : viewer_open(v, path, NULL);
 }
 
 void viewer_close(viewer *v)

@@ -7,6 +7,7 @@
 // in  u_depth_map, u_normal_map  as for the estimate, full size; point sampled
 // out result         a texel of the history (shared/history.glsl)
 // UPSAMPLE 1: the estimate has half the size
+// RAYS 1: both maps are linear and may lack values; what is not blurred is what rays say
 
 uniform sampler2D u_ambient_map;
 uniform sampler2D u_raw_map;
@@ -16,6 +17,16 @@ uniform sampler2D u_motion_map;
 #endif
 #define RESULT vec4
 
+
+#if RAYS && UPSAMPLE
+// The mean of what is not missing.
+float known_mean(vec4 weights, vec4 values)
+{
+    weights = mix(weights, vec4(0.0), lessThan(values, vec4(0.0)));
+    float sum = dot(weights, vec4(1.0));
+    return sum > 0.0 ? dot(weights, values) / sum : MISSING;
+}
+#endif
 
 // What this frame says of the pixel. x: the estimate, y: what the blur left of it.
 vec2 estimate_at(ivec2 pixel, vec2 uv, float depth)
@@ -31,10 +42,14 @@ vec2 estimate_at(ivec2 pixel, vec2 uv, float depth)
     vec2 at_c = texelFetch(u_ambient_map, ivec2(a.x, d.y), 0).rg;
     vec2 at_d = texelFetch(u_ambient_map, d, 0).rg;
     vec4 weights = upsample_weights(at_a, at_b, at_c, at_d, vec2(odd), uv, depth);
-    // The bits of the normal in a raw value add too little to matter.
+    // The bits of the normal in a value add too little to matter.
     vec4 raw = vec4(texelFetch(u_raw_map, a, 0).r, texelFetch(u_raw_map, ivec2(d.x, a.y), 0).r,
                     texelFetch(u_raw_map, ivec2(a.x, d.y), 0).r, texelFetch(u_raw_map, d, 0).r);
+#if RAYS
+    return vec2(known_mean(weights, raw), known_mean(weights, vec4(at_a.x, at_b.x, at_c.x, at_d.x)));
+#else
     return vec2(dot(weights, raw), weighted(weights, at_a, at_b, at_c, at_d)) / dot(weights, vec4(1.0));
+#endif
 #else
     return vec2(texelFetch(u_raw_map, pixel, 0).r, accessibility_of(texelFetch(u_ambient_map, pixel, 0).rg));
 #endif
@@ -129,14 +144,27 @@ RESULT result()
 #endif
         last = history_at(position, normal, place, tolerance);
     }
+#if RAYS
+    // Where no ray tells anything, what is known stays.
+    bool is_known = last.z > 0.5;
+    if (now.y < 0.0)
+        return history_texel(is_known ? last.xy : vec2(1.0), last.w, linear_from_distance(distance), floor(last.z + 0.5),
+                             normal_code(normal_view));
+    now.x = now.x >= 0.0 ? now.x : is_known ? last.x : now.y;
+#endif
     float frames = min(floor(last.z + 0.5) + 1.0, gHistory.x);
     // What changes for longer than noise does is taken over at once, and what was known before is soon forgotten.
     float change = frames > 1.0 ? mix(last.w, now.y - last.y, LATELY) : 0.0;
-    float jump = clamp(abs(change) / (NOISE + min(DETAIL * abs(last.x - last.y), NOISE)) - 1.0, 0.0, 1.0);
-    frames = jump > 0.0 ? min(frames, FORGET) : frames;
+    float noise = NOISE + min(DETAIL * abs(last.x - last.y), NOISE);
+    // Where nothing occludes the pixel or its neighbours, there is little noise.
+    noise *= min(now.x, now.y) < 1.0 ? 1.0 : 0.5;
+    float share_of_noise = abs(change) / noise;
+    float jump = clamp(share_of_noise - 1.0, 0.0, 1.0);
+    float doubt = clamp(2.0 * share_of_noise - 1.0, 0.0, 1.0);
+    frames = min(frames, max(FORGET, floor(gHistory.x * (1.0 - doubt))));
     vec2 means = clamp(last.xy + jump * change, 0.0, 1.0);
     change -= jump * change;
-#if UPSAMPLE
+#if UPSAMPLE && !RAYS
     // A pixel that was estimated itself counts for more than one between others.
     bool picked = ((pixel - ivec2(gPick)) & 1) == ivec2(0);
     float share = min((picked ? PICKED : (4.0 - PICKED) / 3.0) / frames, 1.0);

@@ -41,7 +41,7 @@ RESULT result()
 #if CORRECTS == 2
     float difference = contents < 0.0 ? 0.0 : 2.0 * contents - 1.0;
     float estimate = accessibility_of(textureLod(u_rays_map, uv, 0.0).rg);
-    contents = pow(clamp(pow(estimate, 1.0 / gPower) + difference, 0.0, 1.0), gPower);
+    contents = clamp(pow(estimate, 1.0 / gPower) + difference, 0.0, 1.0);
 #endif
     return ambient(contents, center.y, normal_code(center));
 }

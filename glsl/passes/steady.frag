@@ -4,6 +4,7 @@
 // (shrinkage, after W. James and C. Stein, "Estimation with Quadratic Loss", 1961).
 // in  u_history_map  texels of the history; fetched
 // out result         accessibility
+// RAYS 1: the history is linear
 
 uniform sampler2D u_history_map;
 #define RESULT float
@@ -43,5 +44,9 @@ RESULT result()
     float spread = max(moments.y - moments.x * moments.x, 0.0);
     float known = clamp((frames_of(own) - 1.0) / NARROW, 0.0, 1.0);
     float keep = known * max(1.0 - SHRINK * spread / max(moments.x * moments.x, 1e-8), 0.0);
+#if RAYS
+    return pow(clamp(own.y + keep * moments.x, 0.0, 1.0), gPower);
+#else
     return clamp(own.y + keep * moments.x, 0.0, 1.0);
+#endif
 }

@@ -25,7 +25,8 @@ int glssao__history_frames(const glssao__history *h, const glssao_frame *frame, 
                            const glssao__projection *projection)
 {
     const bool holds = settings->history > 0 && h->frames > 0 && !frame->cut && h->margin == frame->margin &&
-                       h->is_orthographic == projection->is_orthographic && has_same_estimate(&h->settings, settings);
+                       h->has_rays == (frame->rays_texture != 0) && h->is_orthographic == projection->is_orthographic &&
+                       has_same_estimate(&h->settings, settings);
     return holds ? h->frames : 0;
 }
 
@@ -65,12 +66,12 @@ void glssao__history_fill(const glssao__history *h, const glssao__uniforms_sourc
     if (source->settings->history == 0)
         return;
     /* All four texels of a block in each four frames, in an order that differs from four to four: R2 is nearly periodic
-     * with period 4. */
+     * with period 4. Rays of half size belong to the lower left one. */
     static const float picks[4][2] = {{0, 0}, {1, 1}, {1, 0}, {0, 1}};
     const float *pick = picks[(frames + frames / 4) % 4];
     block->gHistory[0] = (float)source->settings->history;
     for (int i = 0; i < 2; ++i)
-        block->gPick[i] = source->settings->half_resolution ? pick[i] : 0.0f;
+        block->gPick[i] = source->settings->half_resolution && !source->frame->rays_texture ? pick[i] : 0.0f;
     if (frames == 0)
         return;
     double now[16];
@@ -93,6 +94,7 @@ void glssao__history_keep(glssao__history *h, const glssao__uniforms_source *sou
         return;
     h->frames = frames + 1 == 2 * COUNT_PERIOD ? COUNT_PERIOD : frames + 1;
     h->margin = source->frame->margin;
+    h->has_rays = source->frame->rays_texture != 0;
     h->is_orthographic = source->projection->is_orthographic;
     find_view(source, h->view);
     h->settings = *source->settings;

@@ -17,15 +17,14 @@ static glssao_settings hemisphere_settings(glssao_settings s, glssao_quality qua
     return s;
 }
 
-/* MEDIUM and HIGH estimate at half size and upsample along surfaces. LOW leaves its result at half size, since
- * upsampling would double its time. ULTRA estimates at full size. */
+/* LOW, MEDIUM and HIGH estimate at half size and upsample along surfaces. ULTRA estimates at full size. */
 static glssao_settings horizon_settings(glssao_settings s, glssao_quality quality)
 {
     s.technique = GLSSAO_HORIZON;
     s.power = 1.0f;
     s.sample_count = quality == GLSSAO_LOW ? 12 : quality == GLSSAO_MEDIUM ? 16 : 48;
     s.half_resolution = quality != GLSSAO_ULTRA;
-    s.upsample = quality != GLSSAO_LOW;
+    s.upsample = true;
     s.blur = GLSSAO_BLUR_PLANAR;
     /* One round smooths a 4x4 tile of noise. The second is for the 8x8 tile of a single slice, and for what is left. */
     s.blur_rounds = 2;
@@ -39,7 +38,7 @@ static glssao_settings rays_settings(glssao_settings s, glssao_quality quality)
     s.power = 1.0f;
     s.sample_count = quality == GLSSAO_LOW ? 2 : quality == GLSSAO_ULTRA ? 8 : 4;
     s.half_resolution = quality <= GLSSAO_MEDIUM;
-    s.upsample = quality != GLSSAO_LOW;
+    s.upsample = true;
     s.blur = GLSSAO_BLUR_PLANAR;
     s.blur_rounds = 2;
     return s;

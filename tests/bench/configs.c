@@ -124,21 +124,27 @@ static int add_traced(const options *o, bench_config *out, int count)
         glssao_technique technique;
         glssao_quality level;
         int rays; /* 0: as many as suit the level */
-    } rows[] = {{GLSSAO_RAYS, GLSSAO_LOW, 0},     {GLSSAO_RAYS, GLSSAO_MEDIUM, 0},  {GLSSAO_RAYS, GLSSAO_HIGH, 0},
-                {GLSSAO_RAYS, GLSSAO_ULTRA, 0},   {GLSSAO_HORIZON, GLSSAO_LOW, 2},  {GLSSAO_HORIZON, GLSSAO_MEDIUM, 2},
-                {GLSSAO_HORIZON, GLSSAO_HIGH, 2}, {GLSSAO_HORIZON, GLSSAO_HIGH, 4}, {GLSSAO_HORIZON, GLSSAO_ULTRA, 1},
-                {GLSSAO_HORIZON, GLSSAO_ULTRA, 2}};
+        bool adaptive;
+    } rows[] = {{GLSSAO_RAYS, GLSSAO_LOW, 0, false},      {GLSSAO_RAYS, GLSSAO_MEDIUM, 0, false},
+                {GLSSAO_RAYS, GLSSAO_HIGH, 0, false},     {GLSSAO_RAYS, GLSSAO_ULTRA, 0, false},
+                {GLSSAO_RAYS, GLSSAO_MEDIUM, 0, true},    {GLSSAO_RAYS, GLSSAO_HIGH, 0, true},
+                {GLSSAO_RAYS, GLSSAO_HIGH, 1, false},     {GLSSAO_RAYS, GLSSAO_ULTRA, 32, false},
+                {GLSSAO_HORIZON, GLSSAO_LOW, 2, false},   {GLSSAO_HORIZON, GLSSAO_MEDIUM, 2, false},
+                {GLSSAO_HORIZON, GLSSAO_HIGH, 1, false},  {GLSSAO_HORIZON, GLSSAO_HIGH, 2, false},
+                {GLSSAO_HORIZON, GLSSAO_HIGH, 2, true},   {GLSSAO_HORIZON, GLSSAO_HIGH, 4, false},
+                {GLSSAO_HORIZON, GLSSAO_ULTRA, 1, false}, {GLSSAO_HORIZON, GLSSAO_ULTRA, 2, false}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0] && count < BENCH_CONFIGS_MAX; i++) {
         const char *name = technique_names[rows[i].technique],
                    *level = words_at(QUALITY_WORDS, (int)rows[i].level).text;
         bench_config c = {.kind = BENCH_TRACED,
-                          .level = rows[i].rays == 0,
+                          .level = rows[i].rays == 0 && !rows[i].adaptive,
+                          .adaptive = rows[i].adaptive,
                           .settings = glssao_default_settings(rows[i].technique, rows[i].level)};
+        char with[20] = "";
         c.rays = rows[i].rays ? rows[i].rays : c.settings.sample_count;
         if (rows[i].rays)
-            snprintf(c.id, sizeof c.id, "%s-%.8s-with-%d-rays", name, level, c.rays);
-        else
-            snprintf(c.id, sizeof c.id, "%s-%.8s", name, level);
+            snprintf(with, sizeof with, "-with-%d-rays", c.rays % 100);
+        snprintf(c.id, sizeof c.id, "%s-%.8s%s%s", name, level, with, c.adaptive ? "-adaptive" : "");
         if (options_match(o->only, c.id))
             out[count++] = c;
     }

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
  * glssao-motion: settings with reuse of earlier frames against single frames, on recorded motions, with ray-traced
- * truth for every fourth frame. Prints a table to standard output.
+ * truth for every fourth frame. Prints a table to standard output. With --check it also writes a film of each motion:
+ * film-SCENE-MOTION-SETTING.png in the output folder. `--paths NAME,...` before other options picks motions.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "context.h"
 #include "effects.h"
+#include "error_color.h"
 #include "measure.h"
 #include "paths.h"
 #include "perception.h"
@@ -21,6 +23,7 @@
 #include <time.h>
 
 enum { ERROR_LENGTH = 4096, FRAMES_MAX = 64, CONFIGS_MAX = 32, TRUTH_EVERY = 4, WARM = 15 };
+static const double ERROR_RANGE = 0.25; /* gets the full colour */
 
 /* One frame of a motion. */
 typedef struct shot {
@@ -36,6 +39,7 @@ typedef struct motion {
     options options;
     context *context;
     map_reader reader;
+    scene_renderer *mover; /* of what moves by itself; NULL: nothing does */
     shot shots[FRAMES_MAX];
     int count;
     float radius;
@@ -44,7 +48,8 @@ typedef struct motion {
 
 /* What is printed of a setting on one motion. */
 typedef struct figures {
-    double sum2, pixels, ssim, flip, new2, new_pixels, cpu_ms;
+    double sum2, pixels, ssim, flip, new2, new_pixels;
+    double cpu_ms; /* of the fastest frame but the first */
     int truths, lag;
     frame_change change;
 } figures;
@@ -61,38 +66,31 @@ static double cpu_ms(void)
     return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
 }
 
-/* uv now minus uv in the last frame, for the box; far away elsewhere. The camera stands still. */
-static bool draw_motion(shot *s, int frame)
+/* Where each point was in the last frame, by the demo's renderer, which keeps the pose before. */
+static bool draw_motion(motion *m, const scene *s, shot *now, const shot *before)
 {
-    const scene_view *v = &s->gbuffer.view;
-    const size_t count = (size_t)v->width * (size_t)v->height;
-    float *uv = malloc(2 * count * sizeof *uv);
-    if (!uv)
-        return false;
-    const float *p = v->clip_from_view, *m = v->view_from_world;
-    for (size_t i = 0; i < count; i++) {
-        const float d = s->distance[i], x = ((float)(i % (size_t)v->width) + 0.5f) / (float)v->width,
-                    y = ((float)(i / (size_t)v->width) + 0.5f) / (float)v->height;
-        const float at[3] = {(2 * x - 1) * d / p[0], (2 * y - 1) * d / p[5], -d};
-        float world[3], moved;
-        for (int k = 0; k < 3; k++) {
-            world[k] = 0;
-            for (int j = 0; j < 3; j++)
-                world[k] += m[4 * k + j] * (at[j] - m[12 + j]);
-        }
-        uv[2 * i] = uv[2 * i + 1] = 1e4f;
-        if (!(d > 0) || !path_is_on_box(world, frame, &moved))
-            continue;
-        const float old[3] = {at[0] - moved * m[0], at[1] - moved * m[1], at[2] - moved * m[2]};
-        uv[2 * i] = x - 0.5f - 0.5f * p[0] * old[0] / -old[2];
-        uv[2 * i + 1] = y - 0.5f - 0.5f * p[5] * old[1] / -old[2];
+    const scene_draw_options draws = {.no_picture = true, .no_prepass = true, .motion = true};
+    const scene_lighting none = {0};
+    const scene_view *v = &now->gbuffer.view;
+    bool done = m->mover ? scene_renderer_pose(m->mover, s) : true;
+    if (!m->mover) {
+        m->mover = scene_renderer_create(s, m->error, sizeof m->error);
+        done = m->mover && scene_renderer_configure(m->mover, &none, &draws, m->error, sizeof m->error);
     }
-    gl.GenTextures(1, &s->motion);
-    gl.BindTexture(GL_TEXTURE_2D, s->motion);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, v->width, v->height, 0, GL_RG, GL_FLOAT, uv);
+    gl.GenTextures(1, &now->motion);
+    gl.BindTexture(GL_TEXTURE_2D, now->motion);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, v->width, v->height, 0, GL_RG, GL_FLOAT, NULL);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    free(uv);
-    return true;
+    GLuint framebuffer;
+    gl.GenFramebuffers(1, &framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, now->motion, 0);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, now->gbuffer.depth, 0);
+    if (done)
+        scene_draw_motion(m->mover, v, before ? &before->gbuffer.view : v);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    gl.DeleteFramebuffers(1, &framebuffer);
+    return done;
 }
 
 static bool make_truth(motion *m, const scene *s, shot *k, const char *name)
@@ -116,10 +114,11 @@ static bool make_shot(motion *m, const bench_scene *b, scene *s, bench_path path
     const camera start = bench_scene_camera(b, s, (float)size[0] / (float)size[1]);
     camera now = path_camera(path, &start, frame);
     float *normals = NULL;
-    if (path == PATH_BOX && !path_move_box(s, frame))
+    const bool moves = path_moves_things(path);
+    if (moves && !path_move_things(path, s, frame))
         return false;
     camera_fit_planes(&now, s);
-    if (path == PATH_BOX)
+    if (moves)
         now.near_plane = start.near_plane, now.far_plane = start.far_plane;
     const scene_view view = camera_view(&now, size[0], size[1]);
     if (!gbuffer_draw(&k->gbuffer, s, &view, 0, m->error, sizeof m->error))
@@ -134,7 +133,7 @@ static bool make_shot(motion *m, const bench_scene *b, scene *s, bench_path path
         sequence_find_new(&(sequence_frame){before->gbuffer.view, before->distance, NULL},
                           &(sequence_frame){k->gbuffer.view, k->distance, NULL}, k->is_new);
     }
-    if (path == PATH_BOX && !draw_motion(k, frame))
+    if (moves && !draw_motion(m, s, k, frame > 0 ? &m->shots[frame - 1] : NULL))
         return false;
     char name[128];
     snprintf(name, sizeof name, "%s-%s-%d", b->name, path_name(path), frame);
@@ -175,27 +174,56 @@ static void add_truth(figures *f, shot *k, const float *result, size_t count)
     f->truths += 1;
 }
 
-static bool write_picture(motion *m, const char *name, int frame, const float *result)
+/* One of the film's pictures, at half the size: accessibility, or its error where `truth` is given. */
+static void draw_still(uint8_t *rgb, int film_width, const float *values, const float *truth, const shot *k)
 {
-    const int w = m->options.size[0], h = m->options.size[1];
-    uint8_t *pixels = malloc((size_t)w * (size_t)h * 2);
-    char path[1200];
-    const bench_truth *truth = &m->shots[frame].truth;
-    for (int y = 0; pixels && y < h; y++)
-        for (int x = 0; x < w; x++) {
-            const size_t i = (size_t)(h - 1 - y) * (size_t)w + (size_t)x;
-            const float error = truth->accessibility ? 0.5f + 2 * (result[i] - truth->accessibility[i]) : 0.5f;
-            pixels[y * w + x] = (uint8_t)(255 * fminf(fmaxf(result[i], 0), 1) + 0.5f);
-            pixels[(h + y) * w + x] = (uint8_t)(255 * fminf(fmaxf(error, 0), 1) + 0.5f);
+    const int w = k->gbuffer.view.width, h = k->gbuffer.view.height;
+    for (int y = 0; y < h / 2; y++)
+        for (int x = 0; x < w / 2; x++) {
+            double sum[3] = {0, 0, 0};
+            for (int n = 0; n < 4; n++) {
+                const size_t i = (size_t)(2 * y + n / 2) * (size_t)w + (size_t)(2 * x + n % 2);
+                const double value = (double)values[i];
+                double color[3] = {value, value, value};
+                if (truth)
+                    error_color(value - (double)truth[i], ERROR_RANGE, color);
+                for (int c = 0; c < 3; c++)
+                    sum[c] += color[c] / 4;
+            }
+            for (int c = 0; c < 3; c++)
+                rgb[3 * ((size_t)y * (size_t)film_width + (size_t)x) + (size_t)c] =
+                    (uint8_t)(255 * fmin(fmax(sum[c], 0), 1) + 0.5);
         }
-    snprintf(path, sizeof path, "%s/%s-%02d.png", m->options.out, name, frame);
-    const bool done = pixels && picture_write_png(path, w, 2 * h, 1, pixels, m->error, sizeof m->error);
-    free(pixels);
+}
+
+/* Frames with truth side by side, from top to bottom: truth, each frame alone, its error, with a history, its error. */
+static bool write_film(motion *m, const char *name, float *const *single, float *const *reused)
+{
+    enum { MOST = 6, ROWS = 5 };
+    int frames[MOST], count = 0;
+    for (int i = 0; i < m->count && count < MOST; i++)
+        if (m->shots[i].truth.accessibility)
+            frames[count++] = i;
+    const int w = m->options.size[0] / 2, h = m->options.size[1] / 2, width = count * w;
+    uint8_t *rgb = calloc((size_t)width * (size_t)h * ROWS, 3);
+    char path[1200];
+    for (int k = 0; rgb && k < count; k++) {
+        const shot *s = &m->shots[frames[k]];
+        const float *truth = s->truth.accessibility;
+        const float *const values[ROWS] = {truth, single[frames[k]], single[frames[k]], reused[frames[k]],
+                                           reused[frames[k]]};
+        for (int row = 0; row < ROWS; row++)
+            draw_still(rgb + 3 * ((size_t)(ROWS - 1 - row) * (size_t)h * (size_t)width + (size_t)k * (size_t)w), width,
+                       values[row], row == 2 || row == 4 ? truth : NULL, s);
+    }
+    snprintf(path, sizeof path, "%s/film-%s.png", m->options.out, name);
+    const bool done = rgb && picture_write_png(path, width, ROWS * h, 3, rgb, m->error, sizeof m->error);
+    free(rgb);
     return done;
 }
 
 /* The frames in order through one effect. `results`: of each frame, kept. */
-static bool run_config(motion *m, const config *c, bench_path path, float **results, figures *f, const char *label)
+static bool run_config(motion *m, const config *c, bench_path path, float **results, figures *f)
 {
     effects e = {.context = m->context, .width = m->options.size[0], .height = m->options.size[1], .no_timers = true};
     const size_t count = (size_t)e.width * (size_t)e.height;
@@ -211,7 +239,7 @@ static bool run_config(motion *m, const config *c, bench_path path, float **resu
         const double before = cpu_ms();
         done = effect && glssao_compute(effect, &frame, &s) == GLSSAO_OK;
         gl.Finish();
-        f->cpu_ms += i > 0 ? cpu_ms() - before : 0;
+        f->cpu_ms = i > 0 ? fmin(f->cpu_ms, cpu_ms() - before) : INFINITY;
         if (done)
             map_reader_read(&m->reader, effect, results[i]);
         if (done && k->truth.accessibility && i >= WARM)
@@ -221,10 +249,6 @@ static bool run_config(motion *m, const config *c, bench_path path, float **resu
             sequence_compare(&f->change, &(sequence_frame){b->gbuffer.view, b->distance, results[i - 1]},
                              &(sequence_frame){k->gbuffer.view, k->distance, results[i]});
         }
-        char name[256];
-        snprintf(name, sizeof name, "%s-%s", label, c->name);
-        if (done && m->options.check)
-            done = write_picture(m, name, i, results[i]);
     }
     effects_destroy(&e);
     return done;
@@ -248,9 +272,6 @@ static int find_lag(const motion *m, float *const *single, float *const *result)
             sums[1] += ((double)result[i][p] - t) * ((double)result[i][p] - t);
             pixels += 1;
         }
-        if (getenv("MOTION_LAG"))
-            fprintf(stderr, "  lag frame %d: %.0f pixels, single %.4f, this %.4f\n", i, pixels, sqrt(sums[0] / pixels),
-                    sqrt(sums[1] / pixels));
         if (sqrt(sums[1] / pixels) <= sqrt(sums[0] / pixels) + 0.02)
             return i - PATH_EVENT;
     }
@@ -266,9 +287,7 @@ static int list_configs(config out[CONFIGS_MAX])
             config *c = &out[n++];
             c->settings = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)q);
             c->settings.history = h == 0 ? 0 : 16;
-            if (h == 2)
-                c->settings.half_resolution = false;
-            snprintf(c->name, sizeof c->name, "%s%s", names[q], h == 0 ? "" : h == 1 ? "-16" : "-full");
+            snprintf(c->name, sizeof c->name, "%s%s", names[q], h == 0 ? "" : "-16");
         }
     return n;
 }
@@ -287,6 +306,8 @@ static bool run_motion(motion *m, const bench_scene *b, bench_path path)
         for (int k = 0; k < 2; k++)
             results[k][i] = calloc((size_t)view.width * (size_t)view.height, sizeof(float));
     }
+    scene_renderer_destroy(m->mover);
+    m->mover = NULL;
     scene_destroy(s);
     const int count = list_configs(configs);
     for (int i = 0; done && i < count; i++) {
@@ -295,13 +316,15 @@ static bool run_motion(motion *m, const bench_scene *b, bench_path path)
         const bool reuses = configs[i].settings.history > 0;
         if (!options_match(m->options.only, configs[i].name))
             continue;
-        snprintf(label, sizeof label, "%s-%s", b->name, path_name(path));
-        done = run_config(m, &configs[i], path, results[reuses], &f, label);
+        done = run_config(m, &configs[i], path, results[reuses], &f);
+        snprintf(label, sizeof label, "%.60s-%s-%.30s", b->name, path_name(path), configs[i].name);
+        if (done && reuses && m->options.check)
+            done = write_film(m, label, results[0], results[1]);
         if (path == PATH_BOX && reuses)
             f.lag = find_lag(m, results[0], results[1]);
         printf("%s\t%s\t%s\t%.4f\t%.4f\t%.4f\t%.4f\t%.4f\t%d\t%.2f\n", b->name, path_name(path), configs[i].name,
                sqrt(f.sum2 / f.pixels), f.ssim / f.truths, f.flip / f.truths, sqrt(f.change.sum2 / f.change.pixels),
-               f.new_pixels > 0 ? sqrt(f.new2 / f.new_pixels) : 0, f.lag, f.cpu_ms / (m->count - 1));
+               f.new_pixels > 0 ? sqrt(f.new2 / f.new_pixels) : 0, f.lag, f.cpu_ms);
         fflush(stdout);
     }
     clear_shots(m);
@@ -321,11 +344,13 @@ static bool run(motion *m, const char *paths)
         !make_folder(m->options.out))
         return false;
     const int count = bench_scenes_list(&m->options, scenes);
-    printf("scene\tmotion\tsetting\tRMSE\tSSIM\tFLIP\tchange\tnew\tlag\tCPU ms\n");
+    printf("# %s\n# context=%s\tsize=%dx%d\trays=%d\n", m->options.command, context_description(m->context),
+           m->options.size[0], m->options.size[1], m->options.rays);
+    printf("scene\tmotion\tsetting\trmse\tssim\tflip\tframe_change\tnew_rmse\tlag\tcpu_ms\n");
     for (int i = 0; i < count; i++)
         for (int p = 0; p < PATH_COUNT; p++) {
-            const bool moves_box = strcmp(scenes[i].name, "columns") == 0;
-            if ((p == PATH_BOX) != moves_box || !options_match(paths, path_name((bench_path)p)))
+            const bool has_things = strcmp(scenes[i].name, "columns") == 0;
+            if (path_moves_things((bench_path)p) != has_things || !options_match(paths, path_name((bench_path)p)))
                 continue;
             if (!run_motion(m, &scenes[i], (bench_path)p))
                 return false;

@@ -5,13 +5,14 @@
 #include "paths.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const float rad_per_deg = 0.01745329252f;
 
 const char *path_name(bench_path path)
 {
-    static const char *const names[PATH_COUNT] = {"still", "orbit", "walk", "pan", "dolly", "cut", "box"};
+    static const char *const names[PATH_COUNT] = {"still", "orbit", "walk", "pan", "dolly", "cut", "box", "bend"};
     return names[path];
 }
 
@@ -75,7 +76,7 @@ static float box_place(int frame)
     return frame < PATH_EVENT ? box_step * (float)(frame - PATH_EVENT) : 1e3f;
 }
 
-bool path_move_box(scene *s, int frame)
+static bool move_box(scene *s, int frame)
 {
     for (uint32_t i = 0; i < s->instance_count; i++) {
         float *m = s->instances[i].world_from_mesh;
@@ -87,10 +88,49 @@ bool path_move_box(scene *s, int frame)
     return false;
 }
 
-bool path_is_on_box(const float world[3], int frame, float *out_moved)
+/* How far the tops lean, in scene units, and the height that this is at. */
+static float lean(int frame)
 {
-    const float slack = 0.01f;
-    *out_moved = frame > 0 && frame < PATH_EVENT ? box_step : 0;
-    return fabsf(world[0] - box_place(frame)) < 1.5f + slack && fabsf(world[2]) < 1.5f + slack && world[1] > slack &&
-           world[1] < 1 + slack;
+    return frame > 0 ? 0.6f * sinf((float)frame * 2 * 3.14159265f / 40) : 0;
+}
+
+static float height_of(const scene_primitive *p)
+{
+    return p->bounds_max[1] - p->bounds_min[1];
+}
+
+/* Shears the tallest mesh along x by lean (y / top)^2; normals follow by the inverse transpose. */
+static bool bend(scene *s, int frame)
+{
+    const scene_primitive *p = &s->primitives[0];
+    for (uint32_t i = 1; i < s->primitive_count; i++)
+        p = height_of(&s->primitives[i]) > height_of(p) ? &s->primitives[i] : p;
+    unsigned char *is_bent = calloc(s->vertex_count, 1);
+    const float by = lean(frame) - lean(frame - 1), top = p->bounds_max[1];
+    for (uint32_t i = 0; is_bent && i < p->index_count; i++) {
+        scene_vertex *v = &s->vertices[s->indices[p->first_index + i]];
+        if (is_bent[v - s->vertices])
+            continue;
+        is_bent[v - s->vertices] = 1;
+        const float y = v->position[1] / top;
+        float *n = v->normal, length = 0;
+        v->position[0] += by * y * y;
+        n[1] -= by * 2 * y / top * n[0];
+        for (int k = 0; k < 3; k++)
+            length += n[k] * n[k];
+        for (int k = 0; k < 3; k++)
+            n[k] /= sqrtf(length);
+    }
+    free(is_bent);
+    return is_bent != NULL;
+}
+
+bool path_moves_things(bench_path path)
+{
+    return path == PATH_BOX || path == PATH_BEND;
+}
+
+bool path_move_things(bench_path path, scene *s, int frame)
+{
+    return path == PATH_BOX ? move_box(s, frame) : bend(s, frame);
 }

@@ -15,6 +15,7 @@ typedef enum bench_path {
     PATH_DOLLY,     /* sideways */
     PATH_CUT,       /* still, then from another side at once, then still */
     PATH_BOX,       /* the camera stands still; a box slides along the floor, and then is gone */
+    PATH_BEND,      /* the camera stands still; columns bend to and fro, as skins do */
     PATH_COUNT
 } bench_path;
 
@@ -26,9 +27,9 @@ const char *path_name(bench_path path);
 /* The camera of a frame, from that of frame 0. */
 camera path_camera(bench_path path, const camera *start, int frame);
 
-/* PATH_BOX, in the built-in scene "columns": moves its box to where it is in that frame. False where there is none. */
-bool path_move_box(scene *s, int frame);
-/* Whether the box shows a point of world space in that frame, and by how much it moved along x since the last one. */
-bool path_is_on_box(const float world[3], int frame, float *out_moved);
+/* Whether things move in the built-in scene "columns", and the camera does not. */
+bool path_moves_things(bench_path path);
+/* Puts them to where they are in that frame; frames come in order. False where there are none. */
+bool path_move_things(bench_path path, scene *s, int frame);
 
 #endif

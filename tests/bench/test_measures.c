@@ -7,15 +7,7 @@
 #include "perception.h"
 #include "sequence.h"
 #include "structure.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "testing.h"
 
 enum { WIDTH = 64, HEIGHT = 48, COUNT = WIDTH * HEIGHT };
 static const double pi = 3.14159265358979323846;
@@ -71,9 +63,8 @@ static double grain(void)
     return value;
 }
 
-static void filters_see_zeros_or_the_nearest_pixel_outside(void **state)
+TEST_WITH(filters_see_zeros_or_the_nearest_pixel_outside, reset)
 {
-    (void)state;
     static float out[COUNT], scratch[COUNT];
     const kernel box = {.radius = 1, .taps = {1.0f / 3, 1.0f / 3, 1.0f / 3}};
     fill(picture, 1);
@@ -89,9 +80,8 @@ static void filters_see_zeros_or_the_nearest_pixel_outside(void **state)
 }
 
 /* 3 % of the pixels are off by 0.25, the others by -0.0625. */
-static void error_figures_follow_from_their_definitions(void **state)
+TEST_WITH(error_figures_follow_from_their_definitions, reset)
 {
-    (void)state;
     const double far_share = 0.03;
     const int far_count = (int)(far_share * COUNT);
     for (int i = 0; i < COUNT; i++) {
@@ -110,9 +100,8 @@ static void error_figures_follow_from_their_definitions(void **state)
     assert_near(m.nonfinite_share, 0, 0);
 }
 
-static void nonfinite_pixels_are_counted_and_left_out(void **state)
+TEST_WITH(nonfinite_pixels_are_counted_and_left_out, reset)
 {
-    (void)state;
     picture[0] = NAN;
     picture[1] = INFINITY;
     classes[2] = PIXEL_NONE;
@@ -122,9 +111,8 @@ static void nonfinite_pixels_are_counted_and_left_out(void **state)
     assert_near(m.rmse, 0, 0);
 }
 
-static void best_exponent_is_found(void **state)
+TEST_WITH(best_exponent_is_found, reset)
 {
-    (void)state;
     static fit_sum f;
     memset(&f, 0, sizeof f);
     for (int i = 0; i < COUNT; i++) {
@@ -136,9 +124,8 @@ static void best_exponent_is_found(void **state)
     assert_near(fit_rmse(&f, 1.7), 0, 1e-3);
 }
 
-static void ssim_of_constants_is_the_luminance_term(void **state)
+TEST_WITH(ssim_of_constants_is_the_luminance_term, reset)
 {
-    (void)state;
     fill(picture, 0.25f);
     fill(truth, 0.75f);
     assert_near(ssim(), (2 * 0.25 * 0.75 + 1e-4) / (0.0625 + 0.5625 + 1e-4), 1e-5);
@@ -146,9 +133,8 @@ static void ssim_of_constants_is_the_luminance_term(void **state)
 
 /* A window sees as many dark as bright pixels, so means agree and variances are the amplitudes' squares; windows cut
  * off by the picture's border see nearly as many. */
-static void ssim_of_checkerboards_is_the_contrast_term(void **state)
+TEST_WITH(ssim_of_checkerboards_is_the_contrast_term, reset)
 {
-    (void)state;
     for (int i = 0; i < COUNT; i++) {
         const float sign = (i % WIDTH + i / WIDTH) % 2 ? 1 : -1;
         picture[i] += 0.1f * sign;
@@ -157,9 +143,8 @@ static void ssim_of_checkerboards_is_the_contrast_term(void **state)
     assert_near(ssim(), (2 * 0.1 * 0.4 + 9e-4) / (0.01 + 0.16 + 9e-4), 0.01);
 }
 
-static void pixels_without_a_surface_do_not_count(void **state)
+TEST_WITH(pixels_without_a_surface_do_not_count, reset)
 {
-    (void)state;
     fill(picture, 0.25f);
     fill(truth, 0.75f);
     const double ssim_before = ssim(), flip_before = flip();
@@ -174,9 +159,8 @@ static void pixels_without_a_surface_do_not_count(void **state)
     assert_near(flip(), flip_before, 0.02); /* the eye's filter brings in a little of the background */
 }
 
-static void equal_pictures_have_no_difference(void **state)
+TEST_WITH(equal_pictures_have_no_difference, reset)
 {
-    (void)state;
     for (int i = 0; i < COUNT; i++)
         picture[i] = truth[i] = (float)(i % 100) / 100;
     assert_near(ssim(), 1, 1e-9);
@@ -186,9 +170,8 @@ static void equal_pictures_have_no_difference(void **state)
 /* The values come from an implementation of the paper in NumPy that was written apart from this one, with all three
  * channels, without separating the filters, and in double precision: the square root of an edge that is 0 shows single
  * precision's rounding in evenly coloured pictures. */
-static void flip_agrees_with_an_independent_implementation(void **state)
+TEST_WITH(flip_agrees_with_an_independent_implementation, reset)
 {
-    (void)state;
     for (int i = 0; i < COUNT; i++) {
         const int x = i % WIDTH, y = i / WIDTH;
         truth[i] = (float)(0.5 + 0.4 * sin(x / 5.0) * cos(y / 7.0));
@@ -213,9 +196,8 @@ static void flip_agrees_with_an_independent_implementation(void **state)
 
 /* A wave of amplitude a has the standard deviation a / sqrt(2); the blur that is taken off keeps
  * exp(-2 pi^2 sigma^2 / wavelength^2) of it, which is a half at 8 pixels. */
-static void grain_of_a_wave_follows_the_filter(void **state)
+TEST_WITH(grain_of_a_wave_follows_the_filter, reset)
 {
-    (void)state;
     static const struct {
         double wavelength, left;
     } waves[] = {{3, 0.9928}, {8, 0.5}, {32, 0.0424}};
@@ -226,17 +208,15 @@ static void grain_of_a_wave_follows_the_filter(void **state)
     }
 }
 
-static void a_slope_has_no_grain(void **state)
+TEST_WITH(a_slope_has_no_grain, reset)
 {
-    (void)state;
     for (int i = 0; i < COUNT; i++)
         picture[i] = truth[i] = 0.2f + 0.009f * (float)(i % WIDTH);
     assert_near(grain(), 0, 1e-5);
 }
 
-static void grain_is_not_looked_for_near_edges_or_where_truth_is_steep(void **state)
+TEST_WITH(grain_is_not_looked_for_near_edges_or_where_truth_is_steep, reset)
 {
-    (void)state;
     for (int i = 0; i < COUNT; i++)
         picture[i] = i % 2 ? 0.4f : 0.6f;
     assert_near(grain(), 0.1, 0.002);
@@ -248,9 +228,8 @@ static void grain_is_not_looked_for_near_edges_or_where_truth_is_steep(void **st
     assert_near(grain(), 0, 0);
 }
 
-static void specks_are_what_the_truth_around_does_not_explain(void **state)
+TEST_WITH(specks_are_what_the_truth_around_does_not_explain, reset)
 {
-    (void)state;
     enum { AT = 20 * WIDTH + 30 };
     fill(truth, 0.9f);
     fill(picture, 0.9f);
@@ -291,9 +270,8 @@ static double change(double pixels, const float *before, const float *now, doubl
     return sqrt(c.sum2 / c.pixels);
 }
 
-static void a_pattern_that_stays_on_its_surface_does_not_change(void **state)
+TEST_WITH(a_pattern_that_stays_on_its_surface_does_not_change, reset)
 {
-    (void)state;
     double pixels;
     for (int i = 0; i < COUNT; i++) {
         truth[i] = 0.2f + 0.01f * (float)(i % WIDTH);
@@ -303,9 +281,8 @@ static void a_pattern_that_stays_on_its_surface_does_not_change(void **state)
     assert_near(pixels, (WIDTH - 3) * (HEIGHT - 1), WIDTH + HEIGHT); /* what comes into the picture is left out */
 }
 
-static void a_pattern_that_stays_on_the_screen_changes(void **state)
+TEST_WITH(a_pattern_that_stays_on_the_screen_changes, reset)
 {
-    (void)state;
     double pixels;
     for (int i = 0; i < COUNT; i++)
         picture[i] = 0.2f + 0.01f * (float)(i % WIDTH);
@@ -315,9 +292,8 @@ static void a_pattern_that_stays_on_the_screen_changes(void **state)
     assert_near(change(0, picture, truth, &pixels), 0.125, 1e-5);
 }
 
-static void points_that_were_hidden_are_left_out(void **state)
+TEST_WITH(points_that_were_hidden_are_left_out, reset)
 {
-    (void)state;
     static float near_distance[COUNT], distance[COUNT];
     fill(distance, 4);
     fill(near_distance, 4);
@@ -335,23 +311,5 @@ static void points_that_were_hidden_are_left_out(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(filters_see_zeros_or_the_nearest_pixel_outside, reset),
-        cmocka_unit_test_setup(error_figures_follow_from_their_definitions, reset),
-        cmocka_unit_test_setup(nonfinite_pixels_are_counted_and_left_out, reset),
-        cmocka_unit_test_setup(best_exponent_is_found, reset),
-        cmocka_unit_test_setup(ssim_of_constants_is_the_luminance_term, reset),
-        cmocka_unit_test_setup(ssim_of_checkerboards_is_the_contrast_term, reset),
-        cmocka_unit_test_setup(pixels_without_a_surface_do_not_count, reset),
-        cmocka_unit_test_setup(equal_pictures_have_no_difference, reset),
-        cmocka_unit_test_setup(flip_agrees_with_an_independent_implementation, reset),
-        cmocka_unit_test_setup(grain_of_a_wave_follows_the_filter, reset),
-        cmocka_unit_test_setup(a_slope_has_no_grain, reset),
-        cmocka_unit_test_setup(grain_is_not_looked_for_near_edges_or_where_truth_is_steep, reset),
-        cmocka_unit_test_setup(specks_are_what_the_truth_around_does_not_explain, reset),
-        cmocka_unit_test_setup(a_pattern_that_stays_on_its_surface_does_not_change, reset),
-        cmocka_unit_test_setup(a_pattern_that_stays_on_the_screen_changes, reset),
-        cmocka_unit_test_setup(points_that_were_hidden_are_left_out, reset),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run(NULL, reset, NULL);
 }

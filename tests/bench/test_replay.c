@@ -7,10 +7,6 @@
 
 #include "fixture.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 enum { WIDTH = 8, HEIGHT = 4 };
@@ -87,7 +83,7 @@ static replay *load(replayer *r, const char *text)
     return replay_load(r, folder, "key", error, sizeof error);
 }
 
-static void passes_are_drawn_in_order(void **state)
+TEST_GL(passes_are_drawn_in_order)
 {
     fixture *f = *state;
     const float one[4] = {1, 1, 1, 1};
@@ -112,7 +108,7 @@ static void passes_are_drawn_in_order(void **state)
     replayer_destroy(r);
 }
 
-static void wrong_recordings_are_named(void **state)
+TEST_GL(wrong_recordings_are_named)
 {
     static const struct {
         const char *text, *said;
@@ -138,9 +134,5 @@ static void wrong_recordings_are_named(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(passes_are_drawn_in_order),
-        GL_TEST(wrong_recordings_are_named),
-    };
-    return cmocka_run_group_tests(tests, make_folder_of_files, remove_folder);
+    return test_run(NULL, make_folder_of_files, remove_folder);
 }

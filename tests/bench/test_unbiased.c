@@ -9,10 +9,6 @@
 #include "small_scene.h"
 #include "trace_shot.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { WIDTH = 48, HEIGHT = 32, PIXELS = WIDTH * HEIGHT };
 static const double alpha = 0.01; /* of a false alarm */
 
@@ -25,9 +21,8 @@ static sample_set begin(int which, size_t pixels)
     return sample_set_begin(pixels, sums[2 * which], sums[2 * which + 1]);
 }
 
-static void students_distribution_is_known(void **state)
+TEST(students_distribution_is_known)
 {
-    (void)state;
     /* t(1) is Cauchy's, t(2) has a closed form; the last is the table value of 97.5 % at 10. */
     assert_true(fabs(student_p(1, 1) - 0.5) < 1e-6);
     assert_true(fabs(student_p(2, 2) - (1 - 2 / sqrt(6))) < 1e-6);
@@ -37,9 +32,8 @@ static void students_distribution_is_known(void **state)
 /* Points of a floor at growing distances from a wall, whose edge is too far to be seen. A ray of a cosine-weighted
  * hemisphere ends evenly over the unit disc when it is projected along the normal; the wall blocks the part of the disc
  * beyond distance / radius. Under a ceiling, the part within sqrt(1 - (height / radius)^2) is blocked. */
-static void tracer_is_unbiased(void **state)
+TEST(tracer_is_unbiased)
 {
-    (void)state;
     enum { SEEDS = 32, RAYS = 2048 };
     const float radius = 2;
     small_scene *s = small_scene_create();
@@ -98,7 +92,7 @@ static void accumulate(fixture *f, const glssao_frame *frame, sample_set *out, i
 }
 
 /* The mean of few estimates and the mean of many have the same expectation. */
-static void accumulation_is_unbiased(void **state)
+TEST_GL(accumulation_is_unbiased)
 {
     fixture *f = *state;
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
@@ -119,10 +113,5 @@ static void accumulation_is_unbiased(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(students_distribution_is_known),
-        cmocka_unit_test(tracer_is_unbiased),
-        GL_TEST(accumulation_is_unbiased),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -8,9 +8,6 @@
 #include "gl_counter.h"
 
 #include <dirent.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 enum { W = 64, H = 48, PROGRAMS = 7 /* apply, and horizon's six */ };
@@ -116,7 +113,7 @@ static bool fill(cached *c)
     return formats > 0;
 }
 
-static void the_second_run_compiles_nothing(void **state)
+TEST_GL(the_second_run_compiles_nothing)
 {
     cached c = open_cached(state);
     if (fill(&c)) {
@@ -128,7 +125,7 @@ static void the_second_run_compiles_nothing(void **state)
 
 /* Both ways draw the program of glssao_apply; the frame's three compute shaders are other programs than its four
  * fragment ones. */
-static void each_path_has_programs_of_its_own(void **state)
+TEST_GL(each_path_has_programs_of_its_own)
 {
     cached c = open_cached(state);
     if (fill(&c))
@@ -187,7 +184,7 @@ static void empty(const char *path)
 }
 
 /* Each damaged file is refused, recompiled and repaired on disk. */
-static void damaged_files_are_compiled_anew(void **state)
+TEST_GL(damaged_files_are_compiled_anew)
 {
     static const file_fn damages[] = {change_magic, change_key, change_length, change_program, cut_short, empty};
     cached c = open_cached(state);
@@ -203,7 +200,7 @@ static void damaged_files_are_compiled_anew(void **state)
 }
 
 /* The checksum covers the head: the driver never gets a format that it did not write. */
-static void a_strange_format_is_not_handed_to_the_driver(void **state)
+TEST_GL(a_strange_format_is_not_handed_to_the_driver)
 {
     cached c = open_cached(state);
     if (fill(&c)) {
@@ -214,7 +211,7 @@ static void a_strange_format_is_not_handed_to_the_driver(void **state)
     close_cached(&c);
 }
 
-static void a_folder_that_is_not_there_does_no_harm(void **state)
+TEST_GL(a_folder_that_is_not_there_does_no_harm)
 {
     cached c = open_cached(state);
     c.is_refused = true;
@@ -225,10 +222,5 @@ static void a_folder_that_is_not_there_does_no_harm(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(the_second_run_compiles_nothing),         GL_TEST(each_path_has_programs_of_its_own),
-        GL_TEST(damaged_files_are_compiled_anew),         GL_TEST(a_strange_format_is_not_handed_to_the_driver),
-        GL_TEST(a_folder_that_is_not_there_does_no_harm),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

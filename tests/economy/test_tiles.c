@@ -8,11 +8,6 @@
 #include "draw.h"
 #include "fixture.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { W = 320, H = 192, TECHNIQUES = 3, QUALITIES = 4 };
 static const double STEP = 1.0 / 65535.0;
 
@@ -102,7 +97,7 @@ static double compare_scene(fixture *f, const scene *s, const camera *c, float r
     return most;
 }
 
-static void built_in_scenes_look_the_same(void **state)
+TEST_GL(built_in_scenes_look_the_same)
 {
     static const char *const names[] = {"columns", "cornell", "steps", "plane"};
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
@@ -120,7 +115,7 @@ static void built_in_scenes_look_the_same(void **state)
 
 /* Views and radii from the collection of the scenes. glssao-economy --check covers files that are slow to draw in
  * software. */
-static void shared_scenes_look_the_same(void **state)
+TEST_GL(shared_scenes_look_the_same)
 {
     static const struct {
         const char *file;
@@ -167,7 +162,7 @@ static glssao_frame shapes_frame(analytic_projection kind, const analytic_shape 
     return fixture_frame(&view, shapes, count, W, H);
 }
 
-static void every_projection_looks_the_same(void **state)
+TEST_GL(every_projection_looks_the_same)
 {
     for (int kind = 0; kind < PROJECTION_COUNT; ++kind) {
         const double scale = kind % 2 ? 1e3 : 1e-3;
@@ -209,7 +204,7 @@ static double share_of(fixture *f, const analytic_shape *shapes, int count, glss
     return share;
 }
 
-static void sky_is_left_out(void **state)
+TEST_GL(sky_is_left_out)
 {
     const analytic_shape nothing = {ANALYTIC_SPHERE, {0, 0, 50}, {1, 1, 1}}; /* behind the eye */
     for (int t = 0; t < TECHNIQUES; ++t)
@@ -217,7 +212,7 @@ static void sky_is_left_out(void **state)
 }
 
 /* Everything but the picture's edge, where samples are clamped. */
-static void a_plane_is_left_out(void **state)
+TEST_GL(a_plane_is_left_out)
 {
     const analytic_shape wall = {ANALYTIC_PLANE, {0, 0, -8}, {0.28, 0, 0.96}};
     const double inner = (double)(W / 16 - 2) * (H / 16 - 2) / ((W / 16) * (H / 16));
@@ -225,7 +220,7 @@ static void a_plane_is_left_out(void **state)
     assert_true(share_of(*state, &wall, 1, GLSSAO_HEMISPHERE, 0.3f) == 1.0);
 }
 
-static void a_radius_under_half_a_pixel_is_left_out(void **state)
+TEST_GL(a_radius_under_half_a_pixel_is_left_out)
 {
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     analytic_room(room, 1.0);
@@ -235,7 +230,7 @@ static void a_radius_under_half_a_pixel_is_left_out(void **state)
 }
 
 /* Classic: a step towards the eye of less than epsilon does not count; a larger one does. */
-static void range_within_epsilon_is_left_out(void **state)
+TEST_GL(range_within_epsilon_is_left_out)
 {
     analytic_shape walls[2] = {{ANALYTIC_PLANE, {0, 0, -8}, {0, 0, 1}}, {ANALYTIC_BOX, {0, 0, -8}, {1, 1, 0.04}}};
     assert_true(share_of(*state, walls, 2, GLSSAO_CLASSIC, 0.5f) == 1.0);
@@ -245,7 +240,7 @@ static void range_within_epsilon_is_left_out(void **state)
 }
 
 /* Whatever rises from a plane also needs the tiles in its reach estimated. */
-static void a_plane_near_an_occluder_is_estimated(void **state)
+TEST_GL(a_plane_near_an_occluder_is_estimated)
 {
     const analytic_shape shapes[2] = {{ANALYTIC_PLANE, {0, 0, -8}, {0, 0, 1}},
                                       {ANALYTIC_SPHERE, {0, 0, -8}, {1, 1, 1}}};
@@ -256,7 +251,7 @@ static void a_plane_near_an_occluder_is_estimated(void **state)
 
 /* Bumps at several places inside a tile, and a radius that ends near a tile's border. Where blur and upsampling read
  * beyond the estimated tiles, they must find what an estimate would leave there. */
-static void tiles_beside_estimated_ones_look_the_same(void **state)
+TEST_GL(tiles_beside_estimated_ones_look_the_same)
 {
     enum { BUMPS = 6, WIDE = 2 * W, HIGH = 2 * H };
     const double tile = 0.755; /* width in scene units of a tile of the half-size estimate */
@@ -336,7 +331,7 @@ static double share_of_valley(fixture *f, double angle_rad, int axis, int where,
 }
 
 /* A flat picture except for two lines of pixels away from every tile's middle, along x or y: they are estimated. */
-static void a_line_off_a_plane_is_estimated(void **state)
+TEST_GL(a_line_off_a_plane_is_estimated)
 {
     const analytic_shape flat = {ANALYTIC_PLANE, {0, 0, -8}, {0, 0, 1}};
     const analytic_view view = analytic_make_view(ORTHOGRAPHIC, (double)W / H, 0.5, 40.0, 1.0);
@@ -359,7 +354,7 @@ static void a_line_off_a_plane_is_estimated(void **state)
 }
 
 /* Up to the sine given in docs/economy.md, over the power; above it the tiles along the bottom are estimated. */
-static void a_plane_is_flat_to_0_0015(void **state)
+TEST_GL(a_plane_is_flat_to_0_0015)
 {
     for (int axis = 0; axis < 2; ++axis)
         for (int where = IN_DEPTH; where <= (IN_DEPTH | IN_NORMALS); ++where) {
@@ -372,7 +367,7 @@ static void a_plane_is_flat_to_0_0015(void **state)
         }
 }
 
-static void few_tiles_are_not_sorted(void **state)
+TEST_GL(few_tiles_are_not_sorted)
 {
     const analytic_shape wall = {ANALYTIC_PLANE, {0, 0, -8}, {0, 0, 1}};
     const glssao_frame frame = shapes_frame(PERSPECTIVE, &wall, 1, 1.0);
@@ -389,19 +384,5 @@ static void few_tiles_are_not_sorted(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(built_in_scenes_look_the_same),
-        GL_TEST(shared_scenes_look_the_same),
-        GL_TEST(every_projection_looks_the_same),
-        GL_TEST(sky_is_left_out),
-        GL_TEST(a_plane_is_left_out),
-        GL_TEST(a_radius_under_half_a_pixel_is_left_out),
-        GL_TEST(range_within_epsilon_is_left_out),
-        GL_TEST(a_plane_near_an_occluder_is_estimated),
-        GL_TEST(tiles_beside_estimated_ones_look_the_same),
-        GL_TEST(a_plane_is_flat_to_0_0015),
-        GL_TEST(a_line_off_a_plane_is_estimated),
-        GL_TEST(few_tiles_are_not_sorted),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

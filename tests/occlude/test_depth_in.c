@@ -7,10 +7,6 @@
 #include "occlude_fixture.h"
 #include "picture.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -83,9 +79,8 @@ static picture make_room(analytic_projection projection)
 }
 
 /* The matrix that is handed over gives the same result, whatever its kind. */
-static void test_matrix_gives_the_librarys_result(void **state)
+TEST(test_matrix_gives_the_librarys_result)
 {
-    (void)state;
     static float wanted[COUNT], got[COUNT];
     for (int projection = 0; projection < PROJECTION_COUNT; ++projection)
         for (int window = 0; window < 2; ++window) {
@@ -114,9 +109,8 @@ static void test_matrix_gives_the_librarys_result(void **state)
         }
 }
 
-static void test_angle_height_and_planes_make_the_matrix(void **state)
+TEST(test_angle_height_and_planes_make_the_matrix)
 {
-    (void)state;
     static float wanted[COUNT], got[COUNT], depth_0_1[COUNT];
     for (int parallel = 0; parallel < 2; ++parallel) {
         picture p = make_room(parallel ? ORTHOGRAPHIC : PERSPECTIVE);
@@ -149,9 +143,8 @@ static void test_angle_height_and_planes_make_the_matrix(void **state)
 }
 
 /* The radius that nobody names is a twentieth of the map's extent; --error averages estimates. */
-static void test_default_radius_and_error(void **state)
+TEST(test_default_radius_and_error)
 {
-    (void)state;
     static float wanted[COUNT], got[COUNT];
     picture p = make_room(PERSPECTIVE);
     occlude_input input = input_of(&p, false);
@@ -176,9 +169,8 @@ static void test_default_radius_and_error(void **state)
     free_picture(&p);
 }
 
-static void test_heights_are_seen_from_above(void **state)
+TEST(test_heights_are_seen_from_above)
 {
-    (void)state;
     static float heights[COUNT], depth[COUNT], wanted[COUNT], got[COUNT];
     for (int i = 0; i < COUNT; ++i)
         heights[i] = i % WIDTH < WIDTH / 2 ? 0.5f : 0.0f;
@@ -195,9 +187,8 @@ static void test_heights_are_seen_from_above(void **state)
     assert_true(got[HEIGHT / 2 * WIDTH + WIDTH / 2] < 0.65f);
 }
 
-static void test_every_format_holds_the_result(void **state)
+TEST(test_every_format_holds_the_result)
 {
-    (void)state;
     static float linear[COUNT];
     picture p = make_room(PERSPECTIVE);
     static const char in[] = "-q ultra --radius 1 --depth-in distance.pfm --fov 60";
@@ -227,9 +218,8 @@ static void test_every_format_holds_the_result(void **state)
 }
 
 /* A list may hold scenes and maps; each job is checked by itself. */
-static void test_maps_in_a_batch(void **state)
+TEST(test_maps_in_a_batch)
 {
-    (void)state;
     static float alone[COUNT], listed[COUNT];
     picture p = make_room(PERSPECTIVE);
     estimate("--radius 1 --depth-in distance.pfm --fov 60", alone);
@@ -266,9 +256,8 @@ static void test_maps_in_a_batch(void **state)
     free_picture(&p);
 }
 
-static void test_wrong_use_gives_one_line(void **state)
+TEST(test_wrong_use_gives_one_line)
 {
-    (void)state;
     picture p = make_room(PERSPECTIVE);
     static const struct {
         int code;
@@ -337,14 +326,5 @@ static int teardown(void **state)
 int main(int argc, char **argv)
 {
     render = argc > 1 ? argv[1] : "glssao-render";
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_matrix_gives_the_librarys_result),
-        cmocka_unit_test(test_angle_height_and_planes_make_the_matrix),
-        cmocka_unit_test(test_default_radius_and_error),
-        cmocka_unit_test(test_heights_are_seen_from_above),
-        cmocka_unit_test(test_every_format_holds_the_result),
-        cmocka_unit_test(test_maps_in_a_batch),
-        cmocka_unit_test(test_wrong_use_gives_one_line),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return test_run(NULL, setup, teardown);
 }

@@ -4,8 +4,6 @@
  */
 #include "occlude_fixture.h"
 
-#include <math.h>
-
 /* A cliff in a height map, of height 6. Far more of it than the radius is in the picture. */
 static double worst_at_cliff(float radius, bool solid, float out[COUNT])
 {
@@ -27,9 +25,8 @@ static double worst_at_cliff(float radius, bool solid, float out[COUNT])
     return worst;
 }
 
-static void test_cliff_of_a_height_map_agrees_with_traced_rays(void **state)
+TEST_GL(test_cliff_of_a_height_map_agrees_with_traced_rays)
 {
-    (void)state;
     float out[COUNT];
     /* A cliff of four radii: a slab of guessed thickness lets light through below. */
     assert_true(worst_at_cliff(1.5f, false, out) > 0.15);
@@ -51,9 +48,8 @@ static void test_cliff_of_a_height_map_agrees_with_traced_rays(void **state)
 /* Beyond the map's size there is nothing to find, and an estimate's few samples must not spread over it. The cliff is
  * as long as the map is high, so that a point at distance d sees a strip of half length l: the form factor of a
  * rectangle with an edge in the point's plane. */
-static void test_large_radius_brightens_nothing(void **state)
+TEST_GL(test_large_radius_brightens_nothing)
 {
-    (void)state;
     static const float radii[] = {6.0f, 12.0f, 24.0f, 48.0f, 96.0f, 1e3f, 1e6f};
     float out[COUNT], beyond[COUNT];
     double before = 1.0;
@@ -75,9 +71,8 @@ static void test_large_radius_brightens_nothing(void **state)
 }
 
 /* The box around what is seen, whatever the projection and the kind of depth. */
-static void test_extent_is_that_of_the_surfaces(void **state)
+TEST_GL(test_extent_is_that_of_the_surfaces)
 {
-    (void)state;
     for (int projection = 0; projection < PROJECTION_COUNT; ++projection) {
         const analytic_shape wall = {ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, 0.0, 1.0}};
         picture p = make_picture(&wall, 1, (analytic_projection)projection);
@@ -101,9 +96,8 @@ static void test_extent_is_that_of_the_surfaces(void **state)
     }
 }
 
-static void test_holes_and_flat_height_maps(void **state)
+TEST_GL(test_holes_and_flat_height_maps)
 {
-    (void)state;
     float heights[] = {NAN, 7.0f, INFINITY, 7.0f}, depth[4], out[4];
     occlude_input input = {.width = 2, .height = 2, .depth = depth};
     assert_true(occlude_look_down(heights, 2, 2, 0.25f, depth, input.projection, error, sizeof error));
@@ -125,11 +119,5 @@ static void test_holes_and_flat_height_maps(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(test_cliff_of_a_height_map_agrees_with_traced_rays),
-        GL_TEST(test_large_radius_brightens_nothing),
-        GL_TEST(test_extent_is_that_of_the_surfaces),
-        GL_TEST(test_holes_and_flat_height_maps),
-    };
-    return cmocka_run_group_tests(tests, occlude_setup, occlude_teardown);
+    return test_run(NULL, occlude_setup, occlude_teardown);
 }

@@ -5,18 +5,12 @@
 #define _POSIX_C_SOURCE 200809L /* mkstemp */
 #include "map_file.h"
 
-#include <errno.h>
-#include <math.h>
-#include <png.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
+#include "testing.h"
 
-#include <cmocka.h>
+#include <errno.h>
+#include <png.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #if HAS_OPENEXR
 #include "write_exr.h"
@@ -82,9 +76,8 @@ static void expect_refusal(const char *line)
     assert_null(map.values);
 }
 
-static void test_pfm(void **state)
+TEST(test_pfm)
 {
-    (void)state;
     const float bottom_first[] = {3.0f, 4.0f, 1.0f, 2.0f}, top_first[] = {1.0f, 2.0f, 3.0f, 4.0f};
     char bytes[64] = "Pf\n2 2\n-1.0\n";
     memcpy(bytes + 12, bottom_first, sizeof bottom_first);
@@ -96,9 +89,8 @@ static void test_pfm(void **state)
     expect(1, 1, 3, top_first);
 }
 
-static void test_npy(void **state)
+TEST(test_npy)
 {
-    (void)state;
     const float values[] = {1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f};
     write_npy("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }\n", values, sizeof values);
     expect(3, 2, 1, values);
@@ -119,9 +111,8 @@ static void test_npy(void **state)
     expect(4, 1, 1, (const float[]){1.0f, -2.0f, 0x1p-24f, INFINITY});
 }
 
-static void test_png(void **state)
+TEST(test_png)
 {
-    (void)state;
     uint8_t grey[] = {0x00, 0x00, 0x13, 0x88, 0xff, 0xff, 0x00, 0x01};
     write_png(2, 2, 16, PNG_COLOR_TYPE_GRAY, grey);
     expect(2, 2, 1, (const float[]){0.0f, 5000.0f, 65535.0f, 1.0f});
@@ -147,9 +138,8 @@ static void test_png(void **state)
     assert_non_null(strstr(error, ": 8 bits a pixel: depth needs 16"));
 }
 
-static void test_exr(void **state)
+TEST(test_exr)
 {
-    (void)state;
 #if HAS_OPENEXR
     float values[] = {9.0f, 9.0f, 9.0f, 1.5f, 8.0f, 8.0f, 8.0f, INFINITY};
     static const char *const names[] = {"R", "G", "B", "Depth.Z"};
@@ -167,13 +157,17 @@ static void test_exr(void **state)
 #endif
 }
 
-static void test_damaged_headers_give_one_line(void **state)
+TEST(test_damaged_headers_give_one_line)
 {
-    (void)state;
     static const struct {
         const char *bytes, *line;
     } files[] = {
-        {"", "empty, or no file"},
+        {"", "it is empty"},
+        {"version https://git-lfs.github.com/spec/v1\n",
+         "this is a Git LFS pointer, not the file itself: fetch it with "
+         "\"git lfs pull\""},
+        {"\x1f\x8b\x08", "this is compressed with gzip: unpack it first"},
+        {"<!DOCTYPE html>", "this is an HTML page: the download was probably answered by a web page"},
         {"hello, world", "neither PFM, PNG, .npy nor OpenEXR"},
         {"Pf\n2 x\n-1.0\n", "a damaged PFM header"},
         {"Pf\n2 2\n0.0\n", "a damaged PFM header"},
@@ -199,6 +193,8 @@ static void test_damaged_headers_give_one_line(void **state)
     expect_refusal("a map of 1 x 9223372036854775807 is outside 1 to 65536");
     remove(path);
     expect_refusal(strerror(ENOENT));
+    assert_int_equal(mkfifo(path, 0600), 0); /* does not block */
+    expect_refusal("not a regular file");
 }
 
 /* Of each format: every length that a cut may leave, and many damaged bytes. Sanitizers see what goes wrong. */
@@ -231,9 +227,8 @@ static void damage(bool must_fail_when_cut)
     }
 }
 
-static void test_damaged_files_give_one_line(void **state)
+TEST(test_damaged_files_give_one_line)
 {
-    (void)state;
     const float values[16] = {1.0f, 2.0f, 3.0f};
     char bytes[128] = "Pf\n4 4\n-1.0\n";
     memcpy(bytes + 12, values, sizeof values);
@@ -269,13 +264,5 @@ static int teardown(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_pfm),
-        cmocka_unit_test(test_npy),
-        cmocka_unit_test(test_png),
-        cmocka_unit_test(test_exr),
-        cmocka_unit_test(test_damaged_headers_give_one_line),
-        cmocka_unit_test(test_damaged_files_give_one_line),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return test_run(NULL, setup, teardown);
 }

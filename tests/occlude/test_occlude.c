@@ -4,13 +4,9 @@
  */
 #include "occlude_fixture.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const double R16_STEP = 1.0 / 65535.0;
 
-static void test_result_is_the_effects_own(void **state)
+TEST_GL(test_result_is_the_effects_own)
 {
     fixture *f = *state;
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
@@ -34,9 +30,8 @@ static void test_result_is_the_effects_own(void **state)
     free_picture(&p);
 }
 
-static void test_view_distance_and_window_depth_agree(void **state)
+TEST_GL(test_view_distance_and_window_depth_agree)
 {
-    (void)state;
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     analytic_room(room, 1.0);
     const glssao_settings settings = settings_of(1.0f);
@@ -59,9 +54,8 @@ static void test_view_distance_and_window_depth_agree(void **state)
     free(by_window);
 }
 
-static void test_plane_and_sky_are_open(void **state)
+TEST_GL(test_plane_and_sky_are_open)
 {
-    (void)state;
     const analytic_shape floor = {ANALYTIC_PLANE, {0.0, -1.5, 0.0}, {0.0, 1.0, 0.0}};
     picture p = make_picture(&floor, 1, PERSPECTIVE); /* the upper half is sky: infinite */
     float *out = malloc(COUNT * sizeof *out);
@@ -81,9 +75,8 @@ static void test_plane_and_sky_are_open(void **state)
 
 /* Floor and wall far larger than the radius: half of the directions over the floor's point in the corner are blocked.
  */
-static void test_corner_agrees_with_traced_rays(void **state)
+TEST_GL(test_corner_agrees_with_traced_rays)
 {
-    (void)state;
     const analytic_shape corner[] = {{ANALYTIC_PLANE, {0.0, -1.5, 0.0}, {0.0, 1.0, 0.0}},
                                      {ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, 0.0, 1.0}}};
     picture p = make_picture(corner, 2, PERSPECTIVE);
@@ -107,9 +100,8 @@ static void test_corner_agrees_with_traced_rays(void **state)
     free_picture(&p);
 }
 
-static void test_any_size_and_any_quality(void **state)
+TEST_GL(test_any_size_and_any_quality)
 {
-    (void)state;
     static const int sizes[][2] = {{1, 1}, {1, 7}, {7, 1}, {2, 3}, {33, 17}};
     float depth[33 * 17], out[33 * 17];
     for (int i = 0; i < 33 * 17; ++i)
@@ -133,9 +125,8 @@ static void test_any_size_and_any_quality(void **state)
     free_picture(&p);
 }
 
-static void test_hostile_normals_give_finite_results(void **state)
+TEST_GL(test_hostile_normals_give_finite_results)
 {
-    (void)state;
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     analytic_room(room, 1.0);
     picture p = make_picture(room, ANALYTIC_ROOM_SHAPES, PERSPECTIVE);
@@ -152,9 +143,8 @@ static void test_hostile_normals_give_finite_results(void **state)
     free_picture(&p);
 }
 
-static void test_more_estimates_bring_less_noise(void **state)
+TEST_GL(test_more_estimates_bring_less_noise)
 {
-    (void)state;
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     analytic_room(room, 1.0);
     picture p = make_picture(room, ANALYTIC_ROOM_SHAPES, PERSPECTIVE);
@@ -181,9 +171,8 @@ static void test_more_estimates_bring_less_noise(void **state)
 }
 
 /* A bound on the error ends the estimates early: the result is that of as many estimates as it took. */
-static void test_error_ends_the_estimates(void **state)
+TEST_GL(test_error_ends_the_estimates)
 {
-    (void)state;
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     analytic_room(room, 1.0);
     picture p = make_picture(room, ANALYTIC_ROOM_SHAPES, PERSPECTIVE);
@@ -210,11 +199,5 @@ static void test_error_ends_the_estimates(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(test_result_is_the_effects_own),       GL_TEST(test_view_distance_and_window_depth_agree),
-        GL_TEST(test_plane_and_sky_are_open),          GL_TEST(test_corner_agrees_with_traced_rays),
-        GL_TEST(test_any_size_and_any_quality),        GL_TEST(test_hostile_normals_give_finite_results),
-        GL_TEST(test_more_estimates_bring_less_noise), GL_TEST(test_error_ends_the_estimates),
-    };
-    return cmocka_run_group_tests(tests, occlude_setup, occlude_teardown);
+    return test_run(NULL, occlude_setup, occlude_teardown);
 }

@@ -4,14 +4,10 @@
  */
 #include "occlude_fixture.h"
 
-#include <math.h>
 #include <pthread.h>
-#include <stdio.h>
-#include <stdlib.h>
 
-static void test_wrong_input_gives_one_line(void **state)
+TEST_GL(test_wrong_input_gives_one_line)
 {
-    (void)state;
     picture p = make_picture(NULL, 0, PERSPECTIVE);
     const glssao_settings settings = settings_of(1.0f);
     const occlude_input good = input_of(&p, false);
@@ -80,9 +76,8 @@ static void *call(void *argument)
     return NULL;
 }
 
-static void test_threads_get_the_same_bits(void **state)
+TEST_GL(test_threads_get_the_same_bits)
 {
-    (void)state;
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     analytic_room(room, 1.0);
     picture p = make_picture(room, ANALYTIC_ROOM_SHAPES, PERSPECTIVE);
@@ -108,9 +103,8 @@ static void test_threads_get_the_same_bits(void **state)
     free_picture(&p);
 }
 
-static void test_callers_context_stays_as_it_is(void **state)
+TEST_GL(test_callers_context_stays_as_it_is)
 {
-    (void)state;
     GLuint texture;
     gl.GenTextures(1, &texture);
     gl.BindTexture(GL_TEXTURE_2D, texture);
@@ -129,10 +123,5 @@ static void test_callers_context_stays_as_it_is(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(test_wrong_input_gives_one_line),
-        GL_TEST(test_threads_get_the_same_bits),
-        GL_TEST(test_callers_context_stays_as_it_is),
-    };
-    return cmocka_run_group_tests(tests, occlude_setup, occlude_teardown);
+    return test_run(NULL, occlude_setup, occlude_teardown);
 }

@@ -5,10 +5,6 @@
 #include "analytic.h"
 #include "fixture.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { W = 96, H = 64, REFERENCE = 1024 };
 
 typedef struct setup {
@@ -72,7 +68,7 @@ static double rms(const setup *s, const float *a, const float *b)
 
 /* Against the mean of many estimates with other noise. Measured with eight seeds: 0.050, 0.010, 0.0045 and 0.0018 after
  * 4, 16, 64 and 256 estimates; the reported error was 0.93 to 1.19 of the true one. */
-static void error_falls_and_is_told(void **state)
+TEST_GL(error_falls_and_is_told)
 {
     setup reference = make(*state, 1), s = make(*state, 2);
     accumulate(&reference, REFERENCE);
@@ -99,7 +95,7 @@ static void error_falls_and_is_told(void **state)
     delete (&s);
 }
 
-static void same_seed_same_bits(void **state)
+TEST_GL(same_seed_same_bits)
 {
     setup a = make(*state, 7), b = make(*state, 7), c = make(*state, 8);
     accumulate(&a, 3);
@@ -117,7 +113,7 @@ static void same_seed_same_bits(void **state)
 }
 
 /* What restarts the mean, and what does not. */
-static void another_view_starts_anew(void **state)
+TEST_GL(another_view_starts_anew)
 {
     setup s = make(*state, 3);
     accumulate(&s, 1);
@@ -152,7 +148,7 @@ static void another_view_starts_anew(void **state)
 }
 
 /* A few estimates need a blur to remove the tile's noise; many leave nothing to blur. */
-static void blur_serves_the_first(void **state)
+TEST_GL(blur_serves_the_first)
 {
     setup reference = make(*state, 1), s = make(*state, 2), blurred = make(*state, 2);
     blurred.settings.blur = GLSSAO_BLUR_PLANAR;
@@ -176,7 +172,7 @@ static void blur_serves_the_first(void **state)
     delete (&blurred);
 }
 
-static void refuses_and_skips(void **state)
+TEST_GL(refuses_and_skips)
 {
     fixture *f = *state;
     setup s = make(f, 0);
@@ -201,9 +197,5 @@ static void refuses_and_skips(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(error_falls_and_is_told), GL_TEST(same_seed_same_bits), GL_TEST(another_view_starts_anew),
-        GL_TEST(blur_serves_the_first),   GL_TEST(refuses_and_skips),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -5,11 +5,6 @@
  */
 #include "analytic_shot.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const double PI = 3.14159265358979323846;
 static const double DEGREES = 180.0 / 3.14159265358979323846;
 static const char *const level_names[] = {"low", "medium", "high", "ultra"};
@@ -60,7 +55,7 @@ static double length_of(const float a[3])
 }
 
 /* Within the steps of half floats and of the packed directions that upsampling hands on: 0.06 degrees together. */
-static void plane_has_its_normal(void **state)
+TEST_GL(plane_has_its_normal)
 {
     static const double degrees[] = {0.0, 30.0, 60.0, 80.0};
     for (int orthographic = 0; orthographic < 2; ++orthographic)
@@ -176,7 +171,7 @@ static void compare(fixture *f, const analytic_shape *shapes, int shape_count, b
 
 /* A floor and a wall, both seen at 45 degrees. Measured, mean and worst: low 0.69, 2.8; medium 0.54, 2.2; high
  * 0.48, 1.9; ultra 0.41, 1.2. */
-static void floor_beside_a_wall_is_near_the_integral(void **state)
+TEST_GL(floor_beside_a_wall_is_near_the_integral)
 {
     const double s = sqrt(0.5);
     const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, s, s}},
@@ -186,7 +181,7 @@ static void floor_beside_a_wall_is_near_the_integral(void **state)
 
 /* A corner of three walls, seen along its diagonal. Measured, mean and worst: low 3.06, 43.5; medium 2.92, 43.4;
  * high 2.45, 43.7; ultra 1.81, 43.6. The worst is the tip, where almost nothing is open. */
-static void box_corner_is_near_the_rays(void **state)
+TEST_GL(box_corner_is_near_the_rays)
 {
     analytic_shape shapes[3];
     for (int i = 0; i < 3; ++i) {
@@ -200,7 +195,7 @@ static void box_corner_is_near_the_rays(void **state)
 
 /* A sphere of radius 0.8 that rests on a floor seen at 45 degrees. Measured, mean and worst: low 2.18, 26.9;
  * medium 2.05, 27.6; high 1.74, 14.2; ultra 1.64, 20.7. */
-static void sphere_on_plane_is_near_the_rays(void **state)
+TEST_GL(sphere_on_plane_is_near_the_rays)
 {
     const double s = sqrt(0.5);
     const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, s, s}},
@@ -210,7 +205,7 @@ static void sphere_on_plane_is_near_the_rays(void **state)
 
 /* A groove 0.9 wide and 0.6 deep between two boxes, seen into. Measured, mean and worst: low 1.93, 29.4;
  * medium 1.71, 27.5; high 2.33, 31.0; ultra 1.61, 31.0. The worst are on the sides of the boxes, seen edge-on. */
-static void groove_is_near_the_rays(void **state)
+TEST_GL(groove_is_near_the_rays)
 {
     const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, 0.0, 1.0}},
                                      {ANALYTIC_BOX, {-1.45, 0.0, -5.7}, {1.0, 9.0, 0.3}},
@@ -219,9 +214,8 @@ static void groove_is_near_the_rays(void **state)
 }
 
 /* The closed form must agree with the rays that judge the rest, and with a value worked out by hand. */
-static void closed_form_agrees_with_rays(void **state)
+TEST(closed_form_agrees_with_rays)
 {
-    (void)state;
     const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}},
                                      {ANALYTIC_PLANE, {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}};
     analytic_shot s = {.shapes = shapes, .shape_count = 2};
@@ -248,7 +242,7 @@ static analytic_shot room_shot(analytic_shape room[ANALYTIC_ROOM_SHAPES], analyt
     return analytic_take(room, ANALYTIC_ROOM_SHAPES, projection, ROOM_W, ROOM_H);
 }
 
-static void map_is_there_only_when_asked_for(void **state)
+TEST_GL(map_is_there_only_when_asked_for)
 {
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     analytic_shot s = room_shot(room, PERSPECTIVE);
@@ -290,7 +284,7 @@ static double difference(const float *a, const float *b, int count, double *out_
 }
 
 /* Nothing hides a direction where the radius is 0, and no power moves one. */
-static void radius_0_leaves_normals_and_power_moves_none(void **state)
+TEST_GL(radius_0_leaves_normals_and_power_moves_none)
 {
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     analytic_shot s = room_shot(room, ORTHOGRAPHIC);
@@ -320,7 +314,7 @@ static void radius_0_leaves_normals_and_power_moves_none(void **state)
     analytic_free_shot(&s);
 }
 
-static void no_light_and_no_surface_give_the_neutral_value(void **state)
+TEST_GL(no_light_and_no_surface_give_the_neutral_value)
 {
     static const float neutral[4] = {0.0f, 0.0f, 1.0f, 1.0f};
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
@@ -358,7 +352,7 @@ static float *run_way(fixture *f, const analytic_shot *s, glssao_settings settin
     return got;
 }
 
-static void ways_to_run_agree(void **state)
+TEST_GL(ways_to_run_agree)
 {
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     for (int i = 0; i < 2 * LEVELS; ++i) {
@@ -391,7 +385,7 @@ static double share_apart(const float *a, const float *b, int count, double degr
 }
 
 /* A projection that turns the picture, and normals of the other side, change no direction. */
-static void turned_pictures_and_normals_change_nothing(void **state)
+TEST_GL(turned_pictures_and_normals_change_nothing)
 {
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     analytic_shot s = room_shot(room, PERSPECTIVE);
@@ -446,7 +440,7 @@ static void turned_pictures_and_normals_change_nothing(void **state)
 }
 
 /* Measured: 1.73 degrees after one estimate, 0.21 after 64. */
-static void accumulated_directions_near_the_integral(void **state)
+TEST_GL(accumulated_directions_near_the_integral)
 {
     enum { ESTIMATES = 64, SIDE = 120, EDGE = 20 };
     const double half = sqrt(0.5);
@@ -483,19 +477,5 @@ static void accumulated_directions_near_the_integral(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(closed_form_agrees_with_rays),
-        GL_TEST(plane_has_its_normal),
-        GL_TEST(floor_beside_a_wall_is_near_the_integral),
-        GL_TEST(groove_is_near_the_rays),
-        GL_TEST(box_corner_is_near_the_rays),
-        GL_TEST(sphere_on_plane_is_near_the_rays),
-        GL_TEST(map_is_there_only_when_asked_for),
-        GL_TEST(radius_0_leaves_normals_and_power_moves_none),
-        GL_TEST(no_light_and_no_surface_give_the_neutral_value),
-        GL_TEST(ways_to_run_agree),
-        GL_TEST(turned_pictures_and_normals_change_nothing),
-        GL_TEST(accumulated_directions_near_the_integral),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -5,10 +5,6 @@
 #include "analytic.h"
 #include "fixture.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum {
     W = 96,
     H = 64,
@@ -41,7 +37,7 @@ static glssao_frame make_frame(int margin, float **out_depth)
 static const glssao_technique techniques[] = {GLSSAO_CLASSIC, GLSSAO_HEMISPHERE, GLSSAO_HORIZON};
 
 /* With a margin, the result is the middle of the whole picture's result: drawing less changes no pixel. */
-static void margin_is_cut_off(void **state)
+TEST_GL(margin_is_cut_off)
 {
     for (int i = 0; i < 3; ++i)
         for (int variant = 0; variant < 4; ++variant) {
@@ -79,7 +75,7 @@ static void margin_is_cut_off(void **state)
 }
 
 /* A floor whose wall stands just outside the picture: only the margin shows the occluder. */
-static void margin_finds_occluders_beyond_the_edge(void **state)
+TEST_GL(margin_finds_occluders_beyond_the_edge)
 {
     double darkened[2];
     for (int i = 0; i < 2; ++i) {
@@ -156,7 +152,7 @@ static double behind_a_plate(fixture *f, double thickness, bool layers, double s
     return sum / count;
 }
 
-static void thickness_is_read(void **state)
+TEST_GL(thickness_is_read)
 {
     const double far_off = 20.0;
     const double thin = behind_a_plate(*state, 0.05, true, far_off), thick = behind_a_plate(*state, 0.4, true, far_off);
@@ -170,7 +166,7 @@ static void thickness_is_read(void **state)
     assert_true(seconded > thin + 0.02); /* surfaces behind the plate occlude too */
 }
 
-static void refuses_what_it_cannot_use(void **state)
+TEST_GL(refuses_what_it_cannot_use)
 {
     fixture *f = *state;
     glssao_effect *effect = fixture_effect(f, W, H);
@@ -193,7 +189,7 @@ static void refuses_what_it_cannot_use(void **state)
 }
 
 /* The last frame's margin does not apply to the new size; glssao_apply would draw a negative area. */
-static void resize_forgets_the_margin(void **state)
+TEST_GL(resize_forgets_the_margin)
 {
     glssao_effect *effect = fixture_effect(*state, WIDE, HIGH);
     glssao_frame frame = make_frame(MARGIN, NULL);
@@ -208,7 +204,7 @@ static void resize_forgets_the_margin(void **state)
 }
 
 /* The mean of a frame with a margin. Where nothing lies outside the picture, it converges to the mean without one. */
-static void accumulation_keeps_the_margin(void **state)
+TEST_GL(accumulation_keeps_the_margin)
 {
     glssao_effect *effect = fixture_effect(*state, WIDE, HIGH), *wide_effect = fixture_effect(*state, WIDE, HIGH);
     glssao_frame frame = make_frame(MARGIN, NULL), wide_frame = frame;
@@ -237,10 +233,5 @@ static void accumulation_keeps_the_margin(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(margin_is_cut_off),         GL_TEST(margin_finds_occluders_beyond_the_edge),
-        GL_TEST(thickness_is_read),         GL_TEST(refuses_what_it_cannot_use),
-        GL_TEST(resize_forgets_the_margin), GL_TEST(accumulation_keeps_the_margin),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

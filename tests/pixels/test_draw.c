@@ -9,15 +9,10 @@
 #include "fixture.h"
 #include "small_scene.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 /* ---- normals -------------------------------------------------------------------------------------------- */
 
-static void normals_are_in_view_space(void **state)
+TEST_GL(normals_are_in_view_space)
 {
-    (void)state;
     small_scene *s = frame_one_quad(small_scene_material(), NULL);
     /* From the right and above, so that the quad's +z is no axis of view space. */
     camera c = {.eye = {2, 1, 2}, .up = {0, 1, 0}, .fov_y_rad = 0.6f, .near_plane = 1, .far_plane = 9};
@@ -35,9 +30,8 @@ static void normals_are_in_view_space(void **state)
     free(s);
 }
 
-static void instances_have_the_normals_of_baked_triangles(void **state)
+TEST_GL(instances_have_the_normals_of_baked_triangles)
 {
-    (void)state;
     const float scales[][3] = {{1, 1, 1},  {-1, 1, 1},     {-1, -1, -1},          {1, 3, 0.3f},
                                {2, 1, -4}, {5, 1, 0.005f}, {1e-4f, 1e-4f, 1e-4f}, {1e4f, -1e4f, 2e4f}};
     const scene_lighting lighting = scene_default_lighting();
@@ -72,9 +66,8 @@ static void instances_have_the_normals_of_baked_triangles(void **state)
     }
 }
 
-static void normals_of_zero_length_face_the_viewer(void **state)
+TEST_GL(normals_of_zero_length_face_the_viewer)
 {
-    (void)state;
     small_scene *s = frame_one_quad(small_scene_material(), NULL);
     for (int i = 0; i < 4; i++)
         memset(s->vertices[i].normal, 0, sizeof s->vertices[i].normal);
@@ -92,25 +85,22 @@ static const float mirrored[16] = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0,
 static const float turned_round[16] = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
 static const float mirrored_and_turned[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
 
-static void fronts_are_drawn_and_backs_culled(void **state)
+TEST_GL(fronts_are_drawn_and_backs_culled)
 {
-    (void)state;
     const int quarter = FRAME_SIZE * FRAME_SIZE / 4;
     assert_int_equal(frame_count_drawn_by(frame_one_quad(small_scene_material(), NULL)), quarter);
     assert_int_equal(frame_count_drawn_by(frame_one_quad(small_scene_material(), turned_round)), 0);
 }
 
-static void mirrored_instances_keep_their_fronts(void **state)
+TEST_GL(mirrored_instances_keep_their_fronts)
 {
-    (void)state;
     const int quarter = FRAME_SIZE * FRAME_SIZE / 4;
     assert_int_equal(frame_count_drawn_by(frame_one_quad(small_scene_material(), mirrored)), quarter);
     assert_int_equal(frame_count_drawn_by(frame_one_quad(small_scene_material(), mirrored_and_turned)), 0);
 }
 
-static void double_sided_backs_show_normals_that_face_the_viewer(void **state)
+TEST_GL(double_sided_backs_show_normals_that_face_the_viewer)
 {
-    (void)state;
     scene_material material = small_scene_material();
     material.double_sided = true;
     const float *placements[] = {NULL, mirrored, turned_round, mirrored_and_turned};
@@ -125,9 +115,8 @@ static void double_sided_backs_show_normals_that_face_the_viewer(void **state)
     }
 }
 
-static void mixed_instances_of_a_mesh_are_all_drawn(void **state)
+TEST_GL(mixed_instances_of_a_mesh_are_all_drawn)
 {
-    (void)state;
     small_scene *s = small_scene_create();
     for (int k = 0; k < 16; k++) {
         float m[16] = {0.125f, 0, 0, 0, 0, 0.125f, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -143,9 +132,8 @@ static void mixed_instances_of_a_mesh_are_all_drawn(void **state)
 }
 
 /* Every material variant and instances of all kinds, in perspective: the main pass matches the pre-pass's depth. */
-static void depth_equal_covers_what_the_prepass_covered(void **state)
+TEST_GL(depth_equal_covers_what_the_prepass_covered)
 {
-    (void)state;
     enum { LARGE = 256 };
     static const uint8_t checker[2 * 2 * 4] = {90, 90, 90, 255, 90, 90, 90, 0, 90, 90, 90, 0, 90, 90, 90, 255};
     small_scene *s = small_scene_create();
@@ -196,15 +184,5 @@ static void depth_equal_covers_what_the_prepass_covered(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(normals_are_in_view_space),
-        GL_TEST(instances_have_the_normals_of_baked_triangles),
-        GL_TEST(normals_of_zero_length_face_the_viewer),
-        GL_TEST(fronts_are_drawn_and_backs_culled),
-        GL_TEST(mirrored_instances_keep_their_fronts),
-        GL_TEST(double_sided_backs_show_normals_that_face_the_viewer),
-        GL_TEST(mixed_instances_of_a_mesh_are_all_drawn),
-        GL_TEST(depth_equal_covers_what_the_prepass_covered),
-    };
-    return cmocka_run_group_tests_name("draw", tests, fixture_setup, fixture_teardown);
+    return test_run("draw", fixture_setup, fixture_teardown);
 }

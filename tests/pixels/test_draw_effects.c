@@ -8,10 +8,6 @@
 #include "fixture.h"
 #include "small_scene.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const scene_draw_options shadowed = {.shadows = true, .shadow_size = 512};
 
 static int pixel_at(double x, double y) /* of frame_front */
@@ -34,9 +30,8 @@ static small_scene *floor_and_roof(scene_material roof)
 static const scene_lighting aslant = {
     .ambient = {0.25f, 0.25f, 0.25f}, .direction_world = {0.70710678f, 0, -0.70710678f}, .directional = {2, 2, 2}};
 
-static void shadow_takes_direct_light_and_leaves_ambient(void **state)
+TEST_GL(shadow_takes_direct_light_and_leaves_ambient)
 {
-    (void)state;
     const double lit = 0.25 + 2 / 3.14159265 * 0.70710678;
     small_scene *s = floor_and_roof(small_scene_material());
     frame f = frame_draw_with(s, &frame_front, &aslant, &shadowed, 0);
@@ -56,9 +51,8 @@ static void shadow_takes_direct_light_and_leaves_ambient(void **state)
 }
 
 /* Ambient light loses the share that is not left out; direct light none. */
-static void occlusion_is_left_out_by_its_share(void **state)
+TEST_GL(occlusion_is_left_out_by_its_share)
 {
-    (void)state;
     const scene_lighting lighting = {
         .ambient = {0.5f, 0.5f, 0.5f}, .direction_world = {0, 0, -1}, .directional = {0.3f, 0.3f, 0.3f}};
     small_scene *s = frame_one_quad(small_scene_material(), NULL);
@@ -80,9 +74,8 @@ static void occlusion_is_left_out_by_its_share(void **state)
     free(s);
 }
 
-static void holes_and_blended_cast_no_shadow(void **state)
+TEST_GL(holes_and_blended_cast_no_shadow)
 {
-    (void)state;
     static const uint8_t clear[4] = {255, 255, 255, 0};
     const double lit = 0.25 + 2 / 3.14159265 * 0.70710678;
     for (int blended = 0; blended < 2; blended++) {
@@ -99,9 +92,8 @@ static void holes_and_blended_cast_no_shadow(void **state)
 }
 
 /* At any angle of the light, a lone surface is lit everywhere: no speckles, bands or dark rim. */
-static void smooth_surfaces_alone_do_not_shadow_themselves(void **state)
+TEST_GL(smooth_surfaces_alone_do_not_shadow_themselves)
 {
-    (void)state;
     const float floor[16] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     small_scene *plane = frame_one_quad(small_scene_material(), floor);
     for (int k = 0; k < 24; k++) {
@@ -122,9 +114,8 @@ static void smooth_surfaces_alone_do_not_shadow_themselves(void **state)
     free(plane);
 }
 
-static void normal_map_bends_normals_in_the_tangent_frame(void **state)
+TEST_GL(normal_map_bends_normals_in_the_tangent_frame)
 {
-    (void)state;
     /* (0.48, 0.36, 0.8) in 0..1 */
     static const uint8_t texel[4] = {189, 173, 230, 255};
     const double mapped[3] = {189 / 127.5 - 1, 173 / 127.5 - 1, 230 / 127.5 - 1};
@@ -161,9 +152,8 @@ static void normal_map_bends_normals_in_the_tangent_frame(void **state)
     }
 }
 
-static void normal_map_bends_the_light(void **state)
+TEST_GL(normal_map_bends_the_light)
 {
-    (void)state;
     static const uint8_t texel[4] = {204, 128, 230, 255}; /* about (0.6, 0, 0.8) */
     float tangents[4][4] = {{1, 0, 0, 1}, {1, 0, 0, 1}, {1, 0, 0, 1}, {1, 0, 0, 1}};
     const scene_lighting lighting = {.direction_world = {-1, 0, 0}, .directional = {3.14159265f, 3.14159265f, 0}};
@@ -181,9 +171,8 @@ static void normal_map_bends_the_light(void **state)
     }
 }
 
-static void sky_is_a_gradient_by_height_and_behind_everything(void **state)
+TEST_GL(sky_is_a_gradient_by_height_and_behind_everything)
 {
-    (void)state;
     small_scene *s = frame_one_quad(small_scene_material(), NULL);
     const scene_lighting lighting = {
         .ambient = {1, 1, 1}, .direction_world = {0, -1, 0}, .sky = {0.5f, 0.5f, 0.5f}, .sky_tilt = {0.4f, 0, -0.4f}};
@@ -202,9 +191,8 @@ static void sky_is_a_gradient_by_height_and_behind_everything(void **state)
     free(s);
 }
 
-static void outside_the_view_nothing_is_drawn(void **state)
+TEST_GL(outside_the_view_nothing_is_drawn)
 {
-    (void)state;
     small_scene *s = small_scene_create();
     for (int k = 0; k < 9; k++) { /* the middle one is inside the picture; its two neighbours reach in by a corner */
         const float m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1.4f * (float)(k - 4), 0, 0, 1};
@@ -232,9 +220,8 @@ static bool uses(const scene_effect *effects, const char *name)
     return false;
 }
 
-static void effects_are_there_only_where_called_for(void **state)
+TEST_GL(effects_are_there_only_where_called_for)
 {
-    (void)state;
     static const char *const names[] = {"shadow map", "normal maps", "reflections", "alpha test",
                                         "instances",  "blending",    "lights",      "sky"};
     char error[512];
@@ -267,9 +254,8 @@ static void effects_are_there_only_where_called_for(void **state)
 
 /* An effect that the scene does not need changes no pixel: a renderer with every effect on takes longer and draws the
  * same picture. */
-static void everything_on_shows_the_same(void **state)
+TEST_GL(everything_on_shows_the_same)
 {
-    (void)state;
     static const uint8_t texel[4] = {255, 128, 255, 255};
     small_scene *s = small_scene_create();
     for (int k = 0; k < 3; k++) { /* plain, textured, and out of sight */
@@ -302,17 +288,5 @@ static void everything_on_shows_the_same(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(shadow_takes_direct_light_and_leaves_ambient),
-        GL_TEST(occlusion_is_left_out_by_its_share),
-        GL_TEST(holes_and_blended_cast_no_shadow),
-        GL_TEST(smooth_surfaces_alone_do_not_shadow_themselves),
-        GL_TEST(normal_map_bends_normals_in_the_tangent_frame),
-        GL_TEST(normal_map_bends_the_light),
-        GL_TEST(sky_is_a_gradient_by_height_and_behind_everything),
-        GL_TEST(outside_the_view_nothing_is_drawn),
-        GL_TEST(effects_are_there_only_where_called_for),
-        GL_TEST(everything_on_shows_the_same),
-    };
-    return cmocka_run_group_tests_name("draw effects", tests, fixture_setup, fixture_teardown);
+    return test_run("draw effects", fixture_setup, fixture_teardown);
 }

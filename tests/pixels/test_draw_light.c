@@ -10,10 +10,6 @@
 #include "open_light.h"
 #include "small_scene.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 static const double pi = 3.14159265358979;
@@ -57,9 +53,8 @@ static double gradient_irradiance(double level, double tilt, double cos_up)
     return sum / (STEPS * STEPS);
 }
 
-static void gradient_lights_as_its_integral_says(void **state)
+TEST_GL(gradient_lights_as_its_integral_says)
 {
-    (void)state;
     const scene_lighting lighting = {
         .ambient = {0.5f, 0.3f, 0.4f}, .ambient_tilt = {0.3f, -0.2f, 0}, .direction_world = {0, -1, 0}};
     small_scene *s = frame_one_quad(small_scene_material(), NULL);
@@ -90,9 +85,8 @@ static double reflection_model(double base, double metallic, double roughness, d
     return (base * (1 - metallic) / pi + d * v * f) * nl;
 }
 
-static void reflection_is_that_of_the_model(void **state)
+TEST_GL(reflection_is_that_of_the_model)
 {
-    (void)state;
     static const double angles[] = {-0.6, 0, 0.3, 0.9, 1.3};
     int compared = 0;
     for (int k = 0; k < 16; k++) {
@@ -145,9 +139,8 @@ static void bent_color(small_scene *s, const scene_lighting *lighting, const dou
 
 /* Matte light of the gradient, whose first harmonic is all that is not even; and the cones of a metal, whose share
  * shows against the same surface in the open. */
-static void bent_normals_light_as_their_cones_say(void **state)
+TEST_GL(bent_normals_light_as_their_cones_say)
 {
-    (void)state;
     const scene_lighting lighting = {
         .ambient = {0.5f, 0.3f, 0.4f}, .ambient_tilt = {0.3f, -0.2f, 0}, .direction_world = {0, -1, 0}};
     const double n[3] = {0, 0, 1}, open[3] = {0, 0, 1};
@@ -182,9 +175,8 @@ static void bent_normals_light_as_their_cones_say(void **state)
     assert_true(darkened > 4);
 }
 
-static void nothing_is_brighter_than_its_surroundings(void **state)
+TEST_GL(nothing_is_brighter_than_its_surroundings)
 {
-    (void)state;
     const scene_lighting lighting = {.ambient = {0.8f, 0.8f, 0.8f}, .direction_world = {0, -1, 0}};
     for (int k = 0; k < 20; k++) {
         scene_material material = small_scene_material();
@@ -205,9 +197,8 @@ static void nothing_is_brighter_than_its_surroundings(void **state)
     }
 }
 
-static void punctual_lights_fall_off_as_the_extension_says(void **state)
+TEST_GL(punctual_lights_fall_off_as_the_extension_says)
 {
-    (void)state;
     const float candela = 2;
     const struct {
         scene_light light;
@@ -255,9 +246,8 @@ static void punctual_lights_fall_off_as_the_extension_says(void **state)
     free(s);
 }
 
-static void lights_of_the_scene_take_the_suns_place(void **state)
+TEST_GL(lights_of_the_scene_take_the_suns_place)
 {
-    (void)state;
     small_scene *s = frame_one_quad(small_scene_material(), NULL);
     scene_light lights[3] = {
         {.kind = SCENE_LIGHT_POINT, .color = {1, 1, 1}, .position_world = {0, 0, 30}},
@@ -318,9 +308,8 @@ static void assert_gradients(const uint8_t color[4], const double direction[3], 
 }
 
 /* Seen from several sides, sky, matte surface and mirror show directions of the world, not of the view. */
-static void a_picture_surrounds_the_scene(void **state)
+TEST_GL(a_picture_surrounds_the_scene)
 {
-    (void)state;
     /* What remains of a gradient, and Karis's fit for metal, which is 1 head-on at roughness 0 and the same in all
      * directions at 1; see main.frag. test_environment.c computes what a lobe of roughness 1 leaves. */
     static const struct {
@@ -408,9 +397,8 @@ static frame draw_world(const float up[3], const scene_environment *e)
 }
 
 /* Sun, sky and environment follow the world's up: the picture of a world that stands another way is the same. */
-static void light_follows_up(void **state)
+TEST_GL(light_follows_up)
 {
-    (void)state;
     static const float ups[][3] = {{0, 1, 0}, {0, 0, 1}, {0, -2, 0}, {1, 0, 0}, {-1, 2, 0.5f}};
     scene_environment *environments[] = {NULL, load_gradients(false)};
     for (int kind = 0; kind < 2; kind++) {
@@ -434,15 +422,5 @@ static void light_follows_up(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(gradient_lights_as_its_integral_says),
-        GL_TEST(reflection_is_that_of_the_model),
-        GL_TEST(bent_normals_light_as_their_cones_say),
-        GL_TEST(nothing_is_brighter_than_its_surroundings),
-        GL_TEST(punctual_lights_fall_off_as_the_extension_says),
-        GL_TEST(lights_of_the_scene_take_the_suns_place),
-        GL_TEST(a_picture_surrounds_the_scene),
-        GL_TEST(light_follows_up),
-    };
-    return cmocka_run_group_tests_name("draw light", tests, fixture_setup, fixture_teardown);
+    return test_run("draw light", fixture_setup, fixture_teardown);
 }

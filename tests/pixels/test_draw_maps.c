@@ -7,11 +7,6 @@
 #include "fixture.h"
 #include "small_scene.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { COUNT = 64 }; /* pixels in a row */
 
 typedef struct passes {
@@ -56,9 +51,8 @@ static double depth_at(const projection *p, double distance)
     return 0.5 + 0.5 * (p->a * z + p->b) / (p->c * z + p->e);
 }
 
-static void view_distance_is_the_analytic_one(void **state)
+TEST_GL(view_distance_is_the_analytic_one)
 {
-    (void)state;
     const double n = 0.25, f = 64;
     const projection projections[] = {
         {"perspective", -(f + n) / (f - n), -2 * f * n / (f - n), -1, 0, n, 0.99 * f},
@@ -103,9 +97,8 @@ static void view_distance_is_the_analytic_one(void **state)
     free_passes(&p);
 }
 
-static void map_keeps_its_orientation_and_values(void **state)
+TEST_GL(map_keeps_its_orientation_and_values)
 {
-    (void)state;
     passes p = make_passes();
     GLuint map;
     float texels[COUNT * 3];
@@ -128,9 +121,8 @@ static void map_keeps_its_orientation_and_values(void **state)
     free_passes(&p);
 }
 
-static void small_map_is_spread_linearly_and_upright(void **state)
+TEST_GL(small_map_is_spread_linearly_and_upright)
 {
-    (void)state;
     const float texels[2 * 2] = {0, 1, 2, 3}; /* lower left, lower right, upper left, upper right */
     passes p = make_passes();
     GLuint map;
@@ -150,9 +142,8 @@ static void small_map_is_spread_linearly_and_upright(void **state)
     free_passes(&p);
 }
 
-static void passes_leave_the_defaults(void **state)
+TEST_GL(passes_leave_the_defaults)
 {
-    (void)state;
     passes p = make_passes();
     const scene_view view = {.width = COUNT, .height = 1};
     const scene_lighting lighting = scene_default_lighting();
@@ -216,9 +207,8 @@ static small_scene *make_moving_quad(float mesh_x, float instance_y, float insta
 }
 
 /* Each pixel's motion is its uv minus that of its point in the last view and pose. */
-static void motion_tells_where_points_were(void **state)
+TEST_GL(motion_tells_where_points_were)
 {
-    (void)state;
     enum { SIDE = 48 };
     char error[512];
     const double moved[3] = {0.25, -0.125, 0.5}, eye_moved = 0.0625, z = -3 + moved[2];
@@ -277,10 +267,5 @@ static void motion_tells_where_points_were(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(view_distance_is_the_analytic_one),        GL_TEST(map_keeps_its_orientation_and_values),
-        GL_TEST(small_map_is_spread_linearly_and_upright), GL_TEST(passes_leave_the_defaults),
-        GL_TEST(motion_tells_where_points_were),
-    };
-    return cmocka_run_group_tests_name("draw maps", tests, fixture_setup, fixture_teardown);
+    return test_run("draw maps", fixture_setup, fixture_teardown);
 }

@@ -7,13 +7,8 @@
 #include "fixture.h"
 #include "small_scene.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-static void mask_draws_where_alpha_reaches_the_cutoff(void **state)
+TEST_GL(mask_draws_where_alpha_reaches_the_cutoff)
 {
-    (void)state;
     static const uint8_t halves[2 * 1 * 4] = {255, 255, 255, 51, 255, 255, 255, 204};
     scene_material material = small_scene_material();
     material.alpha = SCENE_ALPHA_MASK;
@@ -34,9 +29,8 @@ static void mask_draws_where_alpha_reaches_the_cutoff(void **state)
     assert_int_equal(frame_count_drawn_by(s), FRAME_SIZE * FRAME_SIZE / 4);
 }
 
-static void blended_adds_colour_but_no_depth_and_no_normal(void **state)
+TEST_GL(blended_adds_colour_but_no_depth_and_no_normal)
 {
-    (void)state;
     scene_material material = small_scene_material();
     material.alpha = SCENE_ALPHA_BLEND;
     material.unlit = true;
@@ -52,9 +46,8 @@ static void blended_adds_colour_but_no_depth_and_no_normal(void **state)
     free(s);
 }
 
-static void blended_is_drawn_back_to_front(void **state)
+TEST_GL(blended_is_drawn_back_to_front)
 {
-    (void)state;
     scene_lighting lighting = {.direction_world = {0, -1, 0}};
     for (int red_first = 0; red_first < 2; red_first++) {
         small_scene *s = small_scene_create();
@@ -75,9 +68,8 @@ static void blended_is_drawn_back_to_front(void **state)
     }
 }
 
-static void blended_is_hidden_by_opaque_in_front(void **state)
+TEST_GL(blended_is_hidden_by_opaque_in_front)
 {
-    (void)state;
     scene_material opaque = small_scene_material(), blended = small_scene_material();
     opaque.unlit = blended.unlit = true;
     blended.alpha = SCENE_ALPHA_BLEND;
@@ -92,9 +84,8 @@ static void blended_is_hidden_by_opaque_in_front(void **state)
     free(s);
 }
 
-static void accessibility_scales_ambient_light_alone(void **state)
+TEST_GL(accessibility_scales_ambient_light_alone)
 {
-    (void)state;
     const float half = 0.5f;
     const float pi = 3.14159265f;
     GLuint map;
@@ -125,9 +116,8 @@ static void accessibility_scales_ambient_light_alone(void **state)
 }
 
 /* uv (0, 0) of the quad is its upper left corner, and so is the first texel of the image. */
-static void texels_are_where_the_uvs_say(void **state)
+TEST_GL(texels_are_where_the_uvs_say)
 {
-    (void)state;
     static const uint8_t texels[2 * 2 * 4] = {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255};
     static const double colors[4][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
     /* The texels at the upper left, upper right, lower left and lower right of the picture. */
@@ -163,9 +153,8 @@ static void texels_are_where_the_uvs_say(void **state)
     }
 }
 
-static void vertex_colour_multiplies_base_colour(void **state)
+TEST_GL(vertex_colour_multiplies_base_colour)
 {
-    (void)state;
     scene_material material = small_scene_material();
     material.unlit = true;
     material.base_color[0] = 0.5f;
@@ -179,9 +168,8 @@ static void vertex_colour_multiplies_base_colour(void **state)
     free(s);
 }
 
-static void empty_scene_is_all_sky(void **state)
+TEST_GL(empty_scene_is_all_sky)
 {
-    (void)state;
     small_scene *s = small_scene_create();
     small_scene_add_material(s, small_scene_material());
     scene_lighting lighting = {.direction_world = {0, -1, 0}, .sky = {0.2f, 0.4f, 0.6f}};
@@ -192,9 +180,8 @@ static void empty_scene_is_all_sky(void **state)
     free(s);
 }
 
-static void images_beyond_the_driver_are_refused(void **state)
+TEST_GL(images_beyond_the_driver_are_refused)
 {
-    (void)state;
     static const uint8_t texel[4];
     scene_material material = small_scene_material();
     material.base_color_texture = 0;
@@ -214,16 +201,5 @@ static void images_beyond_the_driver_are_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(mask_draws_where_alpha_reaches_the_cutoff),
-        GL_TEST(blended_adds_colour_but_no_depth_and_no_normal),
-        GL_TEST(blended_is_drawn_back_to_front),
-        GL_TEST(blended_is_hidden_by_opaque_in_front),
-        GL_TEST(accessibility_scales_ambient_light_alone),
-        GL_TEST(texels_are_where_the_uvs_say),
-        GL_TEST(vertex_colour_multiplies_base_colour),
-        GL_TEST(empty_scene_is_all_sky),
-        GL_TEST(images_beyond_the_driver_are_refused),
-    };
-    return cmocka_run_group_tests_name("draw materials", tests, fixture_setup, fixture_teardown);
+    return test_run("draw materials", fixture_setup, fixture_teardown);
 }

@@ -11,6 +11,9 @@
 
 enum { W = 96, H = 64, N = W * H, FRAMES = 20 };
 
+/* How the host hands over what it has. */
+typedef enum situation { AS_IT_IS, IN_A_VIEWPORT, LOGARITHMIC, WITH_RAYS, SITUATION_COUNT } situation;
+
 /* What the camera sees from a place. The shapes are moved instead of the eye. */
 typedef struct shot {
     analytic_projection projection;
@@ -18,7 +21,78 @@ typedef struct shot {
     double box_x; /* how far the last shape has moved along x */
     int width, height, margin;
     bool depth_alone;
+    situation situation;
+    uint32_t noise; /* of the rays */
 } shot;
+
+static const double NEAREST = 0.5, FARTHEST = 40.0;
+
+/* The texture as a part of a larger one, which has 0.25 in all other texels. */
+static GLuint enlarge(GLuint texture, int channels, const int viewport[4])
+{
+    const int width = viewport[2] + 16, height = viewport[3] + 10;
+    float *part = channels == 1 ? fixture_read_depth(texture, viewport[2], viewport[3])
+                                : fixture_read_texture(texture, viewport[2], viewport[3], channels);
+    float *all = malloc((size_t)(width * height * channels) * sizeof *all);
+    for (int i = 0; i < width * height * channels; ++i)
+        all[i] = 0.25f;
+    for (int y = 0; y < viewport[3]; ++y)
+        memcpy(all + ((y + viewport[1]) * width + viewport[0]) * channels, part + y * viewport[2] * channels,
+               (size_t)(viewport[2] * channels) * sizeof *all);
+    const GLuint larger =
+        channels == 1 ? fixture_texture(GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, width, height, all)
+                      : fixture_texture(GL_RGBA32F, channels == 3 ? GL_RGB : GL_RGBA, GL_FLOAT, width, height, all);
+    gl.DeleteTextures(1, &texture);
+    free(part);
+    free(all);
+    return larger;
+}
+
+/* From window depth of the perspective projection, as three.js stores it. */
+static GLuint make_logarithmic(GLuint texture, int width, int height)
+{
+    float *depth = fixture_read_depth(texture, width, height);
+    for (int i = 0; i < width * height; ++i) {
+        const double distance = NEAREST * FARTHEST / (FARTHEST - (double)depth[i] * (FARTHEST - NEAREST));
+        depth[i] = depth[i] < 1.0f ? (float)(log2(distance + 1.0) / log2(FARTHEST + 1.0)) : 1.0f;
+    }
+    const GLuint made = fixture_texture(GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, width, height, depth);
+    gl.DeleteTextures(1, &texture);
+    free(depth);
+    return made;
+}
+
+/* Two rays a pixel that say 0.5 in the mean; one pixel in eight has none. */
+static GLuint make_rays(int width, int height, uint32_t noise)
+{
+    float *values = malloc((size_t)(width * height) * sizeof *values);
+    uint32_t random = 12345u + 2654435761u * noise;
+    for (int i = 0; i < width * height; ++i) {
+        random = random * 1664525u + 1013904223u;
+        const uint32_t roll = random >> 29;
+        values[i] = roll == 0 ? -1.0f : roll < 3 ? 0.0f : roll < 5 ? 1.0f : roll == 5 ? NAN : 0.5f;
+    }
+    const GLuint made = fixture_texture(GL_R32F, GL_RED, GL_FLOAT, width, height, values);
+    free(values);
+    return made;
+}
+
+static void put(glssao_frame *frame, const shot *s)
+{
+    const int viewport[4] = {7, 5, s->width, s->height};
+    if (s->situation == IN_A_VIEWPORT) {
+        memcpy(frame->viewport, viewport, sizeof viewport);
+        frame->depth_texture = enlarge(frame->depth_texture, 1, viewport);
+        frame->normal_texture = frame->normal_texture ? enlarge(frame->normal_texture, 3, viewport) : 0;
+    }
+    if (s->situation == LOGARITHMIC) {
+        frame->depth_kind = GLSSAO_DEPTH_LOGARITHMIC;
+        frame->log_depth_far = (float)FARTHEST;
+        frame->depth_texture = make_logarithmic(frame->depth_texture, s->width, s->height);
+    }
+    if (s->situation == WITH_RAYS)
+        frame->rays_texture = make_rays(s->width, s->height, s->noise);
+}
 
 static glssao_frame take(const shot *s)
 {
@@ -30,7 +104,7 @@ static glssao_frame take(const shot *s)
         room[i].center[0] -= s->x;
         room[i].center[2] -= s->z;
     }
-    const analytic_view view = analytic_make_view(s->projection, (double)s->width / s->height, 0.5, 40.0, 1.0);
+    const analytic_view view = analytic_make_view(s->projection, (double)s->width / s->height, NEAREST, FARTHEST, 1.0);
     glssao_frame frame = fixture_frame(&view, room, ANALYTIC_ROOM_SHAPES, s->width, s->height);
     if (s->depth_alone) {
         gl.DeleteTextures(1, &frame.normal_texture);
@@ -40,6 +114,7 @@ static glssao_frame take(const shot *s)
     frame.view[0] = frame.view[5] = frame.view[10] = frame.view[15] = 1.0f;
     frame.view[12] = (float)-s->x;
     frame.view[14] = (float)-s->z;
+    put(&frame, s);
     return frame;
 }
 
@@ -96,7 +171,7 @@ static float *make_floor(fixture *f, const shot *s, const glssao_settings *setti
     plain.half_resolution = false;
     float *sum = calloc((size_t)N, sizeof *sum);
     const glssao_frame frame = take(s);
-    const int count = 256;
+    const int count = 64;
     for (int i = 0; i < count; ++i) {
         plain.noise_index = (uint32_t)i;
         compute(effect, &frame, &plain);
@@ -459,6 +534,118 @@ static void motion_texture_keeps_the_history_of_what_moves(void **state)
     assert_true(errors[1] < 0.85 * errors[0]);
 }
 
+/* A few frames in motion. The caller frees. */
+static float *walk(glssao_effect *effect, shot s, const glssao_settings *settings, int frames)
+{
+    float *last = NULL;
+    for (int i = 0; i < frames; ++i) {
+        s.x = 0.05 * i;
+        s.noise = (uint32_t)i;
+        free(last);
+        last = shoot(effect, &s, settings);
+    }
+    return last;
+}
+
+/* Whatever the host hands over: the same frames give the same bits; a cut gives those of a first frame, and without it
+ * the history counts. A viewport gives the bits of the whole texture, and logarithmic depth nearly the same. */
+static void every_situation_has_a_history(void **state)
+{
+    fixture *f = *state;
+    static const struct {
+        glssao_technique technique;
+        situation situation;
+        analytic_projection projection;
+        int margin;
+        bool depth_alone, dispatched;
+    } cases[] = {
+        {GLSSAO_HORIZON, AS_IT_IS, PERSPECTIVE, 8, false, false},
+        {GLSSAO_HORIZON, IN_A_VIEWPORT, PERSPECTIVE, 8, false, false},
+        {GLSSAO_HORIZON, LOGARITHMIC, PERSPECTIVE, 8, false, false},
+        {GLSSAO_HORIZON, AS_IT_IS, ORTHOGRAPHIC_REVERSED, 0, true, true},
+        {GLSSAO_HORIZON, IN_A_VIEWPORT, ORTHOGRAPHIC_REVERSED, 0, true, true},
+        {GLSSAO_CLASSIC, AS_IT_IS, PERSPECTIVE_INFINITE_REVERSED_ZERO_TO_ONE, 0, true, false},
+        {GLSSAO_HEMISPHERE, IN_A_VIEWPORT, ORTHOGRAPHIC, 4, false, true},
+        {GLSSAO_RAYS, WITH_RAYS, PERSPECTIVE, 4, true, false},
+        {GLSSAO_HORIZON, WITH_RAYS, ORTHOGRAPHIC, 0, false, true},
+        {GLSSAO_CLASSIC, WITH_RAYS, PERSPECTIVE_REVERSED_ZERO_TO_ONE, 0, false, false},
+    };
+    float *whole = NULL;
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+        shot s = first_shot(cases[k].projection);
+        s.margin = cases[k].margin;
+        s.depth_alone = cases[k].depth_alone;
+        s.situation = cases[k].situation;
+        const glssao_settings settings = make_settings(cases[k].technique, GLSSAO_MEDIUM, 8);
+        const size_t size = (size_t)((W - 2 * s.margin) * (H - 2 * s.margin)) * sizeof(float);
+        glssao_config config = fixture_config(f, W, H);
+        config.path = cases[k].dispatched && !fixture_hides_newer() ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT;
+        glssao_effect *effects[3];
+        for (int i = 0; i < 3; ++i)
+            assert_int_equal(glssao_create(&config, &effects[i]), GLSSAO_OK);
+        float *once = walk(effects[0], s, &settings, 4), *again = walk(effects[1], s, &settings, 4);
+        assert_memory_equal(once, again, size);
+        s.x = 0.2;
+        glssao_frame frame = take(&s);
+        compute(effects[0], &frame, &settings);
+        compute(effects[2], &frame, &settings);
+        frame.cut = true;
+        compute(effects[1], &frame, &settings);
+        float *reused = read_result(effects[0]), *cut = read_result(effects[1]), *fresh = read_result(effects[2]);
+        assert_memory_equal(cut, fresh, size);
+        assert_memory_not_equal(reused, fresh, size);
+        if (k > 0 && cases[k].situation == IN_A_VIEWPORT && cases[k - 1].situation == AS_IT_IS &&
+            cases[k].projection == cases[k - 1].projection)
+            assert_memory_equal(once, whole, size);
+        if (cases[k].situation == LOGARITHMIC)
+            assert_true(rms(once, whole, (int)(size / sizeof *once)) < 5e-3);
+        fixture_delete_frame(&frame);
+        free(again);
+        free(reused);
+        free(cut);
+        free(fresh);
+        free(whole);
+        whole = once;
+        for (int i = 0; i < 3; ++i)
+            glssao_destroy(effects[i]);
+    }
+    free(whole);
+}
+
+/* Rays that differ from frame to frame: at rest the mean comes nearer to what they say, 0.5 in the open and closed
+ * alike, than one frame does, alone and as a correction. Where no ray says anything, what is known stays. */
+static void means_of_rays_converge(void **state)
+{
+    fixture *f = *state;
+    for (int alone = 0; alone < 2; ++alone)
+        for (int half = 0; half < 2; ++half) {
+            shot s = first_shot(PERSPECTIVE);
+            s.situation = WITH_RAYS;
+            glssao_settings settings = make_settings(alone ? GLSSAO_RAYS : GLSSAO_HORIZON, GLSSAO_MEDIUM, 16);
+            settings.half_resolution = half;
+            settings.power = 2.0f;
+            glssao_effect *effect = fixture_effect(f, W, H);
+            double errors[2];
+            float *result = NULL;
+            for (int i = 0; i < FRAMES; ++i) {
+                s.noise = (uint32_t)i;
+                free(result);
+                result = shoot(effect, &s, &settings);
+                double sum = 0.0;
+                int count = 0;
+                for (int y = 0; y < H / 3; ++y) /* the floor, without the sky */
+                    for (int x = 0; x < W; ++x, ++count)
+                        sum += pow((double)result[y * W + x] - 0.25, 2.0);
+                errors[i > 0] = sqrt(sum / count);
+            }
+            print_message("%s, %s: error of one frame %.4f, of the mean %.4f\n", alone ? "alone" : "correction",
+                          half ? "half size" : "full size", errors[0], errors[1]);
+            assert_true(errors[1] < 0.7 * errors[0]);
+            free(result);
+            glssao_destroy(effect);
+        }
+}
+
 static void every_technique_size_and_margin_runs(void **state)
 {
     fixture *f = *state;
@@ -531,6 +718,8 @@ int main(void)
         GL_TEST(shadows_of_what_moved_away_fade),
         GL_TEST(dispatches_do_as_draws),
         GL_TEST(motion_texture_keeps_the_history_of_what_moves),
+        GL_TEST(every_situation_has_a_history),
+        GL_TEST(means_of_rays_converge),
         GL_TEST(every_technique_size_and_margin_runs),
         GL_TEST(bad_views_are_refused_by_name),
     };

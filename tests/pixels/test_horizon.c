@@ -5,11 +5,6 @@
  */
 #include "analytic_shot.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const double PI = 3.14159265358979323846;
 static const double R16_STEP = 1.0 / 65535.0;
 static const char *const level_names[] = {"low", "medium", "high", "ultra"};
@@ -47,7 +42,7 @@ static double facing(const analytic_shot *s, int x, int y)
 /* Exact, except where the plane is seen at less than 3 degrees. Below 1.5 degrees the slope correction for samples
  * off the slice ends at 40, and the blur spreads the loss. Measured there: low 2, medium 1, high 2, ultra 23 steps
  * of R16. */
-static void plane_is_exactly_open_at_every_level(void **state)
+TEST_GL(plane_is_exactly_open_at_every_level)
 {
     static const double degrees[] = {0.0, 30.0, 60.0, 80.0, 89.0};
     for (int orthographic = 0; orthographic < 2; ++orthographic)
@@ -77,7 +72,7 @@ static void plane_is_exactly_open_at_every_level(void **state)
 
 /* A wall with a pillar and a ball in front of it, so far that none of it lies within the radius of the wall: the wall
  * is open. From two radii on, no pixel may be darker by more than 0.03. */
-static void nothing_far_in_front_casts_a_shade(void **state)
+TEST_GL(nothing_far_in_front_casts_a_shade)
 {
     static const double gaps[] = {2.05, 3.0, 4.4, 20.0};
     for (int i = 0; i < 8; ++i) {
@@ -126,7 +121,7 @@ static void add_layers(analytic_shot *s, double ground)
 /* Ground beside a block, seen straight down in a parallel projection, where nothing of the block is seen but its top.
  * The mean at its foot, from 0.05 to 0.25 radii, is within 0.08 of the truth for blocks of up to three radii, and for
  * any if a second layer is given. */
-static void ground_beside_a_block_is_near_the_integral(void **state)
+TEST_GL(ground_beside_a_block_is_near_the_integral)
 {
     static const double heights[] = {0.5, 1.0, 2.0, 3.0, 8.0};
     const double ground = -10.0, half = 1.5;
@@ -255,7 +250,7 @@ static void compare(fixture *f, const analytic_shape *shapes, int shape_count, b
 
 /* A floor and a wall, both seen at 45 degrees. Measured, mean and worst: low 0.0070, 0.0390; medium 0.0062, 0.0418;
  * high 0.0058, 0.0267; ultra 0.0058, 0.0176. */
-static void floor_beside_a_wall_is_near_the_integral(void **state)
+TEST_GL(floor_beside_a_wall_is_near_the_integral)
 {
     const double s = sqrt(0.5);
     const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, s, s}},
@@ -266,7 +261,7 @@ static void floor_beside_a_wall_is_near_the_integral(void **state)
 
 /* A corner of three walls, seen along its diagonal. Measured, mean and worst: low 0.0137, 0.0929; medium 0.0124,
  * 0.0978; high 0.0107, 0.0476; ultra 0.0104, 0.0288. */
-static void box_corner_is_near_the_integral(void **state)
+TEST_GL(box_corner_is_near_the_integral)
 {
     analytic_shape shapes[3];
     for (int i = 0; i < 3; ++i) {
@@ -282,7 +277,7 @@ static void box_corner_is_near_the_integral(void **state)
 /* A sphere of radius 0.8 that rests on a floor seen at 45 degrees. Measured, mean and worst: low 0.0220, 0.2718; medium
  * 0.0199, 0.2660; high 0.0168, 0.1828; ultra 0.0158, 0.1235. The worst are on the sphere's very rim, which half size
  * does not resolve. */
-static void sphere_on_plane_is_near_the_integral(void **state)
+TEST_GL(sphere_on_plane_is_near_the_integral)
 {
     const double s = sqrt(0.5);
     const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, s, s}},
@@ -292,9 +287,8 @@ static void sphere_on_plane_is_near_the_integral(void **state)
 }
 
 /* The closed form must agree with the rays that judge the sphere, and with values worked out by hand. */
-static void closed_forms_agree_with_rays(void **state)
+TEST(closed_forms_agree_with_rays)
 {
-    (void)state;
     assert_true(fabs(beside_walls(0.0, 1.0) - 0.5) < 1e-12);
     assert_true(fabs(beside_walls(0.0, 0.0) - 0.25) < 1e-12);
     assert_true(fabs(beside_walls(1.0, 1.0) - 1.0) < 1e-12);
@@ -314,11 +308,5 @@ static void closed_forms_agree_with_rays(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(closed_forms_agree_with_rays),    GL_TEST(plane_is_exactly_open_at_every_level),
-        GL_TEST(nothing_far_in_front_casts_a_shade),       GL_TEST(ground_beside_a_block_is_near_the_integral),
-        GL_TEST(floor_beside_a_wall_is_near_the_integral), GL_TEST(box_corner_is_near_the_integral),
-        GL_TEST(sphere_on_plane_is_near_the_integral),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

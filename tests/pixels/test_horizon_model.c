@@ -12,11 +12,6 @@
 #include "horizon_internals.h"
 #include "horizon_model.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const double R16_STEP = 1.0 / 65535.0;
 static const double PI = 3.14159265358979323846;
 
@@ -239,7 +234,7 @@ static void check_scene(fixture *f, const scene_options *o, const glssao_setting
 }
 
 /* Both scenes for both sizes and both projections, in turn. */
-static void agrees_for_every_sample_count_and_size(void **state)
+TEST_GL(agrees_for_every_sample_count_and_size)
 {
     static const int counts[] = {12, 16, 24, 32, 48, 64};
     for (int i = 0; i < 6; ++i)
@@ -256,7 +251,7 @@ static void agrees_for_every_sample_count_and_size(void **state)
             }
 }
 
-static void agrees_for_every_projection(void **state)
+TEST_GL(agrees_for_every_projection)
 {
     for (int p = 0; p < PROJECTION_COUNT; ++p) {
         char what[40];
@@ -268,7 +263,7 @@ static void agrees_for_every_projection(void **state)
 }
 
 /* Radii from a few pixels to far more than the picture; another exponent; rebuilt normals. */
-static void agrees_at_other_settings(void **state)
+TEST_GL(agrees_at_other_settings)
 {
     static const double radii[] = {0.15, 4.0, 1e3, 1e6};
     for (int i = 0; i < 8; ++i) {
@@ -288,7 +283,7 @@ static void agrees_at_other_settings(void **state)
 }
 
 /* The picture's middle is about 5 units away. */
-static void agrees_for_thickness_far_fade_and_radius_in_pixels(void **state)
+TEST_GL(agrees_for_thickness_far_fade_and_radius_in_pixels)
 {
     static const float thicknesses[] = {0.25f, 0.5f, 3.0f}, fades[][2] = {{4.0f, 12.0f}, {0.0f, 14.0f}, {8.6f, 8.6f}};
     for (int i = 0; i < 6; ++i) {
@@ -307,7 +302,7 @@ static void agrees_for_thickness_far_fade_and_radius_in_pixels(void **state)
     }
 }
 
-static void agrees_for_bent_normals(void **state)
+TEST_GL(agrees_for_bent_normals)
 {
     static const int counts[] = {12, 16, 24, 48};
     for (int i = 0; i < 4; ++i) {
@@ -404,7 +399,7 @@ static void check_random_frame(fixture *f, const random_options *o, uint32_t *ra
     free(normals);
 }
 
-static void agrees_on_random_frames(void **state)
+TEST_GL(agrees_on_random_frames)
 {
     static const int counts[] = {12, 16, 24, 32, 48, 64};
     for (uint32_t seed = 1; seed <= 24; ++seed) {
@@ -425,7 +420,7 @@ static void agrees_on_random_frames(void **state)
 }
 
 /* The radius is some 10^5 pixels, which is the bound. In some pixels the first sample is then still in the picture. */
-static void agrees_where_the_radius_is_beyond_the_picture(void **state)
+TEST_GL(agrees_where_the_radius_is_beyond_the_picture)
 {
     uint32_t random = 1;
     const random_options o = {
@@ -434,7 +429,7 @@ static void agrees_where_the_radius_is_beyond_the_picture(void **state)
 }
 
 /* Lengths so small that the squared distance of a missing layer, in radii, exceeds a float. */
-static void agrees_on_layers_of_a_small_scene(void **state)
+TEST_GL(agrees_on_layers_of_a_small_scene)
 {
     uint32_t random = 1;
     const random_options o = {41, 41, 32, .layers = true, .roughness = 0.1, .radius = 1e-7, .scale = 1e-7};
@@ -442,7 +437,7 @@ static void agrees_on_layers_of_a_small_scene(void **state)
 }
 
 /* Each estimate that glssao_accumulate adds has its own noise; every second one mirrors the tile. */
-static void agrees_for_each_estimate_of_a_still_view(void **state)
+TEST_GL(agrees_for_each_estimate_of_a_still_view)
 {
     enum { WIDTH = 80, HEIGHT = 60, ESTIMATES = 5 };
     analytic_shape shapes[SCENE_SHAPES];
@@ -501,9 +496,8 @@ static void agrees_for_each_estimate_of_a_still_view(void **state)
 }
 
 /* Compares the polynomial with the integral of cos(t - g) sin(t) over 0 <= t <= acos(c), g to either side. */
-static void measure_is_near_the_integral(void **state)
+TEST(measure_is_near_the_integral)
 {
-    (void)state;
     double worst = 0.0;
     for (int degrees = -90; degrees <= 90; degrees += 3)
         for (int i = 0; i <= 100; ++i) {
@@ -524,17 +518,5 @@ static void measure_is_near_the_integral(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(measure_is_near_the_integral),
-        GL_TEST(agrees_for_every_sample_count_and_size),
-        GL_TEST(agrees_for_every_projection),
-        GL_TEST(agrees_at_other_settings),
-        GL_TEST(agrees_on_random_frames),
-        GL_TEST(agrees_for_thickness_far_fade_and_radius_in_pixels),
-        GL_TEST(agrees_for_bent_normals),
-        GL_TEST(agrees_where_the_radius_is_beyond_the_picture),
-        GL_TEST(agrees_on_layers_of_a_small_scene),
-        GL_TEST(agrees_for_each_estimate_of_a_still_view),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -11,11 +11,6 @@
 #include "kernel.h"
 #include "model.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const double R16_STEP = 1.0 / 65535.0;
 
 /* The result of the linear wrapping sampler for each ambient pixel. Drivers may filter 8-bit texels with few bits, so
@@ -172,7 +167,7 @@ static void check_blur(setup *s, const char *what, double least_change)
     assert_true(changed > least_change);
 }
 
-static void estimate_agrees_for_every_projection(void **state)
+TEST_GL(estimate_agrees_for_every_projection)
 {
     static const char *const names[PROJECTION_COUNT] = {
         "perspective",  "off-centre",           "infinite", "reversed", "infinite reversed",
@@ -185,7 +180,7 @@ static void estimate_agrees_for_every_projection(void **state)
     }
 }
 
-static void estimate_agrees_at_half_size_and_odd_sizes(void **state)
+TEST_GL(estimate_agrees_at_half_size_and_odd_sizes)
 {
     static const int sizes[][2] = {{200, 120}, {201, 121}, {67, 254}};
     for (int i = 0; i < 3; ++i) {
@@ -196,7 +191,7 @@ static void estimate_agrees_at_half_size_and_odd_sizes(void **state)
     }
 }
 
-static void estimate_agrees_for_24_bit_depth(void **state)
+TEST_GL(estimate_agrees_for_24_bit_depth)
 {
     setup s;
     set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH24_STENCIL8, 200, 120, 1.0, true});
@@ -204,7 +199,7 @@ static void estimate_agrees_for_24_bit_depth(void **state)
     tear_down(&s);
 }
 
-static void estimate_agrees_at_other_settings(void **state)
+TEST_GL(estimate_agrees_at_other_settings)
 {
     setup s;
     set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 200, 120, 1.0, false});
@@ -219,7 +214,7 @@ static void estimate_agrees_at_other_settings(void **state)
     tear_down(&s);
 }
 
-static void estimate_agrees_for_unnormalised_and_unsigned_normals(void **state)
+TEST_GL(estimate_agrees_for_unnormalised_and_unsigned_normals)
 {
     setup s;
     set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 100, 80, 1.0, false});
@@ -239,7 +234,7 @@ static void estimate_agrees_for_unnormalised_and_unsigned_normals(void **state)
     tear_down(&s);
 }
 
-static void estimate_agrees_without_angle_weight(void **state)
+TEST_GL(estimate_agrees_without_angle_weight)
 {
     setup s;
     set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 200, 120, 1.0, false});
@@ -274,7 +269,7 @@ static void store_distances(setup *s, glssao_depth kind)
     free(rgba);
 }
 
-static void estimates_agree_for_stored_distances(void **state)
+TEST_GL(estimates_agree_for_stored_distances)
 {
     static const glssao_depth kinds[] = {GLSSAO_DEPTH_VIEW_DISTANCE, GLSSAO_DEPTH_NORMAL_ALPHA};
     for (int kind = 0; kind < 2; ++kind)
@@ -299,7 +294,7 @@ static void use_hemisphere(setup *s, int sample_count)
     s->input.rotations = (const float(*)[4])s->rotations;
 }
 
-static void hemisphere_agrees_for_every_projection(void **state)
+TEST_GL(hemisphere_agrees_for_every_projection)
 {
     for (int p = 0; p < PROJECTION_COUNT; ++p) {
         setup s;
@@ -311,7 +306,7 @@ static void hemisphere_agrees_for_every_projection(void **state)
     }
 }
 
-static void hemisphere_agrees_at_other_settings(void **state)
+TEST_GL(hemisphere_agrees_at_other_settings)
 {
     static const int counts[] = {1, 7, 64};
     for (int i = 0; i < 3; ++i) {
@@ -327,7 +322,7 @@ static void hemisphere_agrees_at_other_settings(void **state)
 }
 
 /* The picture's middle is about 5 units away. */
-static void estimates_agree_for_far_fade_and_radius_in_pixels(void **state)
+TEST_GL(estimates_agree_for_far_fade_and_radius_in_pixels)
 {
     static const float fades[][2] = {{4.0f, 9.0f}, {8.6f, 8.6f}};
     for (int i = 0; i < 8; ++i) {
@@ -349,7 +344,7 @@ static void estimates_agree_for_far_fade_and_radius_in_pixels(void **state)
 }
 
 /* Steps of depth must not occlude, even though no other bias hides them. */
-static void estimates_agree_for_16_bit_depth(void **state)
+TEST_GL(estimates_agree_for_16_bit_depth)
 {
     for (int hemisphere = 0; hemisphere < 2; ++hemisphere) {
         setup s;
@@ -364,7 +359,7 @@ static void estimates_agree_for_16_bit_depth(void **state)
 }
 
 /* A single sample at any angle: if it is hidden, accessibility is 0, which a small power raises visibly. */
-static void estimates_agree_where_nothing_is_left(void **state)
+TEST_GL(estimates_agree_where_nothing_is_left)
 {
     for (int hemisphere = 0; hemisphere < 2; ++hemisphere) {
         setup s;
@@ -381,7 +376,7 @@ static void estimates_agree_where_nothing_is_left(void **state)
 
 /* The radius exceeds the distance of everything visible. Samples behind the camera must be neither mirrored into the
  * picture nor counted. */
-static void estimates_agree_with_samples_behind_the_camera(void **state)
+TEST_GL(estimates_agree_with_samples_behind_the_camera)
 {
     for (int hemisphere = 0; hemisphere < 2; ++hemisphere) {
         setup s;
@@ -397,7 +392,7 @@ static void estimates_agree_with_samples_behind_the_camera(void **state)
 }
 
 /* Normals parallel to the tile's own rotation vectors, with which they span no plane. */
-static void hemisphere_agrees_for_normals_along_the_noise(void **state)
+TEST_GL(hemisphere_agrees_for_normals_along_the_noise)
 {
     setup s;
     set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 151, 100, 1.0, false});
@@ -426,7 +421,7 @@ static void octahedral(const float n[3], float out[2])
     out[1] = (float)y;
 }
 
-static void octahedral_normals_shade_like_plain_ones(void **state)
+TEST_GL(octahedral_normals_shade_like_plain_ones)
 {
     for (int hemisphere = 0; hemisphere < 2; ++hemisphere) {
         setup s;
@@ -452,7 +447,7 @@ static void octahedral_normals_shade_like_plain_ones(void **state)
     }
 }
 
-static void blur_agrees(void **state)
+TEST_GL(blur_agrees)
 {
     static const glssao_blur kinds[] = {GLSSAO_BLUR_BILATERAL, GLSSAO_BLUR_GAUSSIAN, GLSSAO_BLUR_BOX};
     static const char *const names[] = {"bilateral", "gaussian", "box"};
@@ -470,23 +465,5 @@ static void blur_agrees(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(estimate_agrees_for_every_projection),
-        GL_TEST(estimate_agrees_at_half_size_and_odd_sizes),
-        GL_TEST(estimate_agrees_for_24_bit_depth),
-        GL_TEST(estimate_agrees_at_other_settings),
-        GL_TEST(estimate_agrees_for_unnormalised_and_unsigned_normals),
-        GL_TEST(estimate_agrees_without_angle_weight),
-        GL_TEST(estimates_agree_for_stored_distances),
-        GL_TEST(hemisphere_agrees_for_every_projection),
-        GL_TEST(hemisphere_agrees_at_other_settings),
-        GL_TEST(estimates_agree_for_far_fade_and_radius_in_pixels),
-        GL_TEST(estimates_agree_for_16_bit_depth),
-        GL_TEST(estimates_agree_where_nothing_is_left),
-        GL_TEST(estimates_agree_with_samples_behind_the_camera),
-        GL_TEST(hemisphere_agrees_for_normals_along_the_noise),
-        GL_TEST(octahedral_normals_shade_like_plain_ones),
-        GL_TEST(blur_agrees),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -6,11 +6,6 @@
 #include "analytic.h"
 #include "fixture.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static glssao_technique technique; /* all tests run once for each */
 static glssao_quality quality = GLSSAO_HIGH;
 
@@ -72,7 +67,7 @@ static picture shade_room(fixture *f, analytic_projection projection, double sca
     return shade(f, &view, room, ANALYTIC_ROOM_SHAPES, 150, 100, bring_normals, &settings);
 }
 
-static void plane_is_open_at_any_angle_and_scale(void **state)
+TEST_GL(plane_is_open_at_any_angle_and_scale)
 {
     static const double degrees[] = {0.0, 30.0, 60.0, 80.0, 88.0, 89.9};
     static const double scales[] = {1e-4, 1.0, 1e4};
@@ -93,7 +88,7 @@ static void plane_is_open_at_any_angle_and_scale(void **state)
             }
 }
 
-static void sky_alone_is_open(void **state)
+TEST_GL(sky_alone_is_open)
 {
     for (int projection = 0; projection < PROJECTION_COUNT; ++projection) {
         analytic_view view = analytic_make_view((analytic_projection)projection, 1.5, 0.5, 40.0, 1.0);
@@ -106,7 +101,7 @@ static void sky_alone_is_open(void **state)
     }
 }
 
-static void runs_are_bit_equal_and_seeds_differ(void **state)
+TEST_GL(runs_are_bit_equal_and_seeds_differ)
 {
     fixture *f = *state;
     float *pictures[3];
@@ -130,7 +125,7 @@ static void runs_are_bit_equal_and_seeds_differ(void **state)
 }
 
 /* The last sizes resize one effect, so stale maps would show. */
-static void resizes_through_odd_sizes_down_to_one_pixel(void **state)
+TEST_GL(resizes_through_odd_sizes_down_to_one_pixel)
 {
     static const int sizes[][2] = {{66, 46}, {63, 47}, {640, 3}, {3, 640}, {2, 2}, {1, 9}, {9, 1}, {1, 1}, {66, 46}};
     glssao_effect *effect = fixture_shared_effect(*state, 128, 128);
@@ -157,7 +152,7 @@ static void resizes_through_odd_sizes_down_to_one_pixel(void **state)
         }
 }
 
-static void rebuilt_normals_shade_like_brought_ones(void **state)
+TEST_GL(rebuilt_normals_shade_like_brought_ones)
 {
     picture brought = shade_room(*state, PERSPECTIVE, 1.0, true), rebuilt = shade_room(*state, PERSPECTIVE, 1.0, false);
     const double mean = mean_difference(&brought, &rebuilt);
@@ -167,7 +162,7 @@ static void rebuilt_normals_shade_like_brought_ones(void **state)
     free(rebuilt.values);
 }
 
-static void rebuilt_normals_are_right_up_to_silhouettes(void **state)
+TEST_GL(rebuilt_normals_are_right_up_to_silhouettes)
 {
     fixture *f = *state;
     enum { W = 150, H = 100 };
@@ -202,7 +197,7 @@ static void rebuilt_normals_are_right_up_to_silhouettes(void **state)
 }
 
 /* On one plane there is nothing to choose, so only the rounding of depth is left, at both sizes of the estimate. */
-static void rebuilt_normals_of_a_plane_are_exact(void **state)
+TEST_GL(rebuilt_normals_of_a_plane_are_exact)
 {
     fixture *f = *state;
     enum { W = 61, H = 41 };
@@ -233,7 +228,7 @@ static void rebuilt_normals_of_a_plane_are_exact(void **state)
     }
 }
 
-static void apply_multiplies_colour_and_leaves_alpha(void **state)
+TEST_GL(apply_multiplies_colour_and_leaves_alpha)
 {
     fixture *f = *state;
     enum { W = 64, H = 48 };
@@ -265,7 +260,7 @@ static void apply_multiplies_colour_and_leaves_alpha(void **state)
     glssao_destroy(effect);
 }
 
-static void skipped_frame_is_open(void **state)
+TEST_GL(skipped_frame_is_open)
 {
     glssao_effect *effect = fixture_shared_effect(*state, 90, 60);
     const glssao_frame frame = fixture_room(PERSPECTIVE, 90, 60);
@@ -282,17 +277,6 @@ static void skipped_frame_is_open(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(plane_is_open_at_any_angle_and_scale),
-        GL_TEST(sky_alone_is_open),
-        GL_TEST(runs_are_bit_equal_and_seeds_differ),
-        GL_TEST(resizes_through_odd_sizes_down_to_one_pixel),
-        GL_TEST(rebuilt_normals_shade_like_brought_ones),
-        GL_TEST(rebuilt_normals_are_right_up_to_silhouettes),
-        GL_TEST(rebuilt_normals_of_a_plane_are_exact),
-        GL_TEST(apply_multiplies_colour_and_leaves_alpha),
-        GL_TEST(skipped_frame_is_open),
-    };
     static const struct {
         const char *name;
         glssao_technique technique;
@@ -307,7 +291,7 @@ int main(void)
     for (size_t i = 0; i < sizeof groups / sizeof *groups; ++i) {
         technique = groups[i].technique;
         quality = groups[i].quality;
-        failed += cmocka_run_group_tests_name(groups[i].name, tests, fixture_setup, fixture_teardown);
+        failed += test_run(groups[i].name, fixture_setup, fixture_teardown);
     }
     return failed;
 }

@@ -264,6 +264,7 @@ static void corrections_agree_with_their_model(void **state)
         set_up_room(&s, *state, i ? ORTHOGRAPHIC : PERSPECTIVE, 120, 90);
         float *rays = bring_noise(&s, true);
         s.settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
+        s.settings.upsample = false;
         s.settings.radius = 0.8f;
         s.settings.power = powers[i];
         s.settings.blur_rounds = 1;

@@ -6,11 +6,6 @@
 #include "analytic.h"
 #include "fixture.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum {
     SCENES = 100,
     W = 160,
@@ -109,7 +104,7 @@ static int count_specks(fixture *f, const shot *s, const glssao_frame *frame, in
 
 /* Measured: low 12, medium 11, high 5, ultra 25 of 1,920,000 pixels each. Without BLUR_ALONE: 45, 43, 43, 45. What is
  * left are ribs of one pixel, as dark all along by their few samples, and pixels that a single neighbour joins. */
-static void random_scenes_have_few_specks(void **state)
+TEST_GL(random_scenes_have_few_specks)
 {
     static const int most[] = {15, 14, 8, 30};
     int counts[4] = {0};
@@ -141,8 +136,5 @@ static void random_scenes_have_few_specks(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(random_scenes_have_few_specks),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -9,10 +9,6 @@
 #include "fixture.h"
 #include "small_scene.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { WIDTH = 192, HEIGHT = 128 };
 
 typedef struct shaded {
@@ -69,7 +65,7 @@ static small_scene *make_scene(void)
     return s;
 }
 
-static void transformed_instances_shade_like_baked_triangles(void **state)
+TEST_GL(transformed_instances_shade_like_baked_triangles)
 {
     small_scene *s = make_scene(), *b = small_scene_baked(s);
     const camera c = {.eye = {1, 2.5f, 4},
@@ -112,8 +108,5 @@ static void transformed_instances_shade_like_baked_triangles(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(transformed_instances_shade_like_baked_triangles),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

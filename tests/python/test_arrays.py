@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Arrays in, an array out: known answers, files, threads, forked processes, and what wrong input raises."""
 import os
+import shutil
+import subprocess
+import sys
 import tempfile
 import threading
 import unittest
@@ -112,6 +115,11 @@ class Occlusion(Case):
             (ValueError, "projection is transposed: its last row must be 0, 0, -1, 0; pass projection.T",
              (depth, PROJECTION.T, 1), {}),
             (ValueError, "quality = 'best': want low, medium, high, ultra", (depth, PROJECTION, 1), {"quality": "best"}),
+            (ValueError, "quality = 3: want low, medium, high, ultra", (depth, PROJECTION, 1), {"quality": 3}),
+            (ValueError, "depth holds values of type complex128: want real numbers", (depth + 1j, PROJECTION, 1), {}),
+            (ValueError, "depth holds values of type datetime64[s]: want real numbers", (depth.astype("M8[s]"), PROJECTION, 1),
+             {}),
+            (ValueError, "normals holds values of type <U1: want real numbers", (depth, PROJECTION, 1, [[["x"] * 3]]), {}),
             (ValueError, "blur = 'soft': want none, gaussian, bilateral, box, planar", (depth, PROJECTION, 1),
              {"blur": "soft"}),
         ]:
@@ -119,6 +127,16 @@ class Occlusion(Case):
                 self.assertRefused(kind, line, glssao.occlusion, *arguments, **options)
         with self.assertRaisesRegex(TypeError, "unknown: powr; known: .*power, radius"):
             glssao.occlusion(depth, PROJECTION, 1, powr=2)
+        for line, function, arguments in [
+            ("fov = 0: want a positive number", glssao.perspective, (0, 4, 3)),
+            ("fov = 180: want less than 180 degrees", glssao.perspective, (180, 4, 3)),
+            ("fov = nan: want a positive number", glssao.perspective, (float("nan"), 4, 3)),
+            ("height = 0: want a positive number", glssao.perspective, (45, 4, 0)),
+            ("fx = -1: want a positive number", glssao.pinhole, (-1, 1, 2, 2, 4, 4)),
+            ("width = inf: want a positive number", glssao.orthographic, (float("inf"), 1)),
+        ]:
+            with self.subTest(line):
+                self.assertRefused(ValueError, line, function, *arguments)
 
 
 class Heightmap(Case):
@@ -160,7 +178,23 @@ class Files(Case):
             np.save(path, np.array([["text"]]))
             self.assertRefused(glssao.Error, f"{path}: numbers of a type that is neither float nor integer",
                                glssao.read_depth, path)
+            self.assertRefused(ValueError, "a path can't hold a zero character", glssao.read_depth, path + "\0.npy")
             self.assertRefused(glssao.Error, f"{folder}/none: No such file or directory", glssao.read_depth, f"{folder}/none")
+
+
+    def test_a_decimal_comma_changes_nothing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            made = subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", folder + "/de_DE.UTF-8"], capture_output=True) \
+                if shutil.which("localedef") else None
+            if not made or made.returncode > 1:  # 1: with warnings
+                self.skipTest("no localedef, or no source of a locale with a decimal comma")
+            path = os.path.join(folder, "depth.pfm")
+            with open(path, "wb") as file:
+                file.write(b"Pf\n2 1\n-1.0\n" + np.array([1.5, 2.5], "<f4").tobytes())
+            script = ("import locale, glssao; assert locale.setlocale(locale.LC_ALL, 'de_DE.UTF-8');"
+                      "assert locale.str(1.5) == '1,5'; depth = glssao.read_depth(r'%s'); assert depth.tolist() == [[1.5, 2.5]];"
+                      "glssao.occlusion(depth, glssao.perspective(45, 2, 1), 0.5, power=1.5)" % path)
+            subprocess.run([sys.executable, "-c", script], check=True, env={**os.environ, "LOCPATH": folder})
 
 
 class Threads(Case):

@@ -38,6 +38,8 @@ class Render(Case):
         with self.assertRaisesRegex(glssao.Error, "unknown option --colour"):
             glssao.render(colour=1, **SMALL)
         self.assertRefused(ValueError, "output = 'video': want picture, ao, depth, normals", glssao.render, output="video")
+        self.assertRefused(ValueError, "with these options glssao-render makes no single picture: frames", glssao.render, frames=2,
+                           **SMALL)
         os.environ["GLSSAO_RENDER"] = "/no/such/program"
         try:
             with self.assertRaisesRegex(glssao.Error, "^/no/such/program: No such file or directory"):

@@ -48,6 +48,9 @@ LIST
 sed 's/\$to/batch/' list | sed 's/\$to/batch/;s/\$to/batch/' >batch.txt
 sed 's/\$to/each/' list | sed 's/\$to/each/;s/\$to/each/' >each.txt
 
+printf '\xef\xbb\xbf-o windows.png\r\n\r\n' >windows.txt
+want 0 "windows.txt: 1 of 1 jobs done" -s 24x16 --batch windows.txt
+[ -s windows.png ] || fail "a list with a byte order mark and carriage returns makes other files"
 want 0 "batch.txt: 8 of 8 jobs done, 0 failed; 16 pictures in " -s 33x21 --batch batch.txt --cache 0
 while IFS= read -r line; do
     eval "set -- $line"

@@ -27,6 +27,9 @@ size="-s 65x37"
         starts $name 0 ffd8ff
         od -An -v -tx1 $name | tr -d ' \n' | grep -q ffc000110800250041 || fail "$name is not 65 x 37 in colour"
     done
+    want 0 "" $size -o UPPER.JPG --ao UPPER.PFM # as cameras and Windows name them
+    starts UPPER.JPG 0 ffd8ff
+    starts UPPER.PFM 0 5066
     if "$render" $size -o a.webp 2>err; then
         starts a.webp 0 52494646
         starts a.webp 8 57454250

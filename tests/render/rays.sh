@@ -35,6 +35,8 @@ want 2 "--rays" --rays 65 --ao a.pfm
 want 2 "--rays 2 and --technique raytrace" --rays 2 -t raytrace --ao a.pfm
 want 2 "--rays 2 and --no-ao" --rays 2 --no-ao -o a.png
 want 2 "--rays 2 and --error" --rays 2 --error 0.1 --ao a.pfm
+want 2 "--adaptive-rays: no rays are traced" --adaptive-rays --ao a.pfm
+want 2 "--rays 17: at most 16" --adaptive-rays --rays 17 --ao a.pfm
 want 2 "--samples 3: --rays sets" -t rays --samples 3 --ao a.pfm
 want 0 "" -t rays --ao a.pfm --plan --stats a.json
 check "the plan says what is traced" grep -qE '^tracing +run +0 +65x37 +4 rays' out
@@ -49,6 +51,9 @@ check "no rays without being asked" grep -qE '^tracing +skip' out
 want 0 "" --rays 2 --ao e.pfm --plan
 check "rays correct" grep -qE '^rays +run' out
 check "a correction changes the result" [ "$(cksum <d.pfm)" != "$(cksum <e.pfm)" ]
+want 0 "" -t rays --adaptive-rays --ao k.pfm --plan
+check "the plan says that counts differ" grep -qE '^tracing +run +0 +65x37 +about 4 rays' out
+check "counts differ" [ "$(cksum <a.pfm)" != "$(cksum <k.pfm)" ]
 for quality in low medium high ultra; do
     want 0 "" -t rays -q $quality --margin 8 -o $quality.png --samples-per-pixel 2
     want 0 "" -t classic -q $quality --rays 1 --ao $quality.pfm --frames 2

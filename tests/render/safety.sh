@@ -97,6 +97,24 @@ if [ -n "$bake" ]; then
     rm kept/baked.glb
 fi
 
+# What could not be printed is a failure, told once; a closed stream's number goes to no file. A write-protected file stays.
+for arguments in --help --version "-s 24x16 --plan" "-s 24x16 --bench 1" "-s 24x16 -o -" "-s 24x16 --stats -"; do
+    for target in /dev/full "&-"; do
+        # shellcheck disable=SC2086
+        eval "\"$render\" $arguments 2>err >$target"
+        [ $? = 1 ] || fail "$arguments >$target does not fail"
+        [ "$(grep -c '^glssao-render: standard output: ' err)" = 1 ] || fail "$arguments >$target is not told once"
+    done
+done
+want 0 "" "${small[@]}" --frames 3 -o open.png
+"${small[@]}" --frames 3 -o closed.png <&- >&- 2>&- || fail "closed streams: exit $?"
+for i in 1 2 3; do cmp open-000$i.png closed-000$i.png || fail "closed streams change picture $i"; done
+chmod 444 over.png
+if [ ! -w over.png ]; then # root may write
+    want 1 "Permission denied" "${small[@]}" -o over.png scene.gltf
+fi
+chmod 644 over.png
+
 # A FIFO that nobody writes to does not hang a job; a list may come through one.
 mkfifo pipe.hdr list.fifo
 want 1 "pipe.hdr: not a regular file" timeout 20 "${small[@]}" --environment pipe.hdr -o x.png
@@ -109,8 +127,8 @@ long=(-t raytrace --samples 65536 -s 640x480)
 if "$render" -t raytrace -s 4x4 -o x.png 2>err; then
     want 1 "--timeout 0.5: not done by then" timeout 20 "$render" "${long[@]}" -o late.png --timeout 0.5
     printf -- '-o 1.png\n%s -o 2.png\n-o 3.png\n' "${long[*]}" >list
-    want 1 "list: 2 of 3 jobs done, 1 failed; 2 pictures" timeout 60 "${small[@]}" --batch list --timeout 2
-    grep -qF "list:2: --timeout 2: not done by then" err || fail "the late job is not named"
+    want 1 "list: 2 of 3 jobs done, 1 failed; 2 pictures" timeout 60 "${small[@]}" --batch list --timeout 5
+    grep -qF "list:2: --timeout 5: not done by then" err || fail "the late job is not named"
     [ -s 1.png ] && [ -s 3.png ] && [ ! -e 2.png ] || fail "--timeout: the wrong jobs were done"
 
     # Signals: the job ends, the summary comes, and nothing half written stays.

@@ -6,11 +6,6 @@
 #include "picture.h"
 #include "techniques.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { W = 160, H = 110, TIMES = 3 };
 
 static const char *name, *folder;
@@ -43,7 +38,7 @@ static void shade(fixture *f, const char *what, const subject *s, depth_store de
     fixture_delete_frame(&frame);
 }
 
-static void draw(void **state)
+TEST(draw)
 {
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     /* Far away with 16 bits: steps of depth up to half the radius. */
@@ -76,6 +71,5 @@ int main(int argc, char **argv)
     }
     name = argv[1];
     folder = argv[2];
-    const struct CMUnitTest tests[] = {cmocka_unit_test(draw)};
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -6,10 +6,6 @@
 #include "faulty_gl.h"
 #include "techniques.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { W = 32, H = 24 };
 
 static int stride = 1;
@@ -195,7 +191,7 @@ static bool fail_once(fixture *f, const act *a, int number)
     return kind != FAULT_NONE;
 }
 
-static void each_call_survives_each_fault(void **state)
+TEST_GL(each_call_survives_each_fault)
 {
     static const act acts[] = {
         {"create", create, NULL, false},
@@ -270,8 +266,5 @@ int main(int argc, char **argv)
 {
     if (argc > 1)
         stride = atoi(argv[1]) > 0 ? atoi(argv[1]) : 1;
-    const struct CMUnitTest tests[] = {
-        GL_TEST(each_call_survives_each_fault),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return test_run(NULL, set_up, tear_down);
 }

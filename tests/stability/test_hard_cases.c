@@ -6,11 +6,6 @@
  */
 #include "hard_case.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static int stride = 1, pictures;
 static const char *only; /* the name of the only case; NULL: all */
 
@@ -228,14 +223,14 @@ static void run(fixture *f, const hard_case *c)
         pictures += hard_case_run(f, c, c->width > 1000 ? 8 * stride + 1 : stride);
 }
 
-static void hard_cases(void **state)
+TEST_GL(hard_cases)
 {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i)
         run(*state, &cases[i]);
 }
 
 /* A plane in every projection, upright and mirrored. */
-static void projections(void **state)
+TEST_GL(projections)
 {
     for (int projection = 0; projection < PROJECTION_COUNT; ++projection)
         for (int flip = 0; flip < 2; ++flip) {
@@ -254,7 +249,7 @@ static void projections(void **state)
 }
 
 /* A plane with every way to store depth and normals, near and far. Normals of 8 bits are off by half a degree. */
-static void stores(void **state)
+TEST_GL(stores)
 {
     for (int depth = 0; depth < DEPTH_STORES; ++depth)
         for (int far = 0; far < 2; ++far) {
@@ -272,9 +267,8 @@ static void stores(void **state)
         }
 }
 
-static void picture_count(void **state)
+TEST_GL(picture_count)
 {
-    (void)state;
     print_message("%d pictures\n", pictures);
     assert_true(pictures > (only ? 0 : 2000 / stride));
 }
@@ -283,11 +277,5 @@ int main(int argc, char **argv)
 {
     stride = configuration_stride(argc, argv);
     only = argc > 2 ? argv[2] : NULL;
-    const struct CMUnitTest tests[] = {
-        GL_TEST(hard_cases),
-        GL_TEST(projections),
-        GL_TEST(stores),
-        GL_TEST(picture_count),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

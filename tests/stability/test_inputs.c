@@ -6,11 +6,6 @@
  */
 #include "techniques.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { W = 60, H = 44, X = 13, Y = 7, LARGE_W = 96, LARGE_H = 64, NUMBERS = 6 };
 static const int numbers[NUMBERS] = {0, 5, 12, 17, 18, 23}; /* configurations */
 
@@ -105,7 +100,7 @@ static void assert_same(fixture *f, const glssao_frame *plain, const glssao_fram
     }
 }
 
-static void first_samples_are_taken(void **state)
+TEST_GL(first_samples_are_taken)
 {
     subject s = room();
     for (int normals = 0; normals < 2; ++normals) {
@@ -141,7 +136,7 @@ static void first_samples_are_taken(void **state)
     subject_free(&s);
 }
 
-static void viewports_are_crops(void **state)
+TEST_GL(viewports_are_crops)
 {
     subject s = room(), large = {.width = LARGE_W, .height = LARGE_H, .view = s.view};
     large.depth = enlarged(s.depth, 1);
@@ -160,7 +155,7 @@ static void viewports_are_crops(void **state)
 }
 
 /* It rounds differently from window depth. */
-static void logarithms_are_undone(void **state)
+TEST_GL(logarithms_are_undone)
 {
     static const double constants[] = {0.0, 1.0, 0.01, 100.0};
     subject s = room();
@@ -195,7 +190,7 @@ static void assert_refused(fixture *f, const glssao_frame *frame, const char *na
     fixture_refused(f, glssao_compute(effect, frame, &settings), named);
 }
 
-static void unreadable_inputs_are_named(void **state)
+TEST_GL(unreadable_inputs_are_named)
 {
     subject s = room();
     const glssao_frame good = subject_frame(&s, DEPTH_24, NORMAL_32F);
@@ -244,7 +239,7 @@ static GLuint empty_texture(GLenum target, GLenum internal, GLenum format, GLenu
     return texture;
 }
 
-static void formats_that_cannot_hold_it_are_named(void **state)
+TEST_GL(formats_that_cannot_hold_it_are_named)
 {
     static const struct {
         GLenum internal, format, type;
@@ -308,7 +303,7 @@ static void formats_that_cannot_hold_it_are_named(void **state)
     subject_free(&s);
 }
 
-static void textures_that_hold_no_motion_are_named(void **state)
+TEST_GL(textures_that_hold_no_motion_are_named)
 {
     static const struct {
         GLenum internal, format, type;
@@ -350,7 +345,7 @@ static void textures_that_hold_no_motion_are_named(void **state)
 }
 
 /* Each message names what was found and what helps, and no binding changes. */
-static void targets_and_sizes_are_named(void **state)
+TEST_GL(targets_and_sizes_are_named)
 {
     static const struct {
         GLenum target, binding;
@@ -400,7 +395,7 @@ static void targets_and_sizes_are_named(void **state)
     subject_free(&s);
 }
 
-static void a_map_that_a_pass_draws_into_is_refused(void **state)
+TEST_GL(a_map_that_a_pass_draws_into_is_refused)
 {
     fixture *f = *state;
     subject s = room();
@@ -421,7 +416,7 @@ static void a_map_that_a_pass_draws_into_is_refused(void **state)
 }
 
 /* Drawn into, attached beside the drawn texture, or attached with no draw buffer: each is feedback. */
-static void applying_into_what_is_read_is_refused(void **state)
+TEST_GL(applying_into_what_is_read_is_refused)
 {
     fixture *f = *state;
     subject s = room();
@@ -455,7 +450,7 @@ static void applying_into_what_is_read_is_refused(void **state)
 }
 
 /* The passes draw into framebuffers of their own, so this is no feedback, and most hosts do it. */
-static void depth_may_stay_attached_to_the_bound_framebuffer(void **state)
+TEST_GL(depth_may_stay_attached_to_the_bound_framebuffer)
 {
     subject s = room();
     glssao_frame frame = subject_frame(&s, DEPTH_24, NORMAL_32F);
@@ -477,17 +472,5 @@ static void depth_may_stay_attached_to_the_bound_framebuffer(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(first_samples_are_taken),
-        GL_TEST(viewports_are_crops),
-        GL_TEST(logarithms_are_undone),
-        GL_TEST(unreadable_inputs_are_named),
-        GL_TEST(formats_that_cannot_hold_it_are_named),
-        GL_TEST(textures_that_hold_no_motion_are_named),
-        GL_TEST(targets_and_sizes_are_named),
-        GL_TEST(a_map_that_a_pass_draws_into_is_refused),
-        GL_TEST(applying_into_what_is_read_is_refused),
-        GL_TEST(depth_may_stay_attached_to_the_bound_framebuffer),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -5,11 +5,6 @@
  */
 #include "techniques.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 /* ---- loaders ---- */
 
 typedef struct host {
@@ -164,7 +159,7 @@ static glssao_settings wide_horizon(glssao_quality quality)
 
 static int stride = 1;
 
-static void techniques_and_qualities_agree(void **state)
+TEST_WITH(techniques_and_qualities_agree, end_ways)
 {
     glssao_frame frame = room_frame(PERSPECTIVE, 97, 63, DEPTH_24, NORMAL_32F);
     for (int i = 0; i < CONFIGURATIONS; i += stride) {
@@ -176,7 +171,7 @@ static void techniques_and_qualities_agree(void **state)
     fixture_delete_frame(&frame);
 }
 
-static void blurs_and_sizes_of_the_result_agree(void **state)
+TEST_WITH(blurs_and_sizes_of_the_result_agree, end_ways)
 {
     glssao_frame frame = room_frame(ORTHOGRAPHIC_REVERSED, 66, 51, DEPTH_32F, NORMAL_16F);
     for (int blur = GLSSAO_BLUR_NONE; blur <= GLSSAO_BLUR_PLANAR; ++blur)
@@ -193,7 +188,7 @@ static void blurs_and_sizes_of_the_result_agree(void **state)
     fixture_delete_frame(&frame);
 }
 
-static void odd_and_small_sizes_agree(void **state)
+TEST_WITH(odd_and_small_sizes_agree, end_ways)
 {
     static const int sizes[][2] = {{1, 40}, {47, 2}, {8, 8}, {17, 33}, {128, 9}};
     const glssao_settings s = wide_horizon(GLSSAO_MEDIUM);
@@ -204,7 +199,7 @@ static void odd_and_small_sizes_agree(void **state)
     }
 }
 
-static void ways_to_hand_over_agree(void **state)
+TEST_WITH(ways_to_hand_over_agree, end_ways)
 {
     static const struct {
         analytic_projection projection;
@@ -222,7 +217,7 @@ static void ways_to_hand_over_agree(void **state)
     }
 }
 
-static void margins_layers_and_viewports_agree(void **state)
+TEST_WITH(margins_layers_and_viewports_agree, end_ways)
 {
     const analytic_shape wall[] = {{ANALYTIC_PLANE, {0.0, 0.0, -9.0}, {0.0, 0.0, 1.0}}};
     const analytic_view view = analytic_make_view(PERSPECTIVE, 90.0 / 70.0, 0.5, 40.0, 1.0);
@@ -253,7 +248,7 @@ static void margins_layers_and_viewports_agree(void **state)
 }
 
 /* Rays alone and as a correction, at each size of rays and estimate. */
-static void rays_agree(void **state)
+TEST_WITH(rays_agree, end_ways)
 {
     float values[66 * 51];
     for (int i = 0; i < 66 * 51; ++i)
@@ -276,7 +271,7 @@ static void rays_agree(void **state)
 }
 
 /* Estimates are added by drawing; the passes before and after may be dispatched. */
-static void accumulated_estimates_agree(void **state)
+TEST_WITH(accumulated_estimates_agree, end_ways)
 {
     picture pictures[2];
     glssao_frame frame = room_frame(PERSPECTIVE, 64, 48, DEPTH_32F, NORMAL_32F);
@@ -297,7 +292,7 @@ static void accumulated_estimates_agree(void **state)
 }
 
 /* Which way a host's frames take, and the bits of the picture where they are drawn. */
-static void the_context_and_the_config_decide(void **state)
+TEST_WITH(the_context_and_the_config_decide, end_ways)
 {
     static const struct {
         bool knows_3_3_alone, claims_3_3, claims_gpu;
@@ -349,7 +344,7 @@ static void the_context_and_the_config_decide(void **state)
     fixture_delete_frame(&frame);
 }
 
-static void an_unknown_path_is_refused(void **state)
+TEST_WITH(an_unknown_path_is_refused, end_ways)
 {
     fixture *f = *state;
     glssao_effect *none;
@@ -358,7 +353,7 @@ static void an_unknown_path_is_refused(void **state)
 }
 
 /* If the library chose compute shaders and the driver refuses them, the host notices nothing. */
-static void refused_compute_shaders_are_done_without(void **state)
+TEST_WITH(refused_compute_shaders_are_done_without, end_ways)
 {
     fixture *f = *state;
     host h = {.f = f, .claims_gpu = true, .refuses_compute = true};
@@ -389,13 +384,5 @@ static void refused_compute_shaders_are_done_without(void **state)
 int main(int argc, char **argv)
 {
     stride = configuration_stride(argc, argv);
-#define TEST(name) cmocka_unit_test_setup_teardown(name, NULL, end_ways)
-    const struct CMUnitTest tests[] = {
-        TEST(techniques_and_qualities_agree),     TEST(blurs_and_sizes_of_the_result_agree),
-        TEST(odd_and_small_sizes_agree),          TEST(ways_to_hand_over_agree),
-        TEST(margins_layers_and_viewports_agree), TEST(rays_agree),
-        TEST(accumulated_estimates_agree),        TEST(the_context_and_the_config_decide),
-        TEST(an_unknown_path_is_refused),         TEST(refused_compute_shaders_are_done_without),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

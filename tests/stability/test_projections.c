@@ -6,11 +6,6 @@
  */
 #include "techniques.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { W = 72, H = 56, NUMBERS = 6, PATHS = 2 };
 static const int numbers[NUMBERS] = {0, 5, 12, 17, 18, 23}; /* configurations */
 static const double PI = 3.14159265358979323846;
@@ -91,7 +86,7 @@ static void turn_frame(const subject *s, double degrees, normal_store normal, gl
     free(turned.normals);
 }
 
-static void turned_cameras_see_the_same(void **state)
+TEST_GL(turned_cameras_see_the_same)
 {
     static const double degrees[] = {30.0, 90.0, 150.0, -135.0};
     static const analytic_projection kinds[] = {PERSPECTIVE_OFF_CENTRE, ORTHOGRAPHIC};
@@ -110,7 +105,7 @@ static void turned_cameras_see_the_same(void **state)
 }
 
 /* The map of rebuilt normals is the host's to look at, so it is in the host's view space. */
-static void rebuilt_normals_are_in_view_space(void **state)
+TEST_GL(rebuilt_normals_are_in_view_space)
 {
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     subject s = room(PERSPECTIVE);
@@ -176,7 +171,7 @@ static void to_world(const float view[16], const float n[3], float out[3])
         out[i] = (float)(w[i] / sqrt(length));
 }
 
-static void normals_in_world_space_are_turned(void **state)
+TEST_GL(normals_in_world_space_are_turned)
 {
     static const double scales[][3] = {{1.0, 1.0, 1.0}, {0.01, 0.01, 0.01}, {-1.0, 1.0, 1.0}, {2.0, 0.5, 1.0}};
     static const normal_store stores[] = {NORMAL_32F, NORMAL_16F, NORMAL_OCTAHEDRAL, NORMAL_UNSIGNED_8};
@@ -210,7 +205,7 @@ static void normals_in_world_space_are_turned(void **state)
     }
 }
 
-static void views_are_checked_where_they_count(void **state)
+TEST_GL(views_are_checked_where_they_count)
 {
     fixture *f = *state;
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
@@ -238,7 +233,7 @@ static void views_are_checked_where_they_count(void **state)
 
 /* ---- rounding ---- */
 
-static void residues_change_nothing(void **state)
+TEST_GL(residues_change_nothing)
 {
     static const analytic_projection kinds[] = {PERSPECTIVE, PERSPECTIVE_INFINITE_REVERSED_ZERO_TO_ONE, ORTHOGRAPHIC};
     static const int entries[] = {1, 2, 3, 4, 6, 7};
@@ -256,7 +251,7 @@ static void residues_change_nothing(void **state)
 
 /* ---- the eye of an orthographic projection ---- */
 
-static void eyes_behind_the_near_plane_see_the_same(void **state)
+TEST_GL(eyes_behind_the_near_plane_see_the_same)
 {
     static const double moves[] = {4.0, 60.0, -5000.0}; /* into the scene, behind it, far before it */
     for (int i = 0; i < 3; ++i)
@@ -273,7 +268,7 @@ static void eyes_behind_the_near_plane_see_the_same(void **state)
 }
 
 /* The settings count view distance from the host's eye. */
-static void far_fades_follow_the_hosts_eye(void **state)
+TEST_GL(far_fades_follow_the_hosts_eye)
 {
     static const double moves[] = {2.0, -5000.0};
     for (int i = 0; i < 4; ++i) {
@@ -332,7 +327,7 @@ static void make_oblique(subject *s, const double plane[4], bool reversed)
     s->view.sky_depth = reversed ? 0.0f : 1.0f;
 }
 
-static void oblique_near_planes_change_nothing(void **state)
+TEST_GL(oblique_near_planes_change_nothing)
 {
     static const double planes[][4] = {{0.0, 0.3, -0.9539, -1.0}, {0.4, -0.1, -0.9110, -1.2}};
     static const depth_store stores[] = {DEPTH_32F, DEPTH_24};
@@ -349,7 +344,7 @@ static void oblique_near_planes_change_nothing(void **state)
 }
 
 /* A plane in all of these stays open, whatever looks at it. */
-static void planes_stay_open(void **state)
+TEST_GL(planes_stay_open)
 {
     const analytic_shape plane = {ANALYTIC_PLANE, {0.0, -0.3, -3.0}, {0.0, 0.6, 0.8}};
     static const double near_plane[4] = {0.0, 0.3, -0.9539, -0.3};
@@ -379,7 +374,7 @@ static void planes_stay_open(void **state)
 
 /* ---- matrices that were hardly meant ---- */
 
-static void doubts_are_told_once(void **state)
+TEST_GL(doubts_are_told_once)
 {
     fixture *f = *state;
     static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -409,17 +404,5 @@ static void doubts_are_told_once(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(turned_cameras_see_the_same),
-        GL_TEST(rebuilt_normals_are_in_view_space),
-        GL_TEST(normals_in_world_space_are_turned),
-        GL_TEST(views_are_checked_where_they_count),
-        GL_TEST(residues_change_nothing),
-        GL_TEST(eyes_behind_the_near_plane_see_the_same),
-        GL_TEST(far_fades_follow_the_hosts_eye),
-        GL_TEST(oblique_near_planes_change_nothing),
-        GL_TEST(planes_stay_open),
-        GL_TEST(doubts_are_told_once),
-    };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return test_run(NULL, setup, teardown);
 }

@@ -5,11 +5,6 @@
  */
 #include "techniques.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 /* Consecutive cases with the same shaders, since compiling them is most of the work. Technique, quality and formats
  * follow from the seed divided by this. */
 enum { ALIKE = 100 };
@@ -160,7 +155,7 @@ static void random_case(fixture *f, uint64_t seed)
     subject_free(&seen);
 }
 
-static void random_cases(void **state)
+TEST_GL(random_cases)
 {
     print_message("%d cases from seed %llu\n", cases, (unsigned long long)first_seed);
     for (int i = 0; i < cases; ++i)
@@ -175,11 +170,5 @@ int main(int argc, char **argv)
         else if (!strcmp(argv[i], "--seed"))
             first_seed = strtoull(argv[i + 1], NULL, 10);
     }
-    /* The two contexts run different cases. */
-    if (argc < 2 || (argc == 3 && !strcmp(argv[1], "--cases")))
-        first_seed += fixture_hides_newer() ? 100000 : 0;
-    const struct CMUnitTest tests[] = {
-        GL_TEST(random_cases),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -5,11 +5,6 @@
  */
 #include "techniques.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static int stride = 1;
 
 enum { W = 96, H = 96 };
@@ -86,7 +81,7 @@ static void check_repeats(fixture *f, const configuration *c, const picture *fir
     free(again.values);
 }
 
-static void runs_repeat(void **state)
+TEST_GL(runs_repeat)
 {
     for_each_configuration(state, check_repeats);
 }
@@ -105,7 +100,7 @@ static void check_scale(fixture *f, const configuration *c, const picture *first
     }
 }
 
-static void scale_changes_nothing(void **state)
+TEST_GL(scale_changes_nothing)
 {
     for_each_configuration(state, check_scale);
 }
@@ -124,7 +119,7 @@ static void check_directions(fixture *f, const configuration *c, const picture *
     }
 }
 
-static void depth_directions_agree(void **state)
+TEST_GL(depth_directions_agree)
 {
     for_each_configuration(state, check_directions);
 }
@@ -156,7 +151,7 @@ static void check_tile(fixture *f, const configuration *c, const picture *first)
     free(tile.values);
 }
 
-static void tiles_are_crops(void **state)
+TEST_GL(tiles_are_crops)
 {
     for_each_configuration(state, check_tile);
 }
@@ -178,7 +173,7 @@ static void check_turn(fixture *f, const configuration *c, const picture *first)
     free(turned.values);
 }
 
-static void quarter_turns_turn_the_picture(void **state)
+TEST_GL(quarter_turns_turn_the_picture)
 {
     for_each_configuration(state, check_turn);
 }
@@ -195,7 +190,7 @@ static void check_away(fixture *f, const configuration *c, const picture *first)
     free(away.values);
 }
 
-static void normals_may_look_away(void **state)
+TEST_GL(normals_may_look_away)
 {
     for_each_configuration(state, check_away);
 }
@@ -222,7 +217,7 @@ static void check_radius(fixture *f, const configuration *c, const picture *firs
     }
 }
 
-static void greater_radius_never_brightens_the_mean(void **state)
+TEST_GL(greater_radius_never_brightens_the_mean)
 {
     for_each_configuration(state, check_radius);
 }
@@ -245,7 +240,7 @@ static void check_power(fixture *f, const configuration *c, const picture *first
     free(before.values);
 }
 
-static void greater_power_never_brightens(void **state)
+TEST_GL(greater_power_never_brightens)
 {
     for_each_configuration(state, check_power);
 }
@@ -253,15 +248,5 @@ static void greater_power_never_brightens(void **state)
 int main(int argc, char **argv)
 {
     stride = configuration_stride(argc, argv);
-    const struct CMUnitTest tests[] = {
-        GL_TEST(runs_repeat),
-        GL_TEST(scale_changes_nothing),
-        GL_TEST(depth_directions_agree),
-        GL_TEST(tiles_are_crops),
-        GL_TEST(quarter_turns_turn_the_picture),
-        GL_TEST(normals_may_look_away),
-        GL_TEST(greater_radius_never_brightens_the_mean),
-        GL_TEST(greater_power_never_brightens),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -9,14 +9,9 @@
 #include "analytic.h"
 #include "context.h"
 #include "gl.h"
+#include "testing.h"
 
 #include <glssao/glssao.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 
 typedef struct fixture {
     struct context *context; /* the tag lets C++ compilers take it too */
@@ -30,6 +25,8 @@ int fixture_teardown(void **state);
 /* cmocka test teardown. Fails if GL has an error or the library logged one. */
 int fixture_no_gl_error(void **state);
 #define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
+/* A test after which GL must hold no error. */
+#define TEST_GL(name) TEST_WITH(name, fixture_no_gl_error)
 
 void fixture_clear_log(fixture *f);
 void fixture_log(glssao_log_level level, const char *message, void *user);

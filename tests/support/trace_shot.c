@@ -2,16 +2,7 @@
 #include "trace_shot.h"
 
 #include "camera.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "testing.h"
 
 enum { ERROR_LENGTH = 512 };
 

@@ -5,14 +5,9 @@
 #define _XOPEN_SOURCE 700 /* mkdtemp, nftw */
 #include "gltf_writer.h"
 
-#include <ftw.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "testing.h"
 
-#include <cmocka.h>
+#include <ftw.h>
 
 static char folder[] = "/tmp/glssao-test-XXXXXX";
 

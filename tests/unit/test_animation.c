@@ -8,10 +8,6 @@
 #include "scene.h"
 #include "scene_validity.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 static const float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 static const float times[3] = {1, 2, 4};
 static const float identities[32] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,
@@ -64,9 +60,8 @@ static void assert_goes_to(const gltf_writer *w, const char *rest, double time_s
 
 static const float origin[3] = {0, 0, 0}, along_x[3] = {1, 0, 0};
 
-static void steps_and_lines_go_from_key_to_key(void **state)
+TEST(steps_and_lines_go_from_key_to_key)
 {
-    (void)state;
     static const float moves[9] = {1, 0, 0, 3, 4, 0, 3, 4, 8};
     const gltf_writer w = animated("VEC3", 3, moves);
     const char *lines = NODE ANIMATION("translation", "LINEAR"), *steps = NODE ANIMATION("translation", "STEP");
@@ -88,9 +83,8 @@ static void steps_and_lines_go_from_key_to_key(void **state)
 
 /* From 1 to 5 in the two seconds from key 2 to key 4, with slopes 3 and -1 a second. Half way: 1/2 + 5/2 + 2 (1/8 3 -
  * 1/8 -1) = 4. */
-static void splines_follow_their_tangents(void **state)
+TEST(splines_follow_their_tangents)
 {
-    (void)state;
     static const float curve[27] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 3, 0, 0, -1, 0, 0, 5, 0, 0, 9, 9, 9};
     const gltf_writer w = animated("VEC3", 9, curve);
     const char *spline = NODE ANIMATION("translation", "CUBICSPLINE");
@@ -103,9 +97,8 @@ static void splines_follow_their_tangents(void **state)
 }
 
 /* A quarter turn about z in a second: equal angles in equal times, the shorter way, whichever sign is written. */
-static void rotations_turn_evenly_by_the_shorter_way(void **state)
+TEST(rotations_turn_evenly_by_the_shorter_way)
 {
-    (void)state;
     const float half = sqrtf(0.5f), cosine = cosf(0.5235988f), sine = sinf(0.5235988f);
     const char *turn = NODE ANIMATION("rotation", "LINEAR");
     const float turns[12] = {0, 0, 0, 1, 0, 0, half, half, 0, 0, half, half};
@@ -123,9 +116,8 @@ static void rotations_turn_evenly_by_the_shorter_way(void **state)
     assert_goes_to(&c, turn, 1.5, along_x, 0, 1, 0); /* half of half a turn */
 }
 
-static void morphs_follow_their_weights(void **state)
+TEST(morphs_follow_their_weights)
 {
-    (void)state;
     static const float by[9] = {0, 0, 2, 0, 0, 2, 0, 0, 2}, weights[6] = {0, 0, 1, 0.5f, 0, 0};
     gltf_writer w = animated("SCALAR", 6, weights);
     gltf_put_floats(&w, "VEC3", 3, by); /* accessor 3 */
@@ -148,9 +140,8 @@ static void morphs_follow_their_weights(void **state)
     scene_destroy(s);
 }
 
-static void skins_follow_their_joints(void **state)
+TEST(skins_follow_their_joints)
 {
-    (void)state;
     static const float moves[9] = {0, 0, 0, 0, 0, 6, 0, 0, 6}, weights[12] = {1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0};
     static const uint8_t joints[12] = {0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};
     gltf_writer w = animated("VEC3", 3, moves);
@@ -169,9 +160,8 @@ static void skins_follow_their_joints(void **state)
 }
 
 /* Each file loads as long as no time is asked for. */
-static void wrong_animations_are_named(void **state)
+TEST(wrong_animations_are_named)
 {
-    (void)state;
     static const float moves[9] = {0}, backwards[3] = {1, 3, 2}, huge[9] = {0, 0, 0, INFINITY};
 #define CHANNEL(sampler, target) "\"animations\":[{\"channels\":[{\"sampler\":" sampler ",\"target\":{" target "}}],"
 #define SAMPLERS(input, output) "\"samplers\":[{\"input\":" input ",\"output\":" output "}]}]"
@@ -217,9 +207,8 @@ static void wrong_animations_are_named(void **state)
 }
 
 /* Only the first animation counts; a channel without a node belongs to an extension. */
-static void other_animations_and_extensions_are_left_out(void **state)
+TEST(other_animations_and_extensions_are_left_out)
 {
-    (void)state;
     static const float moves[9] = {2, 0, 0, 2, 0, 0, 2, 0, 0};
     const gltf_writer w = animated("VEC3", 3, moves);
     const char *json = NODE "\"animations\":[{\"channels\":[{\"sampler\":0,\"target\":{\"path\":\"pointer\"}},"
@@ -232,14 +221,5 @@ static void other_animations_and_extensions_are_left_out(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(steps_and_lines_go_from_key_to_key),
-        cmocka_unit_test(splines_follow_their_tangents),
-        cmocka_unit_test(rotations_turn_evenly_by_the_shorter_way),
-        cmocka_unit_test(morphs_follow_their_weights),
-        cmocka_unit_test(skins_follow_their_joints),
-        cmocka_unit_test(wrong_animations_are_named),
-        cmocka_unit_test(other_animations_and_extensions_are_left_out),
-    };
-    return cmocka_run_group_tests(tests, gltf_writer_setup, gltf_writer_teardown);
+    return test_run(NULL, gltf_writer_setup, gltf_writer_teardown);
 }

@@ -4,11 +4,6 @@
  */
 #include "fixture.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const float PROJECTION[16] = {1, 0, 0,      0,  0, 1, 0,       0,
                                      0, 0, -1.02f, -1, 0, 0, -0.202f, 0}; /* 90 degrees, 0.1 to 10 */
 
@@ -88,14 +83,14 @@ static glssao_result create_through(fixture *f, const char *missing, const char 
     return create_with(f, &(liar){.f = f, .missing = missing, .version = version});
 }
 
-static void driver_with_other_block_offsets_is_refused(void **state)
+TEST_GL(driver_with_other_block_offsets_is_refused)
 {
     fixture *f = *state;
     assert_int_equal(create_with(f, &(liar){.f = f, .wrong_offsets = true}), GLSSAO_SHADER_ERROR);
     assert_non_null(strstr(f->log, "block cbSsao: gBlurWeights has offset 420 in the driver and 416 in C"));
 }
 
-static void each_missing_function_is_named(void **state)
+TEST_GL(each_missing_function_is_named)
 {
     fixture *f = *state;
     static const char *const names[] = {"glActiveTexture", "glGetIntegerv",  "glGetString",
@@ -106,7 +101,7 @@ static void each_missing_function_is_named(void **state)
     }
 }
 
-static void functions_newer_than_3_3_are_optional(void **state)
+TEST_GL(functions_newer_than_3_3_are_optional)
 {
     static const char *const names[] = {"glClipControl", "glViewportIndexedf", "glBlendFuncSeparatei",
                                         "glBlendEquationSeparatei"};
@@ -114,7 +109,7 @@ static void functions_newer_than_3_3_are_optional(void **state)
         assert_int_equal(create_through(*state, names[i], NULL), GLSSAO_OK);
 }
 
-static void context_of_3_2_is_refused_and_3_3_taken(void **state)
+TEST_GL(context_of_3_2_is_refused_and_3_3_taken)
 {
     fixture *f = *state;
     assert_int_equal(create_through(f, NULL, "3.2"), GLSSAO_UNSUPPORTED_CONTEXT);
@@ -125,7 +120,7 @@ static void context_of_3_2_is_refused_and_3_3_taken(void **state)
 
 /* ---- create ---- */
 
-static void create_refuses_bad_sizes_and_null(void **state)
+TEST_GL(create_refuses_bad_sizes_and_null)
 {
     fixture *f = *state;
     static const int sizes[][2] = {{0, 8}, {8, 0}, {-1, 8}, {8, -2147483647}, {1 << 20, 8}, {8, 2147483647}};
@@ -145,9 +140,8 @@ static void create_refuses_bad_sizes_and_null(void **state)
     assert_int_equal(glssao_create(&config, NULL), GLSSAO_INVALID_ARGUMENT);
 }
 
-static void null_effect_is_harmless(void **state)
+TEST_GL(null_effect_is_harmless)
 {
-    (void)state;
     glssao_frame frame = {0};
     glssao_settings settings = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_HIGH);
     int w = 5, h = 5;
@@ -216,7 +210,7 @@ static void check_refused(fixture *f, const scene_inputs *in, const glssao_frame
     free(after);
 }
 
-static void compute_refuses_bad_settings(void **state)
+TEST_GL(compute_refuses_bad_settings)
 {
     fixture *f = *state;
     scene_inputs in = make_inputs(f);
@@ -273,7 +267,7 @@ static void compute_refuses_bad_settings(void **state)
     free_inputs(&in);
 }
 
-static void compute_refuses_bad_frames(void **state)
+TEST_GL(compute_refuses_bad_frames)
 {
     fixture *f = *state;
     scene_inputs in = make_inputs(f);
@@ -313,7 +307,7 @@ static void compute_refuses_bad_frames(void **state)
     free_inputs(&in);
 }
 
-static void orthographic_projection_of_no_extent_is_refused(void **state)
+TEST_GL(orthographic_projection_of_no_extent_is_refused)
 {
     scene_inputs in = make_inputs(*state);
     glssao_frame frame = in.frame;
@@ -323,7 +317,7 @@ static void orthographic_projection_of_no_extent_is_refused(void **state)
     free_inputs(&in);
 }
 
-static void calls_out_of_order_are_refused(void **state)
+TEST_GL(calls_out_of_order_are_refused)
 {
     fixture *f = *state;
     scene_inputs in = make_inputs(f);
@@ -348,7 +342,7 @@ static void calls_out_of_order_are_refused(void **state)
     assert_int_equal(bound, 0);
 }
 
-static void resize_refuses_and_keeps_the_old_size(void **state)
+TEST_GL(resize_refuses_and_keeps_the_old_size)
 {
     scene_inputs in = make_inputs(*state);
     static const int sizes[][2] = {{0, 1}, {1, -1}, {1 << 24, 1}, {1, 1 << 24}};
@@ -361,7 +355,7 @@ static void resize_refuses_and_keeps_the_old_size(void **state)
     free_inputs(&in);
 }
 
-static void other_map_belongs_to_the_last_frame(void **state)
+TEST_GL(other_map_belongs_to_the_last_frame)
 {
     scene_inputs in = make_inputs(*state);
     const glssao_settings horizon = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
@@ -380,7 +374,7 @@ static void other_map_belongs_to_the_last_frame(void **state)
     free_inputs(&in);
 }
 
-static void begin_normals_clears_to_the_documented_values(void **state)
+TEST_GL(begin_normals_clears_to_the_documented_values)
 {
     fixture *f = *state;
     static const GLenum formats[] = {GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT32F,
@@ -410,7 +404,7 @@ static void begin_normals_clears_to_the_documented_values(void **state)
     }
 }
 
-static void maps_are_born_as_documented(void **state)
+TEST_GL(maps_are_born_as_documented)
 {
     glssao_effect *effect = fixture_effect(*state, 17, 9);
     int w, h;
@@ -440,7 +434,7 @@ static void maps_are_born_as_documented(void **state)
     glssao_destroy(effect);
 }
 
-static void timers_can_be_forbidden(void **state)
+TEST_GL(timers_can_be_forbidden)
 {
     fixture *f = *state;
     scene_inputs in = make_inputs(f);
@@ -456,9 +450,8 @@ static void timers_can_be_forbidden(void **state)
     free_inputs(&in);
 }
 
-static void texts_are_never_null(void **state)
+TEST_GL(texts_are_never_null)
 {
-    (void)state;
     for (int i = -1; i < 8; ++i)
         assert_true(strlen(glssao_result_string((glssao_result)i)) > 0);
     assert_int_equal(glssao_version(), GLSSAO_VERSION_MAJOR << 16 | GLSSAO_VERSION_MINOR << 8 | GLSSAO_VERSION_PATCH);
@@ -466,23 +459,5 @@ static void texts_are_never_null(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(each_missing_function_is_named),
-        GL_TEST(functions_newer_than_3_3_are_optional),
-        GL_TEST(context_of_3_2_is_refused_and_3_3_taken),
-        GL_TEST(driver_with_other_block_offsets_is_refused),
-        GL_TEST(create_refuses_bad_sizes_and_null),
-        GL_TEST(null_effect_is_harmless),
-        GL_TEST(compute_refuses_bad_settings),
-        GL_TEST(compute_refuses_bad_frames),
-        GL_TEST(orthographic_projection_of_no_extent_is_refused),
-        GL_TEST(calls_out_of_order_are_refused),
-        GL_TEST(resize_refuses_and_keeps_the_old_size),
-        GL_TEST(other_map_belongs_to_the_last_frame),
-        GL_TEST(begin_normals_clears_to_the_documented_values),
-        GL_TEST(maps_are_born_as_documented),
-        GL_TEST(timers_can_be_forbidden),
-        GL_TEST(texts_are_never_null),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -7,11 +7,6 @@
 #include "gl_counter.h"
 #include "guest.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { W = APPLY_W, H = APPLY_H };
 
 /* ---- the formulas ---- */
@@ -98,7 +93,7 @@ static void check_picture(const apply_room *r, const glssao_apply_options *o, co
         }
 }
 
-static void each_option_follows_its_formula(void **state)
+TEST_GL(each_option_follows_its_formula)
 {
     for (int path = GLSSAO_PATH_FRAGMENT; path <= apply_last_path(); ++path) {
         apply_room r = apply_open_room(*state, (glssao_path)path);
@@ -139,7 +134,7 @@ static void each_option_follows_its_formula(void **state)
 }
 
 /* Light is multiplied, so a stored 8-bit code changes by less than the factor. */
-static void sRGB_framebuffers_multiply_light_while_the_host_has_them_on(void **state)
+TEST_GL(sRGB_framebuffers_multiply_light_while_the_host_has_them_on)
 {
     for (int path = GLSSAO_PATH_FRAGMENT; path <= apply_last_path(); ++path) {
         apply_room r = apply_open_room(*state, (glssao_path)path);
@@ -166,9 +161,8 @@ static void sRGB_framebuffers_multiply_light_while_the_host_has_them_on(void **s
 }
 
 /* The formula itself at albedos that the paper plots: none adds nothing, white keeps most of the light. */
-static void bounces_brighten_with_albedo(void **state)
+TEST_GL(bounces_brighten_with_albedo)
 {
-    (void)state;
     for (int i = 0; i <= 20; ++i) {
         const double a = i / 20.0;
         assert_true(with_bounces(a, 0.0) - a < 0.015 && with_bounces(a, 0.9) >= with_bounces(a, 0.5));
@@ -177,7 +171,7 @@ static void bounces_brighten_with_albedo(void **state)
     assert_true(with_bounces(0.5, 0.9) > 0.68);
 }
 
-static void show_replaces_the_picture(void **state)
+TEST_GL(show_replaces_the_picture)
 {
     for (int path = GLSSAO_PATH_FRAGMENT; path <= apply_last_path(); ++path) {
         apply_room r = apply_open_room(*state, (glssao_path)path);
@@ -200,7 +194,7 @@ static void show_replaces_the_picture(void **state)
 }
 
 /* A strength texture with another swizzle and base level reads as if it had none, and keeps both. */
-static void parameters_of_the_strength_texture_are_lent(void **state)
+TEST_GL(parameters_of_the_strength_texture_are_lent)
 {
     apply_room r = apply_open_room(*state, GLSSAO_PATH_FRAGMENT);
     apply_target t = apply_make_target(GL_RGBA32F, W, H);
@@ -276,7 +270,7 @@ static GLint min_filter(const fixture *f, GLuint texture)
     return filter;
 }
 
-static void unusual_targets_get_the_same_picture(void **state)
+TEST_GL(unusual_targets_get_the_same_picture)
 {
     static const bool dispatches[UNUSUAL] = {[NO_MIPMAPS] = true, [SECOND_ATTACHMENT] = true};
     for (int path = GLSSAO_PATH_FRAGMENT; path <= apply_last_path(); ++path) {
@@ -315,13 +309,5 @@ static void unusual_targets_get_the_same_picture(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(each_option_follows_its_formula),
-        GL_TEST(sRGB_framebuffers_multiply_light_while_the_host_has_them_on),
-        GL_TEST(bounces_brighten_with_albedo),
-        GL_TEST(show_replaces_the_picture),
-        GL_TEST(parameters_of_the_strength_texture_are_lent),
-        GL_TEST(unusual_targets_get_the_same_picture),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -6,10 +6,6 @@
 #include "apply_room.h"
 #include "guest.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { W = APPLY_W, H = APPLY_H };
 
 /* ---- where it goes ---- */
@@ -29,7 +25,7 @@ static void check_place(const float *got, int width, int height, const int place
         }
 }
 
-static void rectangle_places_and_stretches(void **state)
+TEST_GL(rectangle_places_and_stretches)
 {
     for (int path = GLSSAO_PATH_FRAGMENT; path <= apply_last_path(); ++path) {
         apply_room r = apply_open_room(*state, (glssao_path)path);
@@ -66,7 +62,7 @@ static void rectangle_places_and_stretches(void **state)
 }
 
 /* Four views of one depth texture and one picture: each receives its own occlusion, with a strength texture alike. */
-static void four_views_in_one_framebuffer(void **state)
+TEST_GL(four_views_in_one_framebuffer)
 {
     analytic_shape shapes[ANALYTIC_ROOM_SHAPES];
     analytic_room(shapes, 1.0);
@@ -127,7 +123,7 @@ static void four_views_in_one_framebuffer(void **state)
 }
 
 /* A picture without its margin goes to the corner; the strength texture has the margin. */
-static void margin_shifts_the_strength_texture(void **state)
+TEST_GL(margin_shifts_the_strength_texture)
 {
     enum { M = 8, PW = W - 2 * M, PH = H - 2 * M };
     apply_room r = apply_open_room(*state, GLSSAO_PATH_FRAGMENT);
@@ -173,7 +169,7 @@ static void add_stencil(const fixture *f, const apply_target *t, GLuint *out_ren
 }
 
 /* Pixels where x < W / 2 pass the scissor test, those where y < H / 2 the stencil test. */
-static void tests_of_the_host_are_kept_on_request_and_ignored_once_told(void **state)
+TEST_GL(tests_of_the_host_are_kept_on_request_and_ignored_once_told)
 {
     for (int path = GLSSAO_PATH_FRAGMENT; path <= apply_last_path(); ++path) {
         apply_room r = apply_open_room(*state, (glssao_path)path);
@@ -213,7 +209,7 @@ static void tests_of_the_host_are_kept_on_request_and_ignored_once_told(void **s
     }
 }
 
-static void other_state_that_has_no_effect_is_told_once(void **state)
+TEST_GL(other_state_that_has_no_effect_is_told_once)
 {
     apply_room r = apply_open_room(*state, GLSSAO_PATH_FRAGMENT);
     apply_target t = apply_make_target(GL_RGBA32F, 2 * W, H);
@@ -240,7 +236,7 @@ static void other_state_that_has_no_effect_is_told_once(void **state)
 
 /* ---- what can't be ---- */
 
-static void bad_options_are_named_and_change_nothing(void **state)
+TEST_GL(bad_options_are_named_and_change_nothing)
 {
     apply_room r = apply_open_room(*state, GLSSAO_PATH_FRAGMENT);
     apply_target t = apply_make_target(GL_RGBA32F, W, H);
@@ -306,13 +302,5 @@ static void bad_options_are_named_and_change_nothing(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(rectangle_places_and_stretches),
-        GL_TEST(four_views_in_one_framebuffer),
-        GL_TEST(margin_shifts_the_strength_texture),
-        GL_TEST(tests_of_the_host_are_kept_on_request_and_ignored_once_told),
-        GL_TEST(other_state_that_has_no_effect_is_told_once),
-        GL_TEST(bad_options_are_named_and_change_nothing),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -6,18 +6,9 @@
 #include "gltf_writer.h"
 #include "picture.h"
 #include "scene.h"
+#include "testing.h"
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/wait.h>
-
-#include <cmocka.h>
 
 enum { RAYS = 4096, COLUMNS = 4 };
 
@@ -161,9 +152,8 @@ static char *output_path(const char *name)
     return path;
 }
 
-static void vertices_get_their_accessibility(void **state)
+TEST(vertices_get_their_accessibility)
 {
-    (void)state;
     const char *out = output_path("out.glb");
     assert_int_equal(run("--vertices --cosine --distance 1 --rays 4096", write_room("in.gltf", floor_x, false), out),
                      0);
@@ -177,9 +167,8 @@ static void vertices_get_their_accessibility(void **state)
     scene_destroy(s);
 }
 
-static void colours_are_multiplied_or_left_out(void **state)
+TEST(colours_are_multiplied_or_left_out)
 {
-    (void)state;
     const char *out = output_path("out.glb");
     const char *in = write_room("in.gltf", floor_x, true);
     for (int alone = 0; alone < 2; alone++) {
@@ -198,9 +187,8 @@ static void colours_are_multiplied_or_left_out(void **state)
     }
 }
 
-static void triangles_give_their_mean(void **state)
+TEST(triangles_give_their_mean)
 {
-    (void)state;
     const char *out = output_path("out.glb");
     assert_int_equal(run("--rays 65536 --distance 500", write_room("in.gltf", floor_x, false), out), 0);
     scene *s = load(out);
@@ -230,9 +218,8 @@ static double rms_error(const scene *s, const float *x)
     return sqrt(sum / STEPS);
 }
 
-static void fit_errs_least_on_large_triangles(void **state)
+TEST(fit_errs_least_on_large_triangles)
 {
-    (void)state;
     const float wide_x[COLUMNS] = {0.05f, 1.5f, 3, 4};
     const char *out = output_path("out.glb");
     const char *in = write_room("in.gltf", wide_x, false);
@@ -251,9 +238,8 @@ static void fit_errs_least_on_large_triangles(void **state)
     }
 }
 
-static void all_else_is_kept(void **state)
+TEST(all_else_is_kept)
 {
-    (void)state;
     const char *out = output_path("out.glb");
     assert_int_equal(run("", write_room("in.gltf", floor_x, true), out), 0);
     size_t size;
@@ -278,9 +264,8 @@ static void all_else_is_kept(void **state)
     scene_destroy(s);
 }
 
-static void baked_file_can_be_baked_again(void **state)
+TEST(baked_file_can_be_baked_again)
 {
-    (void)state;
     const char *out = output_path("out.glb");
     assert_int_equal(run("--distance 50 --accessibility-only", write_room("in.gltf", floor_x, true), out), 0);
     assert_int_equal(run("--distance 50 --accessibility-only", out, out), 1);
@@ -291,9 +276,8 @@ static void baked_file_can_be_baked_again(void **state)
     scene_destroy(s);
 }
 
-static void same_seed_gives_the_same_file(void **state)
+TEST(same_seed_gives_the_same_file)
 {
-    (void)state;
     const char *out = output_path("out.glb");
     const char *in = write_room("in.gltf", floor_x, true);
     char *files[3];
@@ -311,9 +295,8 @@ static void same_seed_gives_the_same_file(void **state)
     }
 }
 
-static void faults_have_their_exit_codes(void **state)
+TEST(faults_have_their_exit_codes)
 {
-    (void)state;
     const char *out = output_path("out.glb");
     const char *in = write_room("in.gltf", floor_x, true);
     assert_int_equal(run("--help", NULL, NULL), 0);
@@ -345,9 +328,8 @@ static void faults_have_their_exit_codes(void **state)
     assert_says("bad.gltf");
 }
 
-static void nothing_to_bake_is_no_fault(void **state)
+TEST(nothing_to_bake_is_no_fault)
 {
-    (void)state;
     const char *out = output_path("out.glb");
     assert_int_equal(run("", gltf_write(NULL, "empty.gltf", "{\"asset\":{\"version\":\"2.0\"}}"), out), 0);
     scene *s = load(out);
@@ -357,21 +339,10 @@ static void nothing_to_bake_is_no_fault(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(vertices_get_their_accessibility),
-        cmocka_unit_test(colours_are_multiplied_or_left_out),
-        cmocka_unit_test(triangles_give_their_mean),
-        cmocka_unit_test(fit_errs_least_on_large_triangles),
-        cmocka_unit_test(all_else_is_kept),
-        cmocka_unit_test(baked_file_can_be_baked_again),
-        cmocka_unit_test(same_seed_gives_the_same_file),
-        cmocka_unit_test(faults_have_their_exit_codes),
-        cmocka_unit_test(nothing_to_bake_is_no_fault),
-    };
     if (argc != 2) {
         fprintf(stderr, "usage: test_bake GLSSAO_BAKE\n");
         return 1;
     }
     bake = argv[1];
-    return cmocka_run_group_tests(tests, gltf_writer_setup, gltf_writer_teardown);
+    return test_run(NULL, gltf_writer_setup, gltf_writer_teardown);
 }

@@ -3,16 +3,7 @@
  * Cameras: what they see, at every scale and aspect, and which ones are refused.
  */
 #include "camera.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "testing.h"
 
 static const float pi = 3.14159265f;
 
@@ -118,9 +109,8 @@ static scene shapes(int i)
     }
 }
 
-static void frame_sees_the_whole_bounds(void **state)
+TEST(frame_sees_the_whole_bounds)
 {
-    (void)state;
     const float aspects[] = {1, 16.0f / 9, 9.0f / 16, 20, 0.05f};
     for (int shape = 0; shape < 6; shape++) {
         for (int power = -4; power <= 4; power += 4) {
@@ -141,9 +131,8 @@ static void frame_sees_the_whole_bounds(void **state)
     }
 }
 
-static void frame_fills_the_picture(void **state)
+TEST(frame_fills_the_picture)
 {
-    (void)state;
     for (int shape = 0; shape < 3; shape++) {
         const scene s = shapes(shape);
         const camera c = camera_frame_scene(&s, 1.5f);
@@ -194,9 +183,8 @@ static void check_margins(const scene *s, const camera_framing *how, const char 
         fail_msg("%s: the narrower margins are %g, %g", what, left / share, bottom);
 }
 
-static void opposite_margins_are_equal(void **state)
+TEST(opposite_margins_are_equal)
 {
-    (void)state;
     const float aspects[] = {1, 16.0f / 9, 0.3f};
     const float ups[][3] = {{0, 1, 0}, {0, 0, 1}, {0, 0, -2}, {0, -1, 0}, {1, 0, 0}, {0.3f, 0.5f, -0.2f}};
     const float angles[][2] = {{0.30f, 0.35f}, {0, 0}, {2, -0.7f}, {0, pi / 2}, {1, -pi / 2}};
@@ -216,9 +204,8 @@ static void opposite_margins_are_equal(void **state)
             }
 }
 
-static void scene_stays_in_the_free_part(void **state)
+TEST(scene_stays_in_the_free_part)
 {
-    (void)state;
     for (int orthographic = 0; orthographic < 2; orthographic++) {
         cloud c;
         const scene s = make(&c, skewed, sizeof skewed / sizeof skewed[0]);
@@ -230,9 +217,8 @@ static void scene_stays_in_the_free_part(void **state)
 }
 
 /* The scene turned so that its +y becomes +z looks the same with that up. */
-static void another_up_gives_the_same_picture(void **state)
+TEST(another_up_gives_the_same_picture)
 {
-    (void)state;
     cloud c, d;
     float turned[6][3];
     for (int i = 0; i < 6; i++) {
@@ -252,9 +238,8 @@ static void another_up_gives_the_same_picture(void **state)
 }
 
 /* A row far longer than it is deep, which a camera that fits its front alone cuts when it turns. */
-static void scene_stays_in_the_picture_while_it_turns(void **state)
+TEST(scene_stays_in_the_picture_while_it_turns)
 {
-    (void)state;
     cloud c;
     const float row[][3] = {{-10, 0, 0}, {10, 0, 0}, {10, 3, 1}, {-10, 3, 1}};
     const scene s = make(&c, row, 4);
@@ -274,9 +259,8 @@ static void scene_stays_in_the_picture_while_it_turns(void **state)
     assert_true(most > 0.9 && most < 0.96);
 }
 
-static void a_turn_is_about_the_axis_given(void **state)
+TEST(a_turn_is_about_the_axis_given)
 {
-    (void)state;
     const camera c = {.eye = {3, 1, 1}, .target = {1, 1, 1}, .up = {0, 0, 1}};
     const camera d = camera_turned(&c, (float[]){1, 0, 5}, (float[]){0, 0, 1}, pi / 2);
     const float eye[3] = {0, 2, 1}, up[3] = {0, 0, 1};
@@ -286,9 +270,8 @@ static void a_turn_is_about_the_axis_given(void **state)
     }
 }
 
-static void frame_of_an_empty_scene_is_at_distance_one(void **state)
+TEST(frame_of_an_empty_scene_is_at_distance_one)
 {
-    (void)state;
     const scene s = {0};
     const camera c = camera_frame_scene(&s, 1);
     char error[200];
@@ -296,9 +279,8 @@ static void frame_of_an_empty_scene_is_at_distance_one(void **state)
     assert_true(camera_check(&c, error, sizeof error));
 }
 
-static void frame_scales_with_the_scene(void **state)
+TEST(frame_scales_with_the_scene)
 {
-    (void)state;
     const scene s = box(-1, 0, -2, 3, 4, 1);
     const camera c = camera_frame_scene(&s, 1.5f);
     const scene large = scaled(s, 8192);
@@ -314,9 +296,8 @@ static camera from(float x, float y, float z)
     return (camera){.eye = {x, y, z}, .target = {x, y, z - 1}, .up = {0, 1, 0}, .fov_y_rad = 1};
 }
 
-static void planes_hug_bounds_in_front(void **state)
+TEST(planes_hug_bounds_in_front)
 {
-    (void)state;
     const scene s = box(-1, -1, -1, 1, 1, 1);
     camera c = from(0, 0, 11);
     camera_fit_planes(&c, &s);
@@ -324,9 +305,8 @@ static void planes_hug_bounds_in_front(void **state)
     assert_true(c.far_plane > 12 && c.far_plane < 12.1f);
 }
 
-static void planes_inside_the_bounds_keep_their_ratio(void **state)
+TEST(planes_inside_the_bounds_keep_their_ratio)
 {
-    (void)state;
     const scene s = box(-1, -1, -1, 1, 1, 1);
     camera c = from(0, 0, 0);
     camera_fit_planes(&c, &s);
@@ -334,9 +314,8 @@ static void planes_inside_the_bounds_keep_their_ratio(void **state)
     assert_float_equal(c.far_plane / c.near_plane, 20000, 1);
 }
 
-static void planes_are_valid_with_everything_behind(void **state)
+TEST(planes_are_valid_with_everything_behind)
 {
-    (void)state;
     const scene behind = box(-1, -1, -1, 1, 1, 1), point = box(0, 0, 0, 0, 0, 0);
     char error[200];
     camera c = from(0, 0, -5);
@@ -346,18 +325,16 @@ static void planes_are_valid_with_everything_behind(void **state)
     assert_true(camera_check(&c, error, sizeof error));
 }
 
-static void planes_of_a_flat_scene_leave_room(void **state)
+TEST(planes_of_a_flat_scene_leave_room)
 {
-    (void)state;
     const scene s = box(-1, -1, 0, 1, 1, 0);
     camera c = from(0, 0, 1000);
     camera_fit_planes(&c, &s);
     assert_true(c.near_plane < 999.9f && c.far_plane > 1000.1f);
 }
 
-static void turned_keeps_the_distance_and_the_height(void **state)
+TEST(turned_keeps_the_distance_and_the_height)
 {
-    (void)state;
     const camera c = {.eye = {3, 4, 5}, .target = {1, 1, 1}, .up = {0, 1, 0}, .fov_y_rad = 1};
     const camera d = camera_turned(&c, c.target, (float[]){0, 1, 0}, 1.2f);
     double before = 0, after = 0;
@@ -371,9 +348,8 @@ static void turned_keeps_the_distance_and_the_height(void **state)
     assert_memory_equal(d.up, c.up, sizeof c.up);
 }
 
-static void turned_a_quarter_goes_from_front_to_right(void **state)
+TEST(turned_a_quarter_goes_from_front_to_right)
 {
-    (void)state;
     const camera c = {.eye = {0, 0, 2}, .up = {0, 0.5f, 0.5f}};
     const camera d = camera_turned(&c, c.target, (float[]){0, 1, 0}, pi / 2);
     assert_float_equal(d.eye[0], 2, 1e-6f);
@@ -382,9 +358,8 @@ static void turned_a_quarter_goes_from_front_to_right(void **state)
     assert_float_equal(d.up[1], 0.5f, 1e-6f);
 }
 
-static void view_looks_down_minus_z(void **state)
+TEST(view_looks_down_minus_z)
 {
-    (void)state;
     const camera c = {
         .eye = {1, 2, 3}, .target = {1, 2, -7}, .up = {0, 3, 0}, .fov_y_rad = 1, .near_plane = 1, .far_plane = 10};
     const scene_view view = camera_view(&c, 640, 480);
@@ -396,9 +371,8 @@ static void view_looks_down_minus_z(void **state)
     assert_int_equal(view.height, 480);
 }
 
-static void check_names_the_field(void **state)
+TEST(check_names_the_field)
 {
-    (void)state;
     const camera good = {.eye = {1, 2, 3}, .up = {0, 1, 0}, .fov_y_rad = 1, .near_plane = 1, .far_plane = 2};
     camera bad[9];
     const char *named[9] = {"eye", "target", "target", "up", "up", "fov", "near", "far", "far"};
@@ -423,9 +397,8 @@ static void check_names_the_field(void **state)
     }
 }
 
-static void check_takes_tiny_and_huge_cameras(void **state)
+TEST(check_takes_tiny_and_huge_cameras)
 {
-    (void)state;
     char error[200];
     for (float scale = 1e-6f; scale < 1e7f; scale *= 1e3f) {
         const camera c = {
@@ -434,9 +407,8 @@ static void check_takes_tiny_and_huge_cameras(void **state)
     }
 }
 
-static void suggested_radius_follows_the_diagonal(void **state)
+TEST(suggested_radius_follows_the_diagonal)
 {
-    (void)state;
     const scene s = box(0, 0, 0, 1, 2, 2), empty = {0};
     assert_float_equal(camera_suggest_radius(&s), 3.0f / 20, 1e-6f);
     assert_float_equal(camera_suggest_radius(&empty), 0.5f, 0);
@@ -444,26 +416,5 @@ static void suggested_radius_follows_the_diagonal(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frame_sees_the_whole_bounds),
-        cmocka_unit_test(frame_fills_the_picture),
-        cmocka_unit_test(opposite_margins_are_equal),
-        cmocka_unit_test(scene_stays_in_the_free_part),
-        cmocka_unit_test(another_up_gives_the_same_picture),
-        cmocka_unit_test(scene_stays_in_the_picture_while_it_turns),
-        cmocka_unit_test(a_turn_is_about_the_axis_given),
-        cmocka_unit_test(frame_of_an_empty_scene_is_at_distance_one),
-        cmocka_unit_test(frame_scales_with_the_scene),
-        cmocka_unit_test(planes_hug_bounds_in_front),
-        cmocka_unit_test(planes_inside_the_bounds_keep_their_ratio),
-        cmocka_unit_test(planes_are_valid_with_everything_behind),
-        cmocka_unit_test(planes_of_a_flat_scene_leave_room),
-        cmocka_unit_test(turned_keeps_the_distance_and_the_height),
-        cmocka_unit_test(turned_a_quarter_goes_from_front_to_right),
-        cmocka_unit_test(view_looks_down_minus_z),
-        cmocka_unit_test(check_names_the_field),
-        cmocka_unit_test(check_takes_tiny_and_huge_cameras),
-        cmocka_unit_test(suggested_radius_follows_the_diagonal),
-    };
-    return cmocka_run_group_tests_name("camera", tests, NULL, NULL);
+    return test_run("camera", NULL, NULL);
 }

@@ -9,20 +9,12 @@
 #include "matrix.h"
 #include "read_file.h"
 #include "statistics.h"
+#include "testing.h"
 #include "whole_file.h"
 #include "words.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 static const char path[] = "test_common.tmp";
 
@@ -41,9 +33,8 @@ static void write_file(const char *text)
     assert_int_equal(fclose(file), 0);
 }
 
-static void words_are_found_whole(void **state)
+TEST(words_are_found_whole)
 {
-    (void)state;
     assert_int_equal(words_find("low|medium|high", "low"), 0);
     assert_int_equal(words_find("low|medium|high", "high"), 2);
     assert_int_equal(words_find("low|medium|high", "med"), -1);
@@ -54,9 +45,8 @@ static void words_are_found_whole(void **state)
     assert_string_equal(words_at(QUALITY_WORDS, 3).text, "ultra");
 }
 
-static void percentile_is_the_nearest_rank(void **state)
+TEST(percentile_is_the_nearest_rank)
 {
-    (void)state;
     double values[] = {5, 1, 4, 2, 3}, one[] = {7}, even[] = {4, 1, 3, 2};
     assert_true(statistics_percentile(values, 5, 50) == 3);
     assert_true(statistics_percentile(values, 5, 95) == 5);
@@ -64,9 +54,8 @@ static void percentile_is_the_nearest_rank(void **state)
     assert_true(statistics_percentile(even, 4, 50) == 2);
 }
 
-static void normals_stay_across_surfaces(void **state)
+TEST(normals_stay_across_surfaces)
 {
-    (void)state;
     /* Scales x by 2 and mirrors z: a plane's normal (1, 1, 0) becomes (1, 2, 0). */
     const float m[16] = {2, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 9, 9, 9, 1}, flat[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0};
     double n[9];
@@ -76,9 +65,8 @@ static void normals_stay_across_surfaces(void **state)
     assert_true(n[8] == 1 && n[0] == 0 && n[4] == 0);
 }
 
-static void regular_files_alone_are_read(void **state)
+TEST_WITH(regular_files_alone_are_read, remove_file)
 {
-    (void)state;
     const char *reason;
     size_t size = 0;
     write_file("hello");
@@ -99,9 +87,8 @@ static void regular_files_alone_are_read(void **state)
     assert_string_equal(reason, "not a regular file");
 }
 
-static void streams_are_read_to_their_end(void **state)
+TEST(streams_are_read_to_their_end)
 {
-    (void)state;
     const char *reason;
     size_t size = 0;
     int ends[2];
@@ -122,9 +109,8 @@ static void streams_are_read_to_their_end(void **state)
     assert_string_equal(reason, "too large");
 }
 
-static void inputs_are_known_by_any_name(void **state)
+TEST_WITH(inputs_are_known_by_any_name, remove_file)
 {
-    (void)state;
     const char *reason;
     size_t size;
     char error[256] = "";
@@ -150,9 +136,8 @@ static void inputs_are_known_by_any_name(void **state)
     remove("test_common.link");
 }
 
-static void faults_are_one_line_and_the_first_stays(void **state)
+TEST(faults_are_one_line_and_the_first_stays)
 {
-    (void)state;
     char error[32];
     failure f = {.file = "a.b", .text = error, .size = sizeof error};
     assert_false(fault_set(&f, "two\nlines\t\tand\001 more."));
@@ -163,9 +148,8 @@ static void faults_are_one_line_and_the_first_stays(void **state)
     assert_int_equal(strlen(error), 31);
 }
 
-static void abandoned_files_are_gone(void **state)
+TEST_WITH(abandoned_files_are_gone, remove_file)
 {
-    (void)state;
     char error[256];
     whole_file file;
     write_file("old");
@@ -179,9 +163,8 @@ static void abandoned_files_are_gone(void **state)
     free(temporary);
 }
 
-static void errors_have_their_colours(void **state)
+TEST(errors_have_their_colours)
 {
-    (void)state;
     double rgb[3];
     error_color(-0.2, 0.5, rgb); /* too dark */
     assert_true(rgb[2] > rgb[0] + 0.2 && rgb[2] > rgb[1] + 0.1);
@@ -193,16 +176,5 @@ static void errors_have_their_colours(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(words_are_found_whole),
-        cmocka_unit_test(percentile_is_the_nearest_rank),
-        cmocka_unit_test(normals_stay_across_surfaces),
-        cmocka_unit_test_teardown(regular_files_alone_are_read, remove_file),
-        cmocka_unit_test(streams_are_read_to_their_end),
-        cmocka_unit_test_teardown(inputs_are_known_by_any_name, remove_file),
-        cmocka_unit_test(faults_are_one_line_and_the_first_stays),
-        cmocka_unit_test_teardown(abandoned_files_are_gone, remove_file),
-        cmocka_unit_test(errors_have_their_colours),
-    };
-    return cmocka_run_group_tests_name("common", tests, NULL, NULL);
+    return test_run("common", NULL, NULL);
 }

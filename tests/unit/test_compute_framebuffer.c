@@ -5,11 +5,6 @@
  */
 #include "guest.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { W = 40, H = 30, SPLIT = 13 };
 
 static const struct format {
@@ -86,7 +81,7 @@ static void check_depth(const glssao_effect *effect, int width, int height, int 
     free(depth);
 }
 
-static void every_depth_format_arrives(void **state)
+TEST_GL(every_depth_format_arrives)
 {
     glssao_effect *effect = fixture_effect(*state, W, H);
     const glssao_settings settings = make_settings();
@@ -121,7 +116,7 @@ static void put_depth(GLuint texture, const host *h, int x, int y)
 }
 
 /* Anywhere in the framebuffer, with normals or without, the result is that of glssao_compute. */
-static void the_result_is_that_of_the_depth_as_a_texture(void **state)
+TEST_GL(the_result_is_that_of_the_depth_as_a_texture)
 {
     fixture *f = *state;
     glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
@@ -153,7 +148,7 @@ static void the_result_is_that_of_the_depth_as_a_texture(void **state)
 }
 
 /* glViewport says which part, the effect takes its size, and glssao_apply covers it. */
-static void viewport_and_size_of_the_host_are_followed(void **state)
+TEST_GL(viewport_and_size_of_the_host_are_followed)
 {
     glssao_effect *effect = fixture_effect(*state, 8, 8);
     const glssao_settings settings = make_settings();
@@ -205,7 +200,7 @@ static void check_refused(fixture *f, glssao_result got, glssao_result wanted, c
     fixture_clear_log(f);
 }
 
-static void bad_arguments_are_named(void **state)
+TEST_GL(bad_arguments_are_named)
 {
     fixture *f = *state;
     glssao_effect *effect = fixture_effect(f, 8, 8);
@@ -244,7 +239,7 @@ static void bad_arguments_are_named(void **state)
     glssao_destroy(effect);
 }
 
-static void framebuffers_that_hold_no_depth_are_named(void **state)
+TEST_GL(framebuffers_that_hold_no_depth_are_named)
 {
     fixture *f = *state;
     glssao_effect *effect = fixture_effect(f, 8, 8);
@@ -352,7 +347,7 @@ static glssao_effect *effect_of_a_driver(fixture *f, bool host_restores_state)
     return effect;
 }
 
-static void drivers_that_refuse_the_blit_copy_texels(void **state)
+TEST_GL(drivers_that_refuse_the_blit_copy_texels)
 {
     fixture *f = *state;
     const glssao_settings settings = make_settings();
@@ -382,7 +377,7 @@ static void drivers_that_refuse_the_blit_copy_texels(void **state)
 }
 
 /* An error that the host had is there afterwards; later copies don't ask for errors. */
-static void errors_of_the_host_stay(void **state)
+TEST_GL(errors_of_the_host_stay)
 {
     if (GLSSAO_CHECK_GL)
         skip(); /* such builds ask for errors after every pass and take the host's */
@@ -406,7 +401,7 @@ static void errors_of_the_host_stay(void **state)
 }
 
 /* With config.host_restores_state the part is told, not looked up. test_guest_calls counts its queries. */
-static void hosts_that_restore_state_name_the_part(void **state)
+TEST_GL(hosts_that_restore_state_name_the_part)
 {
     fixture *f = *state;
     glssao_effect *effect = effect_of_a_driver(f, true);
@@ -428,7 +423,7 @@ static void hosts_that_restore_state_name_the_part(void **state)
 }
 
 /* The copy counts in the time of the inputs, of frames that came to something. */
-static void the_copy_is_timed(void **state)
+TEST_GL(the_copy_is_timed)
 {
     fixture *f = *state;
     glssao_effect *effect = fixture_effect(f, W, H);
@@ -465,16 +460,5 @@ static void the_copy_is_timed(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(every_depth_format_arrives),
-        GL_TEST(the_result_is_that_of_the_depth_as_a_texture),
-        GL_TEST(viewport_and_size_of_the_host_are_followed),
-        GL_TEST(bad_arguments_are_named),
-        GL_TEST(framebuffers_that_hold_no_depth_are_named),
-        GL_TEST(drivers_that_refuse_the_blit_copy_texels),
-        GL_TEST(errors_of_the_host_stay),
-        GL_TEST(hosts_that_restore_state_name_the_part),
-        GL_TEST(the_copy_is_timed),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

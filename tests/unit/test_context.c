@@ -5,20 +5,13 @@
  * lack it) its part is skipped. EGL is always required.
  */
 #define _POSIX_C_SOURCE 200809L
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 
 #include "context.h"
 #include "gl.h"
+#include "testing.h"
 
 #include <dlfcn.h>
 #include <pthread.h>
-#include <stdio.h>
-#include <string.h>
 
 static bool osmesa_installed(void)
 {
@@ -85,30 +78,26 @@ static void assert_core_3_3(context_kind kind)
     context_destroy(c);
 }
 
-static void auto_gives_core_3_3(void **state)
+TEST(auto_gives_core_3_3)
 {
-    (void)state;
     assert_core_3_3(CONTEXT_AUTO);
 }
 
-static void egl_gives_core_3_3(void **state)
+TEST(egl_gives_core_3_3)
 {
-    (void)state;
     assert_core_3_3(CONTEXT_EGL);
 }
 
-static void osmesa_gives_core_3_3(void **state)
+TEST(osmesa_gives_core_3_3)
 {
-    (void)state;
     if (!osmesa_installed()) {
         skip();
     }
     assert_core_3_3(CONTEXT_OSMESA);
 }
 
-static void compatibility_is_given_where_asked_for(void **state)
+TEST(compatibility_is_given_where_asked_for)
 {
-    (void)state;
     char error[1024] = "";
     context *c = context_create(&(context_options){.compatibility = true}, error, sizeof error);
     assert_non_null(c);
@@ -119,9 +108,8 @@ static void compatibility_is_given_where_asked_for(void **state)
     context_destroy(c);
 }
 
-static void description_names_the_renderer(void **state)
+TEST(description_names_the_renderer)
 {
-    (void)state;
     context *c = create(CONTEXT_AUTO);
     load_functions(c);
     const char *renderer = (const char *)gl.GetString(GL_RENDERER);
@@ -131,9 +119,8 @@ static void description_names_the_renderer(void **state)
     context_destroy(c);
 }
 
-static void unknown_version_fails_in_one_line(void **state)
+TEST(unknown_version_fails_in_one_line)
 {
-    (void)state;
     const struct {
         context_kind kind;
         const char *tried[2];
@@ -151,9 +138,8 @@ static void unknown_version_fails_in_one_line(void **state)
     }
 }
 
-static void short_error_buffers_are_not_overrun(void **state)
+TEST(short_error_buffers_are_not_overrun)
 {
-    (void)state;
     char error[8];
     memset(error, 'x', sizeof error);
     assert_null(context_create(&(context_options){.major = 9, .minor = 9}, error, 4));
@@ -173,15 +159,13 @@ static void assert_two_live_side_by_side(context_kind first_kind, context_kind s
     context_destroy(second);
 }
 
-static void two_egl_contexts_live_side_by_side(void **state)
+TEST(two_egl_contexts_live_side_by_side)
 {
-    (void)state;
     assert_two_live_side_by_side(CONTEXT_EGL, CONTEXT_EGL);
 }
 
-static void egl_and_osmesa_live_side_by_side(void **state)
+TEST(egl_and_osmesa_live_side_by_side)
 {
-    (void)state;
     if (!osmesa_installed()) {
         skip();
     }
@@ -213,9 +197,8 @@ static void *clear_on_thread(void *kind)
     return kind;
 }
 
-static void threads_make_contexts_of_their_own(void **state)
+TEST(threads_make_contexts_of_their_own)
 {
-    (void)state;
     context_kind kinds[] = {CONTEXT_EGL, osmesa_installed() ? CONTEXT_OSMESA : CONTEXT_EGL, CONTEXT_AUTO};
     pthread_t threads[3];
     for (int i = 0; i < 3; i++) {
@@ -228,9 +211,8 @@ static void threads_make_contexts_of_their_own(void **state)
     }
 }
 
-static void moves_to_a_new_context_after_destroy(void **state)
+TEST(moves_to_a_new_context_after_destroy)
 {
-    (void)state;
     for (int i = 0; i < 5; i++) {
         context *c = create(CONTEXT_AUTO);
         assert_clears_to(c, (uint8_t)(50 * i));
@@ -241,18 +223,5 @@ static void moves_to_a_new_context_after_destroy(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(auto_gives_core_3_3),
-        cmocka_unit_test(egl_gives_core_3_3),
-        cmocka_unit_test(osmesa_gives_core_3_3),
-        cmocka_unit_test(compatibility_is_given_where_asked_for),
-        cmocka_unit_test(description_names_the_renderer),
-        cmocka_unit_test(unknown_version_fails_in_one_line),
-        cmocka_unit_test(short_error_buffers_are_not_overrun),
-        cmocka_unit_test(two_egl_contexts_live_side_by_side),
-        cmocka_unit_test(egl_and_osmesa_live_side_by_side),
-        cmocka_unit_test(threads_make_contexts_of_their_own),
-        cmocka_unit_test(moves_to_a_new_context_after_destroy),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run(NULL, NULL, NULL);
 }

@@ -8,9 +8,6 @@
 #include "fixture.h"
 
 #include <pthread.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { W = 80, H = 60, ROUNDS = 8 };
 
@@ -67,7 +64,7 @@ static context *another_context(context *share)
     return c;
 }
 
-static void two_effects_in_one_context_do_not_mix(void **state)
+TEST_GL(two_effects_in_one_context_do_not_mix)
 {
     fixture *f = *state;
     float *alone[2] = {compute_alone(f, GLSSAO_HORIZON, 1.0), compute_alone(f, GLSSAO_CLASSIC, 0.7)};
@@ -185,14 +182,14 @@ static void check_threads(fixture *f, job jobs[2])
     }
 }
 
-static void contexts_on_two_threads_do_not_mix(void **state)
+TEST_GL(contexts_on_two_threads_do_not_mix)
 {
     /* Different techniques, so that the same object names mean different things in the two contexts. */
     job jobs[2] = {{.technique = GLSSAO_HORIZON, .scale = 1.0}, {.technique = GLSSAO_CLASSIC, .scale = 0.7}};
     check_threads(*state, jobs);
 }
 
-static void contexts_that_share_objects_take_each_other_s_textures(void **state)
+TEST_GL(contexts_that_share_objects_take_each_other_s_textures)
 {
     fixture *f = *state;
     inputs in[2] = {make_inputs(1.0), make_inputs(0.7)};
@@ -209,7 +206,7 @@ static void contexts_that_share_objects_take_each_other_s_textures(void **state)
 }
 
 /* The result of one context is read in another that shares objects with it. */
-static void a_map_is_read_in_a_sharing_context(void **state)
+TEST_GL(a_map_is_read_in_a_sharing_context)
 {
     fixture *f = *state;
     float *alone = compute_alone(f, GLSSAO_HORIZON, 1.0);
@@ -237,11 +234,5 @@ static void a_map_is_read_in_a_sharing_context(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(two_effects_in_one_context_do_not_mix),
-        GL_TEST(contexts_on_two_threads_do_not_mix),
-        GL_TEST(contexts_that_share_objects_take_each_other_s_textures),
-        GL_TEST(a_map_is_read_in_a_sharing_context),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

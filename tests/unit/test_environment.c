@@ -4,17 +4,7 @@
  */
 #include "environment.h"
 #include "picture.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "testing.h"
 
 enum { W = 128, H = W / 2, MOST_BYTES = 40 + 8 * W * H };
 
@@ -153,9 +143,8 @@ static void mirror_is_what_its_integral_says(const environment *e, int level, co
     assert_near((double)got[2], 0.5 + quadratic(direction) * second / weights, 0.02, "mirror of the second order");
 }
 
-static void surfaces_get_what_the_integrals_say(void **state)
+TEST(surfaces_get_what_the_integrals_say)
 {
-    (void)state;
     environment *e = load(orders, true);
     for (int i = 0; i < 40; i++) { /* all over the sphere */
         const double up = 1 - (2 * i + 1) / 40.0, turn = 2.399963 * i, side = sqrt(1 - up * up);
@@ -174,9 +163,8 @@ static double lamp(const double direction[3], int channel)
 }
 
 /* One factor dims all light, so that the axis with the most light gets 1; runs and flat rows give the same. */
-static void strong_light_is_dimmed(void **state)
+TEST(strong_light_is_dimmed)
 {
-    (void)state;
     environment *flat = load(lamp, false), *runs = load(lamp, true);
     const float to_lamp[3] = {1, 0, 0}, away[3] = {-1, 0, 0};
     float got[3], mirrored[3], dark[3];
@@ -193,9 +181,8 @@ static void strong_light_is_dimmed(void **state)
     environment_destroy(runs);
 }
 
-static void bytes_are_srgb(void **state)
+TEST(bytes_are_srgb)
 {
-    (void)state;
     static uint8_t grey[8 * 4 * 3];
     memset(grey, 188, sizeof grey); /* 0.5, linear */
     assert_true(picture_write_png(png_path, 8, 4, 3, grey, error, sizeof error));
@@ -207,9 +194,8 @@ static void bytes_are_srgb(void **state)
 }
 
 /* A larger picture than is kept is averaged. */
-static void large_pictures_are_halved(void **state)
+TEST(large_pictures_are_halved)
 {
-    (void)state;
     enum { LARGE = 2 * ENVIRONMENT_MOST_WIDTH, RUN = 64 };
     uint8_t *bytes = malloc(64 + (size_t)LARGE / 2 * (4 + 4 * LARGE / RUN * 2));
     assert_non_null(bytes);
@@ -243,9 +229,8 @@ static void assert_refused(const char *name, const char *why)
         fail_msg("%s does not say \"%s\"", error, why);
 }
 
-static void broken_files_are_refused_in_one_line(void **state)
+TEST(broken_files_are_refused_in_one_line)
 {
-    (void)state;
     static uint8_t bytes[MOST_BYTES];
     assert_refused("no-such-file.hdr", "No such file");
     assert_refused(".", "");
@@ -282,12 +267,5 @@ static void broken_files_are_refused_in_one_line(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(surfaces_get_what_the_integrals_say),
-        cmocka_unit_test(strong_light_is_dimmed),
-        cmocka_unit_test(bytes_are_srgb),
-        cmocka_unit_test(large_pictures_are_halved),
-        cmocka_unit_test(broken_files_are_refused_in_one_line),
-    };
-    return cmocka_run_group_tests_name("environment", tests, NULL, NULL);
+    return test_run("environment", NULL, NULL);
 }

@@ -84,6 +84,22 @@ static void extensions_of_a_usable_core_material_warn(void **state)
     }
 }
 
+/* Whatever may come, a material has a core. */
+static void an_unknown_material_extension_warns(void **state)
+{
+    (void)state;
+    gltf_writer w = {0};
+    char error[1024];
+    gltf_put_floats(&w, "VEC3", 3, triangle);
+    scene *s = load_path(
+        gltf_write(&w, "newer.gltf", "\"extensionsRequired\":[\"KHR_materials_newer\"]," MESH "," ONE_NODE), NULL);
+    assert_warning(s, "it requires KHR_materials_newer, and is drawn with the core material");
+    scene_destroy(s);
+    const char *path = gltf_write(&w, "other.gltf", "\"extensionsRequired\":[\"KHR_newer\"]," MESH "," ONE_NODE);
+    assert_null(scene_load(path, error, sizeof error));
+    assert_non_null(strstr(error, "the extension KHR_newer is required but not supported"));
+}
+
 static void transmission_blends(void **state)
 {
     (void)state;
@@ -596,6 +612,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(implemented_extensions_may_be_required),
         cmocka_unit_test(extensions_of_a_usable_core_material_warn),
+        cmocka_unit_test(an_unknown_material_extension_warns),
         cmocka_unit_test(transmission_blends),
         cmocka_unit_test(specular_glossiness_keeps_its_diffuse_part),
         cmocka_unit_test(hidden_nodes_are_not_drawn),

@@ -5,18 +5,10 @@
  */
 #define _XOPEN_SOURCE 700 /* nftw */
 #include "scene_validity.h"
+#include "testing.h"
 
 #include <ftw.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
-
-#include <cmocka.h>
 
 static char folder[2048];
 
@@ -135,7 +127,7 @@ static scene *load(const char *file)
     return s;
 }
 
-static void scenes_have_the_triangles_and_the_box_that_others_measured(void **state)
+TEST(scenes_have_the_triangles_and_the_box_that_others_measured)
 {
     NEED_FOLDER();
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; ++i) {
@@ -153,7 +145,7 @@ static void scenes_have_the_triangles_and_the_box_that_others_measured(void **st
     }
 }
 
-static void instances_share_their_meshes(void **state)
+TEST(instances_share_their_meshes)
 {
     NEED_FOLDER();
     scene *s = load("teapots-galore/TeapotsGalore.gltf");
@@ -163,7 +155,7 @@ static void instances_share_their_meshes(void **state)
     scene_destroy(s);
 }
 
-static void unlit_and_alpha_modes_arrive(void **state)
+TEST(unlit_and_alpha_modes_arrive)
 {
     NEED_FOLDER();
     int modes[3] = {0};
@@ -179,7 +171,7 @@ static void unlit_and_alpha_modes_arrive(void **state)
     assert_int_equal(modes[SCENE_ALPHA_BLEND], 1);
 }
 
-static void draco_is_unpacked(void **state)
+TEST(draco_is_unpacked)
 {
     NEED_FOLDER();
     scene *s = load("extra-carbon-sphere-draco/carbon-sphere.glb");
@@ -190,7 +182,7 @@ static void draco_is_unpacked(void **state)
     scene_destroy(s);
 }
 
-static void scenes_without_anything_to_draw_are_empty(void **state)
+TEST(scenes_without_anything_to_draw_are_empty)
 {
     NEED_FOLDER();
     scene *s = load("extra-empty-and-flat/SceneWithoutNodes.gltf");
@@ -202,7 +194,7 @@ static void scenes_without_anything_to_draw_are_empty(void **state)
 }
 
 /* Two files require a later version of glTF and an unknown extension. */
-static void asset_generator_files_load(void **state)
+TEST(asset_generator_files_load)
 {
     NEED_FOLDER();
     walk("extra-asset-generator");
@@ -211,7 +203,7 @@ static void asset_generator_files_load(void **state)
 
 /* ---- Invalid files ---- */
 
-static void invalid_files_load_validly_or_are_refused_in_one_line(void **state)
+TEST(invalid_files_load_validly_or_are_refused_in_one_line)
 {
     NEED_FOLDER();
     walk("invalid");
@@ -244,7 +236,7 @@ static bool must_be_refused(const char *codes)
     return false;
 }
 
-static void harmful_faults_are_refused(void **state)
+TEST(harmful_faults_are_refused)
 {
     NEED_FOLDER();
     FILE *manifest = fopen(in_folder("invalid/MANIFEST.tsv"), "r");
@@ -275,15 +267,5 @@ static void harmful_faults_are_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scenes_have_the_triangles_and_the_box_that_others_measured),
-        cmocka_unit_test(instances_share_their_meshes),
-        cmocka_unit_test(unlit_and_alpha_modes_arrive),
-        cmocka_unit_test(draco_is_unpacked),
-        cmocka_unit_test(scenes_without_anything_to_draw_are_empty),
-        cmocka_unit_test(asset_generator_files_load),
-        cmocka_unit_test(invalid_files_load_validly_or_are_refused_in_one_line),
-        cmocka_unit_test(harmful_faults_are_refused),
-    };
-    return cmocka_run_group_tests(tests, need_folder, NULL);
+    return test_run(NULL, need_folder, NULL);
 }

@@ -5,9 +5,6 @@
  */
 #include "guest.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-
 enum { UNITS = 16 }; /* every context has so many; the effect uses the first eight */
 
 /* ---- maps of the effect on the host's units ---- */
@@ -102,7 +99,7 @@ static void check_maps(const guest *g, const GLuint names[GLSSAO_MAP_BENT_NORMAL
     }
 }
 
-static void maps_may_stay_bound_when_a_setting_changes(void **state)
+TEST_GL(maps_may_stay_bound_when_a_setting_changes)
 {
     for (int from = 0; from < CHANGES; ++from) {
         guest g = guest_open(*state, GLSSAO_PATH_AUTO);
@@ -127,7 +124,7 @@ static void maps_may_stay_bound_when_a_setting_changes(void **state)
 
 /* ---- every unit ---- */
 
-static void every_unit_is_restored(void **state)
+TEST_GL(every_unit_is_restored)
 {
     guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     GLuint textures[UNITS], samplers[UNITS], multisample;
@@ -176,10 +173,6 @@ static void every_unit_is_restored(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(maps_may_stay_bound_when_a_setting_changes),
-        GL_TEST(every_unit_is_restored),
-    };
-    const int core = cmocka_run_group_tests_name("core", tests, fixture_setup, fixture_teardown);
-    return core + cmocka_run_group_tests_name("compatibility", tests, guest_setup_compatibility, fixture_teardown);
+    const int core = test_run("core", fixture_setup, fixture_teardown);
+    return core + test_run("compatibility", guest_setup_compatibility, fixture_teardown);
 }

@@ -9,8 +9,6 @@
 #include "gl_counter.h"
 
 #include <dirent.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -122,7 +120,7 @@ static void check_text(const char *path, const char *text)
 }
 
 /* The names that a run would write under are known in advance: the final one, and any made of it by a fixed rule. */
-static void links_that_lie_in_wait_are_not_written_through(void **state)
+TEST_GL(links_that_lie_in_wait_are_not_written_through)
 {
     static const char *const ends[] = {"", ".part", ".tmp", "~"};
     cache c;
@@ -144,7 +142,7 @@ static void links_that_lie_in_wait_are_not_written_through(void **state)
 }
 
 /* A file of that name belongs to somebody: it is not emptied, whatever its name ends in. */
-static void files_that_lie_in_wait_are_not_written_to(void **state)
+TEST_GL(files_that_lie_in_wait_are_not_written_to)
 {
     cache c;
     if (open_cache(&c, state)) {
@@ -164,7 +162,7 @@ static void files_that_lie_in_wait_are_not_written_to(void **state)
 }
 
 /* The programs are good ones, but lie where anyone may have put them. */
-static void links_are_not_read_through(void **state)
+TEST_GL(links_are_not_read_through)
 {
     cache c;
     if (open_cache(&c, state)) {
@@ -184,7 +182,7 @@ static void links_are_not_read_through(void **state)
 }
 
 /* Opening a pipe would wait for a writer for ever. */
-static void pipes_are_not_opened(void **state)
+TEST_GL(pipes_are_not_opened)
 {
     cache c;
     if (open_cache(&c, state)) {
@@ -202,7 +200,7 @@ static void pipes_are_not_opened(void **state)
     close_cache(&c);
 }
 
-static void files_that_others_may_write_are_not_read(void **state)
+TEST_GL(files_that_others_may_write_are_not_read)
 {
     static const mode_t modes[] = {0620, 0602, 0666};
     cache c;
@@ -222,7 +220,7 @@ static void files_that_others_may_write_are_not_read(void **state)
     close_cache(&c);
 }
 
-static void files_are_written_for_the_owner_alone_to_change(void **state)
+TEST_GL(files_are_written_for_the_owner_alone_to_change)
 {
     cache c;
     if (open_cache(&c, state)) {
@@ -245,7 +243,7 @@ static void files_are_written_for_the_owner_alone_to_change(void **state)
 }
 
 /* In a folder that others may write, any file may be theirs, sticky bit or not. */
-static void a_folder_that_others_may_write_is_not_used(void **state)
+TEST_GL(a_folder_that_others_may_write_is_not_used)
 {
     static const mode_t modes[] = {0777, 01777, 0770};
     cache c;
@@ -262,7 +260,7 @@ static void a_folder_that_others_may_write_is_not_used(void **state)
 }
 
 /* Only a test that runs as root can give files away. */
-static void what_another_user_owns_is_not_used(void **state)
+TEST_GL(what_another_user_owns_is_not_used)
 {
     enum { ANOTHER = 65534 };
     cache c;
@@ -287,15 +285,5 @@ static void what_another_user_owns_is_not_used(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(links_that_lie_in_wait_are_not_written_through),
-        GL_TEST(files_that_lie_in_wait_are_not_written_to),
-        GL_TEST(links_are_not_read_through),
-        GL_TEST(files_that_others_may_write_are_not_read),
-        GL_TEST(files_are_written_for_the_owner_alone_to_change),
-        GL_TEST(a_folder_that_others_may_write_is_not_used),
-        GL_TEST(what_another_user_owns_is_not_used),
-        GL_TEST(pipes_are_not_opened), /* the last: it is killed where it waits */
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

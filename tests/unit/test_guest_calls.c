@@ -5,9 +5,6 @@
  */
 #include "guest.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-
 /* ---- queries ---- */
 
 /* What was asked since counting began; with the state that was asked for where that is what distinguishes. */
@@ -230,7 +227,7 @@ static GLuint bind_target(GLuint *out_texture)
 }
 
 /* glssao_apply draws once, with one texture, into one framebuffer: it changes nothing of these. */
-static void apply_asks_only_for_what_it_changes(void **state)
+TEST_GL(apply_asks_only_for_what_it_changes)
 {
     static const struct {
         GLenum name;
@@ -281,7 +278,7 @@ static glssao_proc get_proc(const char *name)
     return function;
 }
 
-static void hosts_that_restore_state_are_asked_nothing(void **state)
+TEST_GL(hosts_that_restore_state_are_asked_nothing)
 {
     guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
@@ -336,7 +333,7 @@ static void hosts_that_restore_state_are_asked_nothing(void **state)
 }
 
 /* A driver blocks where a query is begun whose last result is still to come, or where a result is asked for early. */
-static void timers_never_make_the_cpu_wait(void **state)
+TEST_GL(timers_never_make_the_cpu_wait)
 {
     guest g = open_watched(state);
     memset(&timers, 0, sizeof timers);
@@ -403,7 +400,7 @@ static void compute_all(guest *g)
             }
 }
 
-static void a_debug_context_has_nothing_to_say(void **state)
+TEST_GL(a_debug_context_has_nothing_to_say)
 {
     PFNGLDEBUGMESSAGECALLBACKPROC set_callback;
     fixture *f = *state;
@@ -438,11 +435,5 @@ static void a_debug_context_has_nothing_to_say(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(apply_asks_only_for_what_it_changes),
-        GL_TEST(timers_never_make_the_cpu_wait),
-        GL_TEST(hosts_that_restore_state_are_asked_nothing),
-        GL_TEST(a_debug_context_has_nothing_to_say),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -6,9 +6,6 @@
  */
 #include "guest.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-
 /* ---- a driver that fails ---- */
 
 static struct {
@@ -106,7 +103,7 @@ static bool fail_once(guest *g, const act *a, int number)
     return driver.happened;
 }
 
-static void a_map_without_memory_is_told_as_such(void **state)
+TEST_GL(a_map_without_memory_is_told_as_such)
 {
     static const act acts[] = {
         {"create", GLSSAO_LOW, 0, true, false, false},
@@ -131,7 +128,7 @@ static void a_map_without_memory_is_told_as_such(void **state)
 /* ---- a real driver ---- */
 
 /* llvmpipe takes textures of 2 GiB at most; a normal map of this size has 2 GiB. A driver that takes it is fine. */
-static void a_size_that_the_driver_refuses_leaves_no_error(void **state)
+TEST_GL(a_size_that_the_driver_refuses_leaves_no_error)
 {
     fixture *f = *state;
     GLint largest = 0;
@@ -149,9 +146,5 @@ static void a_size_that_the_driver_refuses_leaves_no_error(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(a_map_without_memory_is_told_as_such),
-        GL_TEST(a_size_that_the_driver_refuses_leaves_no_error),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -5,12 +5,9 @@
  */
 #include "guest.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-
 /* ---- framebuffer names ---- */
 
-static void apply_refuses_a_name_that_is_no_framebuffer(void **state)
+TEST_GL(apply_refuses_a_name_that_is_no_framebuffer)
 {
     guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
@@ -105,7 +102,7 @@ static void refuse_everywhere(guest *g, GLuint name, bool multisample, const cha
     }
 }
 
-static void a_texture_of_another_target_leaves_no_error(void **state)
+TEST_GL(a_texture_of_another_target_leaves_no_error)
 {
     static const struct {
         GLenum value;
@@ -141,7 +138,7 @@ static void a_texture_of_another_target_leaves_no_error(void **state)
 }
 
 /* An error of the host's own that nobody asked for yet is the host's to find. */
-static void the_hosts_own_error_stays(void **state)
+TEST_GL(the_hosts_own_error_stays)
 {
     if (GLSSAO_CHECK_GL)
         skip(); /* such builds ask for errors after every pass and take the host's */
@@ -164,7 +161,7 @@ static void the_hosts_own_error_stays(void **state)
 /* ---- programs and pairs ---- */
 
 /* GL deletes a program that is current once another becomes current, and no call brings it back. */
-static void a_deleted_program_that_is_current_stays_current(void **state)
+TEST_GL(a_deleted_program_that_is_current_stays_current)
 {
     guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
@@ -201,7 +198,7 @@ static void a_deleted_program_that_is_current_stays_current(void **state)
 
 /* Either the pairs are undone in any order, or the end that comes too early is refused, changes nothing, and works
  * once the inner pair has ended. */
-static void crossed_pairs_give_the_hosts_framebuffer_back(void **state)
+TEST_GL(crossed_pairs_give_the_hosts_framebuffer_back)
 {
     guest a = guest_open(*state, GLSSAO_PATH_AUTO), b = guest_open(*state, GLSSAO_PATH_AUTO);
     const fixture_target t = guest_make_white();
@@ -239,13 +236,6 @@ static void crossed_pairs_give_the_hosts_framebuffer_back(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(apply_refuses_a_name_that_is_no_framebuffer),
-        GL_TEST(a_texture_of_another_target_leaves_no_error),
-        GL_TEST(the_hosts_own_error_stays),
-        GL_TEST(a_deleted_program_that_is_current_stays_current),
-        GL_TEST(crossed_pairs_give_the_hosts_framebuffer_back),
-    };
-    const int core = cmocka_run_group_tests_name("core", tests, fixture_setup, fixture_teardown);
-    return core + cmocka_run_group_tests_name("compatibility", tests, guest_setup_compatibility, fixture_teardown);
+    const int core = test_run("core", fixture_setup, fixture_teardown);
+    return core + test_run("compatibility", guest_setup_compatibility, fixture_teardown);
 }

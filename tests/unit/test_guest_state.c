@@ -6,9 +6,6 @@
  */
 #include "guest.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-
 /* Of the compatibility profile, which glcorearb.h leaves out. */
 enum {
     MAP_COLOR = 0x0D10,
@@ -30,7 +27,7 @@ static glssao_settings horizon(void)
 
 /* ---- fixed-function state ---- */
 
-static void clamped_fragment_colours_change_nothing(void **state)
+TEST_GL(clamped_fragment_colours_change_nothing)
 {
     void(APIENTRY * clamp_color)(GLenum, GLenum);
     if (!guest_is_compatibility())
@@ -67,7 +64,7 @@ static double error_of_accumulation(guest *g)
     return glssao_get_stats(g->effect).sampling_error;
 }
 
-static void pixel_transfer_changes_nothing(void **state)
+TEST_GL(pixel_transfer_changes_nothing)
 {
     void(APIENTRY * pixel_transfer)(GLenum, GLfloat);
     void(APIENTRY * pixel_map)(GLenum, GLsizei, const GLfloat *);
@@ -116,7 +113,7 @@ static void pixel_transfer_changes_nothing(void **state)
 }
 
 /* Without fragments there is no result, and leaving these modes would empty the host's buffer: refused. */
-static void feedback_and_selection_are_refused(void **state)
+TEST_GL(feedback_and_selection_are_refused)
 {
     GLint(APIENTRY * render_mode)(GLenum);
     void(APIENTRY * feedback_buffer)(GLsizei, GLenum, GLfloat *);
@@ -177,7 +174,7 @@ static void check_all_one(const glssao_effect *effect, const char *what)
 }
 
 /* GL has no query that tells, so the frame may be dropped; later frames must be right. */
-static void a_frame_under_conditional_rendering_harms_no_later_one(void **state)
+TEST_GL(a_frame_under_conditional_rendering_harms_no_later_one)
 {
     PFNGLBEGINCONDITIONALRENDERPROC begin;
     PFNGLENDCONDITIONALRENDERPROC end;
@@ -212,7 +209,7 @@ static void a_frame_under_conditional_rendering_harms_no_later_one(void **state)
 }
 
 /* Another program can't be taken while it is active (OpenGL 3.3, section 2.15). */
-static void active_transform_feedback_is_refused(void **state)
+TEST_GL(active_transform_feedback_is_refused)
 {
     PFNGLBEGINTRANSFORMFEEDBACKPROC begin;
     PFNGLENDTRANSFORMFEEDBACKPROC end;
@@ -263,13 +260,6 @@ static void active_transform_feedback_is_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(clamped_fragment_colours_change_nothing),
-        GL_TEST(pixel_transfer_changes_nothing),
-        GL_TEST(feedback_and_selection_are_refused),
-        GL_TEST(a_frame_under_conditional_rendering_harms_no_later_one),
-        GL_TEST(active_transform_feedback_is_refused),
-    };
-    const int core = cmocka_run_group_tests_name("core", tests, fixture_setup, fixture_teardown);
-    return core + cmocka_run_group_tests_name("compatibility", tests, guest_setup_compatibility, fixture_teardown);
+    const int core = test_run("core", fixture_setup, fixture_teardown);
+    return core + test_run("compatibility", guest_setup_compatibility, fixture_teardown);
 }

@@ -5,9 +5,6 @@
  */
 #include "guest.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-
 /* Of the compatibility profile, which glcorearb.h leaves out. */
 enum { DEPTH_TEXTURE_MODE = 0x884B, ALPHA = 0x1906 };
 
@@ -91,7 +88,7 @@ static void check_parameter(guest *g, const parameter *set, glssao_settings sett
     free(pictures[1]);
 }
 
-static void parameters_of_host_textures_change_nothing(void **state)
+TEST_GL(parameters_of_host_textures_change_nothing)
 {
     static const glssao_technique techniques[] = {GLSSAO_CLASSIC, GLSSAO_HEMISPHERE, GLSSAO_HORIZON};
     guest g = guest_open(*state, GLSSAO_PATH_AUTO);
@@ -124,7 +121,7 @@ static GLuint make_texture(GLenum internal_format, GLenum format, GLenum type)
     return name;
 }
 
-static void integer_formats_are_refused(void **state)
+TEST_GL(integer_formats_are_refused)
 {
     static const struct {
         const char *name;
@@ -166,10 +163,6 @@ static void integer_formats_are_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(parameters_of_host_textures_change_nothing),
-        GL_TEST(integer_formats_are_refused),
-    };
-    const int core = cmocka_run_group_tests_name("core", tests, fixture_setup, fixture_teardown);
-    return core + cmocka_run_group_tests_name("compatibility", tests, guest_setup_compatibility, fixture_teardown);
+    const int core = test_run("core", fixture_setup, fixture_teardown);
+    return core + test_run("compatibility", guest_setup_compatibility, fixture_teardown);
 }

@@ -4,18 +4,17 @@
  * after every call that draws, and the effect gives the same map before and after it.
  */
 #include <backends/imgui_impl_opengl3.h>
-#include <imgui.h>
-
-extern "C" {
-#include "analytic.h"
-#include "fixture.h"
-}
-
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <imgui.h>
 #include <set>
 #include <vector>
+
+extern "C" { /* after the C++ headers, which its own would include */
+#include "fixture.h"
+}
 
 namespace
 {

@@ -5,15 +5,7 @@
 #include "frame/uniforms.h"
 #include "input/check.h"
 #include "random.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "testing.h"
 
 static const glssao__log silent;
 
@@ -21,9 +13,8 @@ static const glssao__log silent;
 
 /* ---- cbSsao ---- */
 
-static void block_has_the_offsets_of_the_design(void **state)
+TEST(block_has_the_offsets_of_the_design)
 {
-    (void)state;
     assert_int_equal(offsetof(glssao_constants, gProj), 0);
     assert_int_equal(offsetof(glssao_constants, gInvProj), 64);
     assert_int_equal(offsetof(glssao_constants, gProjTex), 128);
@@ -37,9 +28,8 @@ static void block_has_the_offsets_of_the_design(void **state)
     assert_int_equal(sizeof(glssao_constants), 496);
 }
 
-static void offset_vectors_are_corners_then_faces_in_opposite_pairs(void **state)
+TEST(offset_vectors_are_corners_then_faces_in_opposite_pairs)
 {
-    (void)state;
     glssao__uniforms u;
     glssao__uniforms_init(&u, 42);
     for (int i = 0; i < 14; ++i) {
@@ -63,9 +53,8 @@ static void offset_vectors_are_corners_then_faces_in_opposite_pairs(void **state
     }
 }
 
-static void gauss_weights_match_the_closed_form(void **state)
+TEST(gauss_weights_match_the_closed_form)
 {
-    (void)state;
     static const float sigmas[] = {0.1f, 0.5f, 1.0f, 1.7f, 2.5f};
     for (int s = 0; s < 5; ++s) {
         float w[3][4];
@@ -85,9 +74,8 @@ static void gauss_weights_match_the_closed_form(void **state)
 
 /* ---- random ---- */
 
-static void random_repeats_and_streams_differ(void **state)
+TEST(random_repeats_and_streams_differ)
 {
-    (void)state;
     glssao__random a = glssao__random_seed(1, 0), b = glssao__random_seed(1, 0), c = glssao__random_seed(1, 1),
                    d = glssao__random_seed(2, 0);
     int same_stream = 0, same_seed = 0;
@@ -101,9 +89,8 @@ static void random_repeats_and_streams_differ(void **state)
 }
 
 /* Chi-squared over 256 bins, 255 degrees of freedom: mean 255, standard deviation 22.6. Also for neighbouring seeds. */
-static void random_vector_channels_are_uniform_and_independent(void **state)
+TEST(random_vector_channels_are_uniform_and_independent)
 {
-    (void)state;
     size_t texels = (size_t)RANDOM_VECTOR_MAP_SIZE * RANDOM_VECTOR_MAP_SIZE;
     uint8_t *rgba = malloc(texels * 4), *first = malloc(texels * 4);
     for (uint32_t seed = 0; seed < 4; ++seed) {
@@ -163,9 +150,8 @@ static bool analyse(const float m[16], bool zero_to_one, glssao__projection *out
     return glssao__projection_analyse(&frame, &silent, out);
 }
 
-static void depth_ends_are_the_planes(void **state)
+TEST(depth_ends_are_the_planes)
 {
-    (void)state;
     glssao__projection p;
     float m[16];
     perspective(m, 0.25, 64.0, false, false);
@@ -185,9 +171,8 @@ static void depth_ends_are_the_planes(void **state)
 }
 
 /* Near : far of 1 : 10^7. The float matrix cannot resolve the far plane, but every depth in between must be right. */
-static void distance_survives_a_range_of_ten_million(void **state)
+TEST(distance_survives_a_range_of_ten_million)
 {
-    (void)state;
     float m[16];
     glssao__projection p;
     perspective(m, 0.01, 1e5, true, true);
@@ -198,9 +183,8 @@ static void distance_survives_a_range_of_ten_million(void **state)
     }
 }
 
-static void ray_through_uv_meets_the_projected_point(void **state)
+TEST(ray_through_uv_meets_the_projected_point)
 {
-    (void)state;
     float m[16];
     for (int orthographic = 0; orthographic < 2; ++orthographic) {
         perspective(m, 0.25, 64.0, false, false);
@@ -231,9 +215,8 @@ static void ray_through_uv_meets_the_projected_point(void **state)
     }
 }
 
-static void inverse_times_projection_is_identity(void **state)
+TEST(inverse_times_projection_is_identity)
 {
-    (void)state;
     float m[16];
     perspective(m, 1e-3, 1e4, false, false);
     m[8] = 0.25f;
@@ -253,9 +236,8 @@ static void inverse_times_projection_is_identity(void **state)
 
 /* ---- settings ---- */
 
-static void default_settings_pass_the_checks(void **state)
+TEST(default_settings_pass_the_checks)
 {
-    (void)state;
     for (int quality = -1; quality < 6; ++quality) {
         for (int technique = 0; technique < 3; ++technique) {
             glssao_settings s = glssao_default_settings((glssao_technique)technique, (glssao_quality)quality);
@@ -275,9 +257,8 @@ static double distance_of(const float p[16], bool zero_to_one, double depth)
 }
 
 /* The depth step at a view distance must equal the distance between neighbouring stored values. */
-static void depth_steps_are_differences(void **state)
+TEST(depth_steps_are_differences)
 {
-    (void)state;
     static const struct {
         float p10, p11, p14, p15;
         bool zero_to_one;
@@ -324,18 +305,5 @@ static void depth_steps_are_differences(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(block_has_the_offsets_of_the_design),
-        cmocka_unit_test(offset_vectors_are_corners_then_faces_in_opposite_pairs),
-        cmocka_unit_test(gauss_weights_match_the_closed_form),
-        cmocka_unit_test(random_repeats_and_streams_differ),
-        cmocka_unit_test(random_vector_channels_are_uniform_and_independent),
-        cmocka_unit_test(depth_ends_are_the_planes),
-        cmocka_unit_test(distance_survives_a_range_of_ten_million),
-        cmocka_unit_test(ray_through_uv_meets_the_projected_point),
-        cmocka_unit_test(inverse_times_projection_is_identity),
-        cmocka_unit_test(depth_steps_are_differences),
-        cmocka_unit_test(default_settings_pass_the_checks),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run(NULL, NULL, NULL);
 }

@@ -4,22 +4,13 @@
  */
 #define _XOPEN_SOURCE 700 /* setrlimit, glob */
 #include "picture.h"
+#include "testing.h"
 
 #include <glob.h>
-#include <math.h>
-#include <setjmp.h>
 #include <signal.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 #include <jpeglib.h> /* after stdio.h, which it needs */
 #if GLSSAO_HAS_WEBP
@@ -44,9 +35,8 @@ static bool file_exists(const char *name)
     return file;
 }
 
-static void png_round_trips_odd_sizes(void **state)
+TEST_WITH(png_round_trips_odd_sizes, remove_file)
 {
-    (void)state;
     const int sizes[][2] = {{1, 1}, {1, 37}, {41, 1}, {17, 13}};
     const int channel_counts[] = {1, 3, 4};
     uint8_t pixels[41 * 37 * 4];
@@ -72,9 +62,8 @@ static void png_round_trips_odd_sizes(void **state)
     }
 }
 
-static void png_of_colour_is_marked_srgb(void **state)
+TEST_WITH(png_of_colour_is_marked_srgb, remove_file)
 {
-    (void)state;
     const uint8_t pixels[3] = {1, 2, 3};
     for (int channels = 1; channels <= 3; channels += 2) {
         assert_true(picture_write_png(path, 1, 1, channels, pixels, error, sizeof error));
@@ -89,9 +78,8 @@ static void png_of_colour_is_marked_srgb(void **state)
     }
 }
 
-static void pfm_round_trips_every_bit(void **state)
+TEST_WITH(pfm_round_trips_every_bit, remove_file)
 {
-    (void)state;
     const float values[9] = {0, -0.0f, 1e-40f, 3e38f, INFINITY, -1.5f, 0.1f, 65504, 1};
     const int sizes[][3] = {{1, 1, 1}, {3, 3, 1}, {1, 9, 1}, {9, 1, 1}, {3, 1, 3}, {1, 3, 3}};
     for (int k = 0; k < 6; k++) {
@@ -107,9 +95,8 @@ static void pfm_round_trips_every_bit(void **state)
     }
 }
 
-static void pfm_bytes_are_little_endian(void **state)
+TEST_WITH(pfm_bytes_are_little_endian, remove_file)
 {
-    (void)state;
     const float one = 1;
     char bytes[32];
     assert_true(picture_write_pfm(path, 1, 1, 1, &one, error, sizeof error));
@@ -120,9 +107,8 @@ static void pfm_bytes_are_little_endian(void **state)
     assert_memory_equal(bytes, "Pf\n1 1\n-1.0\n\0\0\x80\x3f", 16);
 }
 
-static void errors_name_path_and_cause(void **state)
+TEST(errors_name_path_and_cause)
 {
-    (void)state;
     const char *nowhere = "no such folder/picture";
     const uint8_t byte = 0;
     const float value = 0;
@@ -139,9 +125,8 @@ static void errors_name_path_and_cause(void **state)
     }
 }
 
-static void arguments_out_of_range_write_nothing(void **state)
+TEST_WITH(arguments_out_of_range_write_nothing, remove_file)
 {
-    (void)state;
     const uint8_t bytes[4] = {0};
     const float value = 0;
     assert_false(picture_write_png(path, 0, 1, 1, bytes, error, sizeof error));
@@ -152,9 +137,8 @@ static void arguments_out_of_range_write_nothing(void **state)
 }
 
 /* Linux's device that is always full: the write fails, and the device is not removed like a broken picture. */
-static void full_disk_is_reported(void **state)
+TEST(full_disk_is_reported)
 {
-    (void)state;
     if (!file_exists("/dev/full"))
         skip();
     static uint8_t pixels[256 * 256 * 3];
@@ -203,17 +187,15 @@ static bool write_beyond_the_limit(void)
     return png_written || pfm_written;
 }
 
-static void partly_written_file_is_removed(void **state)
+TEST_WITH(partly_written_file_is_removed, remove_file)
 {
-    (void)state;
     assert_false(write_beyond_the_limit());
     assert_string_equal(error, "test_picture.tmp: File too large");
     assert_int_equal(count_files(), 0);
 }
 
-static void failed_write_leaves_the_old_file(void **state)
+TEST_WITH(failed_write_leaves_the_old_file, remove_file)
 {
-    (void)state;
     char bytes[8] = "";
     write_bytes("old", 3);
     assert_false(write_beyond_the_limit());
@@ -226,9 +208,8 @@ static void failed_write_leaves_the_old_file(void **state)
 }
 
 /* A new file replaces the old one, through a link and with the same permissions. */
-static void old_file_is_replaced_where_it_is(void **state)
+TEST_WITH(old_file_is_replaced_where_it_is, remove_file)
 {
-    (void)state;
     static const char link_name[] = "test_picture.tmp.link";
     struct stat status;
     const uint8_t pixel = 7;
@@ -249,9 +230,8 @@ static void old_file_is_replaced_where_it_is(void **state)
     assert_int_equal(count_files(), 1);
 }
 
-static void hostile_pfm_is_refused(void **state)
+TEST_WITH(hostile_pfm_is_refused, remove_file)
 {
-    (void)state;
     static const struct {
         const char *bytes;
         size_t size;
@@ -290,9 +270,8 @@ static void hostile_pfm_is_refused(void **state)
     }
 }
 
-static void broken_png_is_refused(void **state)
+TEST_WITH(broken_png_is_refused, remove_file)
 {
-    (void)state;
     uint8_t pixels[64];
     for (int i = 0; i < 64; i++)
         pixels[i] = (uint8_t)(i * i);
@@ -324,9 +303,8 @@ static uint8_t *two_colors(int width, int height, int channels)
     return pixels;
 }
 
-static void jpeg_is_upright_and_close(void **state)
+TEST(jpeg_is_upright_and_close)
 {
-    (void)state;
     const char name[] = "test_picture.jpg";
     uint8_t *pixels = two_colors(40, 30, 3), row[3 * 40];
     assert_true(picture_write(name, 40, 30, 3, pixels, error, sizeof error));
@@ -356,9 +334,8 @@ static void jpeg_is_upright_and_close(void **state)
     remove(name);
 }
 
-static void webp_keeps_its_alpha(void **state)
+TEST(webp_keeps_its_alpha)
 {
-    (void)state;
 #if GLSSAO_HAS_WEBP
     const char name[] = "test_picture.webp";
     static uint8_t bytes[65536];
@@ -389,9 +366,8 @@ static void webp_keeps_its_alpha(void **state)
 #endif
 }
 
-static void lossy_formats_refuse_what_they_cannot_hold(void **state)
+TEST(lossy_formats_refuse_what_they_cannot_hold)
 {
-    (void)state;
     const uint8_t pixel[4] = {0};
     assert_false(picture_write("a.jpg", 1, 1, 4, pixel, error, sizeof error));
     assert_non_null(strstr(error, "a.jpg"));
@@ -406,22 +382,5 @@ static void lossy_formats_refuse_what_they_cannot_hold(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(png_round_trips_odd_sizes, remove_file),
-        cmocka_unit_test_teardown(png_of_colour_is_marked_srgb, remove_file),
-        cmocka_unit_test_teardown(pfm_round_trips_every_bit, remove_file),
-        cmocka_unit_test_teardown(pfm_bytes_are_little_endian, remove_file),
-        cmocka_unit_test(errors_name_path_and_cause),
-        cmocka_unit_test_teardown(arguments_out_of_range_write_nothing, remove_file),
-        cmocka_unit_test(full_disk_is_reported),
-        cmocka_unit_test_teardown(partly_written_file_is_removed, remove_file),
-        cmocka_unit_test_teardown(failed_write_leaves_the_old_file, remove_file),
-        cmocka_unit_test_teardown(old_file_is_replaced_where_it_is, remove_file),
-        cmocka_unit_test_teardown(hostile_pfm_is_refused, remove_file),
-        cmocka_unit_test_teardown(broken_png_is_refused, remove_file),
-        cmocka_unit_test(jpeg_is_upright_and_close),
-        cmocka_unit_test(webp_keeps_its_alpha),
-        cmocka_unit_test(lossy_formats_refuse_what_they_cannot_hold),
-    };
-    return cmocka_run_group_tests_name("picture", tests, NULL, NULL);
+    return test_run("picture", NULL, NULL);
 }

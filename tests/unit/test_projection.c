@@ -5,16 +5,7 @@
  */
 #include "input/projection.h"
 #include "random.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "testing.h"
 
 static const glssao__log silent;
 typedef float matrix[16];
@@ -99,9 +90,8 @@ static void turn_about_z(double angle, matrix out)
 }
 
 /* A projection times V1 V1^-1 V2 V2^-1, as hosts that undo a view get it. */
-static void products_leave_residues_that_count_as_zeros(void **state)
+TEST(products_leave_residues_that_count_as_zeros)
 {
-    (void)state;
     glssao__random random = glssao__random_seed(5, 0);
     int with_residues = 0;
     for (int i = 0; i < 2000; ++i) {
@@ -130,9 +120,8 @@ static void products_leave_residues_that_count_as_zeros(void **state)
 }
 
 /* What is a hundred times larger than a residue is none. */
-static void shears_are_no_residues(void **state)
+TEST(shears_are_no_residues)
 {
-    (void)state;
     static const int entries[] = {1, 3, 4, 7};
     glssao__projection p;
     for (int i = 0; i < 8; ++i) {
@@ -149,9 +138,8 @@ static void shears_are_no_residues(void **state)
 }
 
 /* A perspective with little perspective is none too few. */
-static void a_little_perspective_counts(void **state)
+TEST(a_little_perspective_counts)
 {
-    (void)state;
     glssao__projection p;
     matrix m;
     memcpy(m, box, sizeof m);
@@ -186,9 +174,8 @@ static void assert_images(const matrix m, const glssao__projection *p)
     }
 }
 
-static void turns_about_the_view_axis_are_found(void **state)
+TEST(turns_about_the_view_axis_are_found)
 {
-    (void)state;
     for (int mirror = 0; mirror < 2; ++mirror)
         for (int i = 0; i < 2; ++i)
             for (int degrees = -180; degrees < 180; degrees += 15) {
@@ -217,9 +204,8 @@ static double distance_at(const glssao__projection *p, double depth)
 }
 
 /* Only the eye moves: distances are counted from the near end of the range, and the picture of a point stays. */
-static void eyes_in_or_far_from_the_range_are_moved(void **state)
+TEST(eyes_in_or_far_from_the_range_are_moved)
 {
-    (void)state;
     static const struct {
         double near_plane, far_plane, counted_from;
     } ranges[] = {
@@ -281,9 +267,8 @@ static void make_oblique(const matrix m, const double plane[4], bool zero_to_one
         out[4 * c + 2] = (float)(zero_to_one ? plane[c] / dot : 2.0 * plane[c] / dot - (double)m[4 * c + 3]);
 }
 
-static void oblique_depth_is_turned_into_distance(void **state)
+TEST(oblique_depth_is_turned_into_distance)
 {
-    (void)state;
     static const double planes[][4] = {
         {0.0, 0.3, -0.9539, -1.5}, {-0.4, 0.0, -0.9165, -0.5}, {0.3, -0.3, -0.9055, -2.0}};
     for (int i = 0; i < 3; ++i)
@@ -331,9 +316,8 @@ static enum glssao__doubt doubt_of(const matrix m)
     return strstr(said, "looks transposed") ? DOUBT_TRANSPOSED : DOUBT_NONE;
 }
 
-static void matrices_that_were_hardly_meant_are_told(void **state)
+TEST(matrices_that_were_hardly_meant_are_told)
 {
-    (void)state;
     static const matrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     static const matrix infinite_from_a_half = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, -1, 0, 0, -1, 0};
     static const matrix left_handed = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1.002f, 1, 0, 0, -0.2f, 0};
@@ -359,14 +343,5 @@ static void matrices_that_were_hardly_meant_are_told(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(products_leave_residues_that_count_as_zeros),
-        cmocka_unit_test(shears_are_no_residues),
-        cmocka_unit_test(a_little_perspective_counts),
-        cmocka_unit_test(turns_about_the_view_axis_are_found),
-        cmocka_unit_test(eyes_in_or_far_from_the_range_are_moved),
-        cmocka_unit_test(oblique_depth_is_turned_into_distance),
-        cmocka_unit_test(matrices_that_were_hardly_meant_are_told),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run(NULL, NULL, NULL);
 }

@@ -4,14 +4,7 @@
  */
 #include "gltf_writer.h"
 #include "scene_validity.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "testing.h"
 
 /* 2 x 1 pixels, red and blue; 1 x 1 pixel of 16 bits, 65535, 32896, 0. */
 #define PNG_RED_BLUE                                                                                                   \
@@ -57,9 +50,8 @@ static void assert_floats_equal(const float *found, const float *expected, int c
 
 /* ---- Nodes ---- */
 
-static void transforms_multiply_down_the_node_tree(void **state)
+TEST(transforms_multiply_down_the_node_tree)
 {
-    (void)state;
     /* The parent moves by (1, 2, 3) and turns by 90 degrees about z; the child mirrors and stretches. */
     scene *s =
         load_triangle("", "\"scenes\":[{\"nodes\":[1]}],\"nodes\":[{\"mesh\":0,\"scale\":[-2,3,4]},"
@@ -70,9 +62,8 @@ static void transforms_multiply_down_the_node_tree(void **state)
     scene_destroy(s);
 }
 
-static void a_matrix_is_column_major(void **state)
+TEST(a_matrix_is_column_major)
 {
-    (void)state;
     scene *s = load_triangle("", "\"nodes\":[{\"mesh\":0,\"matrix\":[0,0,5,0, 0,1,0,0, 1,0,0,0, 7,8,9,1]}]");
     const float expected[16] = {0, 0, 5, 0, 0, 1, 0, 0, 1, 0, 0, 0, 7, 8, 9, 1};
     assert_floats_equal(s->instances[0].world_from_mesh, expected, 16);
@@ -80,9 +71,8 @@ static void a_matrix_is_column_major(void **state)
     scene_destroy(s);
 }
 
-static void only_the_default_scene_is_drawn(void **state)
+TEST(only_the_default_scene_is_drawn)
 {
-    (void)state;
     scene *s = load_triangle("", "\"scene\":1,\"scenes\":[{\"nodes\":[0]},{\"nodes\":[1,2]}],"
                                  "\"nodes\":[{\"mesh\":0},{\"mesh\":0,\"translation\":[5,0,0]},{\"mesh\":0}]");
     assert_int_equal(s->instance_count, 2);
@@ -91,9 +81,8 @@ static void only_the_default_scene_is_drawn(void **state)
     scene_destroy(s);
 }
 
-static void instances_come_from_the_instancing_extension(void **state)
+TEST(instances_come_from_the_instancing_extension)
 {
-    (void)state;
     gltf_writer w = {0};
     const float translations[6] = {1, 0, 0, 0, 2, 0};
     const int8_t rotations[8] = {0, 0, 127, 0, 0, 0, 0, 127}; /* half a turn about z; none */
@@ -113,9 +102,8 @@ static void instances_come_from_the_instancing_extension(void **state)
     scene_destroy(s);
 }
 
-static void cameras_lose_the_scale_of_their_node(void **state)
+TEST(cameras_lose_the_scale_of_their_node)
 {
-    (void)state;
     scene *s = load_triangle(
         "", "\"nodes\":[{\"mesh\":0},{\"camera\":0,\"translation\":[0,0,9],\"scale\":[3,5,2]}],\"cameras\":[{\"name\":"
             "\"front\",\"type\":\"perspective\",\"perspective\":{\"yfov\":0.8,\"znear\":0.5}}]");
@@ -127,9 +115,8 @@ static void cameras_lose_the_scale_of_their_node(void **state)
     scene_destroy(s);
 }
 
-static void an_instance_without_area_is_left_out(void **state)
+TEST(an_instance_without_area_is_left_out)
 {
-    (void)state;
     scene *s = load_triangle("", "\"nodes\":[{\"mesh\":0,\"scale\":[0,0,1]},{\"mesh\":0,\"scale\":[1,0,1]}]");
     assert_int_equal(s->instance_count, 1);
     scene_destroy(s);
@@ -137,9 +124,8 @@ static void an_instance_without_area_is_left_out(void **state)
 
 /* ---- Accessors ---- */
 
-static void a_sparse_accessor_replaces_elements(void **state)
+TEST(a_sparse_accessor_replaces_elements)
 {
-    (void)state;
     for (int with_view = 0; with_view < 2; ++with_view) {
         gltf_writer w = {0};
         const uint8_t indices[2] = {1, 2};
@@ -156,9 +142,8 @@ static void a_sparse_accessor_replaces_elements(void **state)
     }
 }
 
-static void interleaved_and_normalized_attributes_are_read(void **state)
+TEST(interleaved_and_normalized_attributes_are_read)
 {
-    (void)state;
     /* Position, then texture coordinates in 16 bits, then a colour in 8 bits: 20 bytes each. */
     struct {
         float position[3];
@@ -183,9 +168,8 @@ static void interleaved_and_normalized_attributes_are_read(void **state)
 
 /* ---- Primitives ---- */
 
-static void all_index_types_mean_the_same(void **state)
+TEST(all_index_types_mean_the_same)
 {
-    (void)state;
     const uint8_t bytes[3] = {2, 0, 1};
     const uint16_t shorts[3] = {2, 0, 1};
     const uint32_t ints[3] = {2, 0, 1};
@@ -216,9 +200,8 @@ static float doubled_area_xy(const scene *s, uint32_t first)
 }
 
 /* A square as a strip (5) and as a fan (6): both triangles face the same way. */
-static void strips_and_fans_keep_their_winding(void **state)
+TEST(strips_and_fans_keep_their_winding)
 {
-    (void)state;
     const float fan[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     for (int mode = 5; mode <= 6; ++mode) {
         gltf_writer w = {0};
@@ -234,9 +217,8 @@ static void strips_and_fans_keep_their_winding(void **state)
     }
 }
 
-static void points_and_lines_are_kept_unlit(void **state)
+TEST(points_and_lines_are_kept_unlit)
 {
-    (void)state;
     static const struct {
         scene_topology topology;
         uint32_t index_count, indices[6];
@@ -259,9 +241,8 @@ static void points_and_lines_are_kept_unlit(void **state)
 }
 
 /* No vertex is split: shaders and rays take the triangle's own normal. */
-static void missing_normals_are_flat(void **state)
+TEST(missing_normals_are_flat)
 {
-    (void)state;
     gltf_writer w = {0};
     const uint8_t indices[6] = {0, 1, 2, 2, 1, 3}; /* folded along the middle */
     gltf_put_floats(&w, "VEC3", 4, (float[12]){0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, -1});
@@ -273,9 +254,8 @@ static void missing_normals_are_flat(void **state)
     scene_destroy(s);
 }
 
-static void bad_normals_come_from_their_faces(void **state)
+TEST(bad_normals_come_from_their_faces)
 {
-    (void)state;
     gltf_writer w = {0};
     gltf_put_floats(&w, "VEC3", 3, triangle);
     gltf_put_floats(&w, "VEC3", 3, (float[9]){0, 0, 0, NAN, 0, 0, 0, 3, 4});
@@ -288,9 +268,8 @@ static void bad_normals_come_from_their_faces(void **state)
     scene_destroy(s);
 }
 
-static void triangles_without_area_do_no_harm(void **state)
+TEST(triangles_without_area_do_no_harm)
 {
-    (void)state;
     gltf_writer w = {0};
     gltf_put_floats(&w, "VEC3", 3, (float[9]){1, 1, 1, 1, 1, 1, 1, 1, 1});
     gltf_put_floats(&w, "VEC3", 3, (float[9]){0});
@@ -303,9 +282,8 @@ static void triangles_without_area_do_no_harm(void **state)
 
 /* ---- Poses ---- */
 
-static void morph_targets_follow_their_default_weights(void **state)
+TEST(morph_targets_follow_their_default_weights)
 {
-    (void)state;
     gltf_writer w = {0};
     gltf_put_floats(&w, "VEC3", 3, triangle);
     gltf_put_floats(&w, "VEC3", 3, (float[9]){0, 0, 0, 2, 0, 0, 0, 0, 0});
@@ -320,9 +298,8 @@ static void morph_targets_follow_their_default_weights(void **state)
 }
 
 /* Joint 0 moves up by 5, joint 1 mirrors. The transform of the node that draws must not count. */
-static void skins_are_baked_in_world_space(void **state)
+TEST(skins_are_baked_in_world_space)
 {
-    (void)state;
     for (int joint = 0; joint < 2; ++joint) {
         gltf_writer w = {0};
         uint8_t joints[12] = {0};
@@ -369,9 +346,8 @@ static scene *load_material(const char *material, const char *image)
     return load_triangle(",\"material\":0", json);
 }
 
-static void factors_and_alpha_modes_are_kept(void **state)
+TEST(factors_and_alpha_modes_are_kept)
 {
-    (void)state;
     scene *s = load_material("{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.1,0.2,0.3,0.4]},\"alphaMode\":\"MASK\","
                              "\"alphaCutoff\":0.25,\"doubleSided\":true,\"extensions\":{\"KHR_materials_unlit\":{}}}",
                              PNG_RED_BLUE);
@@ -389,9 +365,8 @@ static void factors_and_alpha_modes_are_kept(void **state)
     scene_destroy(s);
 }
 
-static void textures_and_samplers_are_kept(void **state)
+TEST(textures_and_samplers_are_kept)
 {
-    (void)state;
     scene *s =
         load_material("{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0,\"texCoord\":1}}}", PNG_RED_BLUE);
     assert_int_equal(s->materials[0].base_color_texture, 0);
@@ -404,18 +379,16 @@ static void textures_and_samplers_are_kept(void **state)
     scene_destroy(s);
 }
 
-static void images_of_16_bits_become_8(void **state)
+TEST(images_of_16_bits_become_8)
 {
-    (void)state;
     scene *s = load_material("{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}", PNG_16_BITS);
     assert_memory_equal(s->images[0].rgba, ((uint8_t[4]){255, 128, 0, 255}), 4);
     scene_destroy(s);
 }
 
 /* u' = 0.5 + 2 cos u + 3 sin v, v' = 0.25 - 2 sin u + 3 cos v: counter-clockwise when v points down. */
-static void texture_transforms_scale_turn_and_move(void **state)
+TEST(texture_transforms_scale_turn_and_move)
 {
-    (void)state;
     scene *s = load_material("{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0,\"extensions\":{"
                              "\"KHR_texture_transform\":{\"offset\":[0.5,0.25],\"scale\":[2,3],\"rotation\":0.5235988,"
                              "\"texCoord\":1}}}}}",
@@ -425,9 +398,8 @@ static void texture_transforms_scale_turn_and_move(void **state)
     scene_destroy(s);
 }
 
-static void images_that_nothing_drawn_uses_may_be_missing(void **state)
+TEST(images_that_nothing_drawn_uses_may_be_missing)
 {
-    (void)state;
     scene *s = load_material("{}", "nowhere.png");
     assert_int_equal(s->image_count, 0);
     scene_destroy(s);
@@ -435,28 +407,5 @@ static void images_that_nothing_drawn_uses_may_be_missing(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(transforms_multiply_down_the_node_tree),
-        cmocka_unit_test(a_matrix_is_column_major),
-        cmocka_unit_test(only_the_default_scene_is_drawn),
-        cmocka_unit_test(instances_come_from_the_instancing_extension),
-        cmocka_unit_test(cameras_lose_the_scale_of_their_node),
-        cmocka_unit_test(an_instance_without_area_is_left_out),
-        cmocka_unit_test(a_sparse_accessor_replaces_elements),
-        cmocka_unit_test(interleaved_and_normalized_attributes_are_read),
-        cmocka_unit_test(all_index_types_mean_the_same),
-        cmocka_unit_test(strips_and_fans_keep_their_winding),
-        cmocka_unit_test(points_and_lines_are_kept_unlit),
-        cmocka_unit_test(missing_normals_are_flat),
-        cmocka_unit_test(bad_normals_come_from_their_faces),
-        cmocka_unit_test(triangles_without_area_do_no_harm),
-        cmocka_unit_test(morph_targets_follow_their_default_weights),
-        cmocka_unit_test(skins_are_baked_in_world_space),
-        cmocka_unit_test(factors_and_alpha_modes_are_kept),
-        cmocka_unit_test(textures_and_samplers_are_kept),
-        cmocka_unit_test(images_of_16_bits_become_8),
-        cmocka_unit_test(texture_transforms_scale_turn_and_move),
-        cmocka_unit_test(images_that_nothing_drawn_uses_may_be_missing),
-    };
-    return cmocka_run_group_tests(tests, gltf_writer_setup, gltf_writer_teardown);
+    return test_run(NULL, gltf_writer_setup, gltf_writer_teardown);
 }

@@ -3,19 +3,12 @@
  * The built-in scenes.
  */
 #include "scene_validity.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "testing.h"
 
 static const char *const names[] = {"columns", "cornell", "steps", "plane"};
 
-static void built_in_scenes_are_valid_and_suggest_a_camera(void **state)
+TEST(built_in_scenes_are_valid_and_suggest_a_camera)
 {
-    (void)state;
     for (int i = 0; i < 4; ++i) {
         char error[256] = "";
         scene *s = scene_make(names[i], error, sizeof error);
@@ -29,9 +22,8 @@ static void built_in_scenes_are_valid_and_suggest_a_camera(void **state)
 }
 
 /* Triangles face along their normals, as back-face culling requires. */
-static void built_in_scenes_wind_counter_clockwise(void **state)
+TEST(built_in_scenes_wind_counter_clockwise)
 {
-    (void)state;
     for (int i = 0; i < 4; ++i) {
         scene *s = scene_make(names[i], NULL, 0);
         assert_non_null(s);
@@ -52,9 +44,8 @@ static void built_in_scenes_wind_counter_clockwise(void **state)
     }
 }
 
-static void columns_stand_in_two_rows(void **state)
+TEST(columns_stand_in_two_rows)
 {
-    (void)state;
     scene *s = scene_make("columns", NULL, 0);
     assert_memory_equal(s->bounds_min, ((float[3]){-10, 0, -15}), 3 * sizeof(float));
     assert_memory_equal(s->bounds_max, ((float[3]){10, 4, 15}), 3 * sizeof(float));
@@ -62,9 +53,8 @@ static void columns_stand_in_two_rows(void **state)
     scene_destroy(s);
 }
 
-static void an_unknown_name_is_an_error(void **state)
+TEST(an_unknown_name_is_an_error)
 {
-    (void)state;
     char error[256] = "";
     assert_null(scene_make("sponza", error, sizeof error));
     assert_non_null(strstr(error, "sponza"));
@@ -74,11 +64,5 @@ static void an_unknown_name_is_an_error(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(built_in_scenes_are_valid_and_suggest_a_camera),
-        cmocka_unit_test(built_in_scenes_wind_counter_clockwise),
-        cmocka_unit_test(columns_stand_in_two_rows),
-        cmocka_unit_test(an_unknown_name_is_an_error),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run(NULL, NULL, NULL);
 }

@@ -7,10 +7,6 @@
 #include "fixture.h"
 #include "small_scene.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 /* A quad, turned, seen without perspective, and a second one mirrored and double-sided. Each has its plane's normals.
  */
 static small_scene *turned_quads(bool flat)
@@ -31,9 +27,8 @@ static small_scene *turned_quads(bool flat)
     return s;
 }
 
-static void flat_primitives_take_the_normal_of_their_triangles(void **state)
+TEST(flat_primitives_take_the_normal_of_their_triangles)
 {
-    (void)state;
     const scene_lighting lighting = scene_default_lighting();
     small_scene *scenes[2] = {turned_quads(false), turned_quads(true)};
     frame frames[2];
@@ -87,9 +82,8 @@ static int count_blue(const frame *f)
     return count;
 }
 
-static void lines_and_points_are_drawn_over_what_is_behind_them(void **state)
+TEST(lines_and_points_are_drawn_over_what_is_behind_them)
 {
-    (void)state;
     const scene_lighting lighting = {.direction_world = {0, -1, 0}};
     static const struct {
         scene_topology topology;
@@ -115,9 +109,8 @@ static void lines_and_points_are_drawn_over_what_is_behind_them(void **state)
 }
 
 /* Emission reads a uv set of its own: the texture's left half is black, its right half white. */
-static void each_map_reads_its_uv_set(void **state)
+TEST(each_map_reads_its_uv_set)
 {
-    (void)state;
     static const uint8_t halves[2 * 4] = {0, 0, 0, 255, 255, 255, 255, 255};
     const scene_lighting lighting = {.direction_world = {0, -1, 0}};
     float more_uvs[4][2][2];
@@ -146,9 +139,8 @@ static void each_map_reads_its_uv_set(void **state)
 }
 
 /* The texels of opaque images alone are freed, once, also where an image is uploaded in two spaces. */
-static void spending_renderer_frees_opaque_texels(void **state)
+TEST(spending_renderer_frees_opaque_texels)
 {
-    (void)state;
     const scene_lighting lighting = scene_default_lighting();
     uint8_t *texels[2];
     small_scene *s = small_scene_create();
@@ -181,9 +173,8 @@ static void spending_renderer_frees_opaque_texels(void **state)
 }
 
 /* A quad without normals, and in most cases a second one: the buffer holds what either needs. */
-static void vertices_are_uploaded_without_what_no_draw_call_reads(void **state)
+TEST(vertices_are_uploaded_without_what_no_draw_call_reads)
 {
-    (void)state;
     static const uint8_t white[4] = {255, 255, 255, 255};
     enum { POSITION = 3, NORMAL = 3, UVS = 4, COLOR = 4 };
     static const struct {
@@ -219,12 +210,5 @@ static void vertices_are_uploaded_without_what_no_draw_call_reads(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(vertices_are_uploaded_without_what_no_draw_call_reads),
-        cmocka_unit_test(flat_primitives_take_the_normal_of_their_triangles),
-        cmocka_unit_test(lines_and_points_are_drawn_over_what_is_behind_them),
-        cmocka_unit_test(each_map_reads_its_uv_set),
-        cmocka_unit_test(spending_renderer_frees_opaque_texels),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -6,18 +6,9 @@
 #define _XOPEN_SOURCE 700 /* WEXITSTATUS */
 #include "gltf_writer.h"
 #include "scene.h"
+#include "testing.h"
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/wait.h>
-
-#include <cmocka.h>
 
 enum { WIDTH = 160, HEIGHT = 90 };
 
@@ -119,9 +110,8 @@ static const struct {
               {13487434.764630988, -6.397349827894406, -3741689.4034150834}}};
 enum { FILE_COUNT = sizeof files / sizeof files[0] };
 
-static void pictures_and_truth_are_those_at_the_origin(void **state)
+TEST(pictures_and_truth_are_those_at_the_origin)
 {
-    (void)state;
     static const char *const techniques[] = {"-t horizon", "-t hemisphere", "-t raytrace --samples 64"};
     for (int i = 0; i < FILE_COUNT; ++i) {
         const char *near = move_back(files[i].name, files[i].far);
@@ -130,9 +120,8 @@ static void pictures_and_truth_are_those_at_the_origin(void **state)
     }
 }
 
-static void eye_and_target_are_in_the_file_s_coordinates(void **state)
+TEST(eye_and_target_are_in_the_file_s_coordinates)
 {
-    (void)state;
     const double eye[3] = {9.25, 6.5, 12.125}, target[3] = {0.5, 0.25, 1};
     for (int i = 0; i < FILE_COUNT; ++i) {
         const double *o = files[i].origin;
@@ -163,9 +152,8 @@ static float *bake_reds(const char *path, const char *arguments, size_t *out_cou
     return reds;
 }
 
-static void bakes_are_those_at_the_origin(void **state)
+TEST(bakes_are_those_at_the_origin)
 {
-    (void)state;
     static const char *const methods[] = {"", "--vertices", "--fit"};
     for (int i = 0; i < FILE_COUNT; ++i) {
         const char *near = move_back(files[i].name, files[i].far);
@@ -184,9 +172,8 @@ static void bakes_are_those_at_the_origin(void **state)
 }
 
 /* A packed file is baked as the one that it was packed from, and comes out unpacked. */
-static void packed_files_are_baked(void **state)
+TEST(packed_files_are_baked)
 {
-    (void)state;
     const char *const names[] = {GLSSAO_HAS_DRACO ? "packed-draco.glb" : NULL,
                                  GLSSAO_HAS_MESHOPT ? "packed-meshopt.glb" : NULL};
     size_t count;
@@ -209,9 +196,8 @@ static void packed_files_are_baked(void **state)
 }
 
 /* Each option of the loader, with a part of the program's message. */
-static void options_reach_the_loader(void **state)
+TEST(options_reach_the_loader)
 {
-    (void)state;
     static const struct {
         const char *options, *file, *words;
         int code;
@@ -244,17 +230,10 @@ static void options_reach_the_loader(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pictures_and_truth_are_those_at_the_origin),
-        cmocka_unit_test(eye_and_target_are_in_the_file_s_coordinates),
-        cmocka_unit_test(bakes_are_those_at_the_origin),
-        cmocka_unit_test(packed_files_are_baked),
-        cmocka_unit_test(options_reach_the_loader),
-    };
     if (argc != 4)
         return 2;
     render = argv[1];
     bake = argv[2];
     cases = argv[3];
-    return cmocka_run_group_tests(tests, gltf_writer_setup, gltf_writer_teardown);
+    return test_run(NULL, gltf_writer_setup, gltf_writer_teardown);
 }

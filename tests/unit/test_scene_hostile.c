@@ -5,15 +5,7 @@
 #include "environment.h"
 #include "gltf_writer.h"
 #include "scene_validity.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "testing.h"
 
 static const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 
@@ -38,9 +30,8 @@ static void assert_rest_refused(const char *rest, const char *fault)
     assert_refused(gltf_write(&w, "refused.gltf", rest), fault);
 }
 
-static void references_that_lead_nowhere_are_named(void **state)
+TEST(references_that_lead_nowhere_are_named)
 {
-    (void)state;
     static const char *const faults[][2] = {
         {"\"nodes\":[{\"mesh\":3}]", "node 0: mesh 3 does not exist, there are 0"},
         {"\"nodes\":[{\"children\":[9]}]", "node 0: child 9 does not exist"},
@@ -70,9 +61,8 @@ static void references_that_lead_nowhere_are_named(void **state)
         assert_rest_refused(faults[i][0], faults[i][1]);
 }
 
-static void accessors_stay_in_their_buffer_views(void **state)
+TEST(accessors_stay_in_their_buffer_views)
 {
-    (void)state;
     static const struct {
         size_t count;
         int component_type;
@@ -110,17 +100,15 @@ static void accessors_stay_in_their_buffer_views(void **state)
     }
 }
 
-static void zeros_without_a_buffer_view_are_limited(void **state)
+TEST(zeros_without_a_buffer_view_are_limited)
 {
-    (void)state;
     gltf_writer w = {0};
     gltf_put_accessor(&w, -1, 5126, "VEC3", 1u << 30, "");
     assert_refused(gltf_write(&w, "zeros.gltf", MESH "," ONE_NODE), "elements without a buffer view");
 }
 
-static void buffer_views_stay_in_their_buffers(void **state)
+TEST(buffer_views_stay_in_their_buffers)
 {
-    (void)state;
     gltf_writer w = {0};
     gltf_put_floats(&w, "VEC3", 3, triangle);
     snprintf(w.views, sizeof w.views, "{\"buffer\":0,\"byteOffset\":8,\"byteLength\":36},");
@@ -133,9 +121,8 @@ static void buffer_views_stay_in_their_buffers(void **state)
     assert_refused(gltf_write(&w, "view.gltf", MESH), "accessor 0: elements of 12 bytes, 8 apart");
 }
 
-static void indices_and_joints_stay_in_range(void **state)
+TEST(indices_and_joints_stay_in_range)
 {
-    (void)state;
     gltf_writer w = {0};
     const uint8_t indices[3] = {0, 1, 3}, joints[12] = {0, 0, 0, 0, 5};
     gltf_put_floats(&w, "VEC3", 3, triangle);
@@ -152,9 +139,8 @@ static void indices_and_joints_stay_in_range(void **state)
                    "skin 0: vertex 1 names joint 5, there are 1");
 }
 
-static void positions_must_be_finite(void **state)
+TEST(positions_must_be_finite)
 {
-    (void)state;
     gltf_writer w = {0};
     gltf_put_floats(&w, "VEC3", 3, (float[9]){0, 0, 0, 1, INFINITY, 0, 0, 1, 0});
     assert_refused(gltf_write(&w, "infinite.gltf", MESH "," ONE_NODE), "accessor 0: the position of vertex 1");
@@ -165,9 +151,8 @@ static void positions_must_be_finite(void **state)
 
 /* ---- The tree ---- */
 
-static void trees_that_are_none_are_refused(void **state)
+TEST(trees_that_are_none_are_refused)
 {
-    (void)state;
     assert_rest_refused("\"nodes\":[{\"children\":[1]},{\"children\":[0]}]", "a cycle of nodes");
     assert_rest_refused("\"nodes\":[{\"children\":[0]}]", "a cycle of nodes");
     assert_rest_refused("\"nodes\":[{\"children\":[2]},{\"children\":[2]},{}]", "node 2: two parents, nodes 0 and 1");
@@ -183,9 +168,8 @@ static const char *write_chain(int nodes)
     return json;
 }
 
-static void node_depth_is_limited(void **state)
+TEST(node_depth_is_limited)
 {
-    (void)state;
     gltf_writer w = {0};
     gltf_put_floats(&w, "VEC3", 3, triangle);
     scene *s = scene_load(gltf_write(&w, "deep.gltf", write_chain(256)), NULL, 0);
@@ -196,9 +180,8 @@ static void node_depth_is_limited(void **state)
 
 /* ---- Files ---- */
 
-static void external_buffers_come_from_the_file_s_own_folder(void **state)
+TEST(external_buffers_come_from_the_file_s_own_folder)
 {
-    (void)state;
     static const char json[] = "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":36,\"uri\":\"%s\"}],"
                                "\"bufferViews\":[{\"buffer\":"
                                "0,\"byteLength\":36}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"type\":"
@@ -220,9 +203,8 @@ static void external_buffers_come_from_the_file_s_own_folder(void **state)
     }
 }
 
-static void images_that_cannot_be_had_are_left_out_with_a_warning(void **state)
+TEST(images_that_cannot_be_had_are_left_out_with_a_warning)
 {
-    (void)state;
     /* A PNG that claims a size of 20000 x 1. */
     static const char wide[] =
         "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAATiAAAAABCAIAAAC01gnZAAAADElEQVR42mNgYGAAAAA"
@@ -262,9 +244,8 @@ static void images_that_cannot_be_had_are_left_out_with_a_warning(void **state)
     }
 }
 
-static void files_that_are_something_else_are_named(void **state)
+TEST(files_that_are_something_else_are_named)
 {
-    (void)state;
     assert_refused(gltf_write(NULL, "lfs.glb", "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 1\n"),
                    "this is a Git LFS pointer");
     assert_refused(gltf_write_bytes("gzip.glb", "\x1f\x8b\x08\0\0\0\0\0", 8), "this is compressed with gzip");
@@ -276,9 +257,8 @@ static void files_that_are_something_else_are_named(void **state)
     assert_non_null(strstr(error, "lfs.hdr: this is a Git LFS pointer"));
 }
 
-static void files_that_are_no_gltf_are_refused(void **state)
+TEST(files_that_are_no_gltf_are_refused)
 {
-    (void)state;
     assert_refused(gltf_writer_path("absent.gltf"), "No such file");
     assert_refused(gltf_writer_path(""), "not a regular file");
     assert_refused(gltf_write_bytes("empty.gltf", "", 0), "the file is empty");
@@ -287,9 +267,8 @@ static void files_that_are_no_gltf_are_refused(void **state)
     assert_refused(gltf_write(NULL, "broken.gltf", "{\"asset\":{\"version\":\n\n"), "parse error");
 }
 
-static void json_that_would_take_the_stack_or_the_memory_is_refused(void **state)
+TEST(json_that_would_take_the_stack_or_the_memory_is_refused)
 {
-    (void)state;
     enum { DEEP = 100000 };
     char *text = malloc(2 * DEEP + 100), error[1024];
     assert_non_null(text);
@@ -312,9 +291,8 @@ static void json_that_would_take_the_stack_or_the_memory_is_refused(void **state
 }
 
 /* An empty object of two bytes becomes a structure of two thousand in the parser. */
-static void lists_are_charged_by_what_the_parser_makes_of_them(void **state)
+TEST(lists_are_charged_by_what_the_parser_makes_of_them)
 {
-    (void)state;
     enum { MATERIALS = 30000 };
     char *text = malloc(3 * MATERIALS + 100), error[1024];
     assert_non_null(text);
@@ -366,9 +344,8 @@ static uint8_t *make_glb(size_t *out_size)
         out_size);
 }
 
-static void a_file_cut_short_anywhere_is_refused(void **state)
+TEST(a_file_cut_short_anywhere_is_refused)
 {
-    (void)state;
     size_t size = 0;
     uint8_t *whole = make_glb(&size);
     scene *s = scene_load(gltf_write_bytes("cut.glb", whole, size), NULL, 0);
@@ -379,9 +356,8 @@ static void a_file_cut_short_anywhere_is_refused(void **state)
     free(whole);
 }
 
-static void a_wrong_byte_anywhere_gives_a_valid_scene_or_an_error(void **state)
+TEST(a_wrong_byte_anywhere_gives_a_valid_scene_or_an_error)
 {
-    (void)state;
     size_t size = 0;
     uint8_t *bytes = make_glb(&size);
     uint32_t random = 12345;
@@ -406,23 +382,5 @@ static void a_wrong_byte_anywhere_gives_a_valid_scene_or_an_error(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(references_that_lead_nowhere_are_named),
-        cmocka_unit_test(accessors_stay_in_their_buffer_views),
-        cmocka_unit_test(zeros_without_a_buffer_view_are_limited),
-        cmocka_unit_test(buffer_views_stay_in_their_buffers),
-        cmocka_unit_test(indices_and_joints_stay_in_range),
-        cmocka_unit_test(positions_must_be_finite),
-        cmocka_unit_test(trees_that_are_none_are_refused),
-        cmocka_unit_test(node_depth_is_limited),
-        cmocka_unit_test(external_buffers_come_from_the_file_s_own_folder),
-        cmocka_unit_test(images_that_cannot_be_had_are_left_out_with_a_warning),
-        cmocka_unit_test(files_that_are_something_else_are_named),
-        cmocka_unit_test(files_that_are_no_gltf_are_refused),
-        cmocka_unit_test(json_that_would_take_the_stack_or_the_memory_is_refused),
-        cmocka_unit_test(lists_are_charged_by_what_the_parser_makes_of_them),
-        cmocka_unit_test(a_file_cut_short_anywhere_is_refused),
-        cmocka_unit_test(a_wrong_byte_anywhere_gives_a_valid_scene_or_an_error),
-    };
-    return cmocka_run_group_tests(tests, gltf_writer_setup, gltf_writer_teardown);
+    return test_run(NULL, gltf_writer_setup, gltf_writer_teardown);
 }

@@ -8,10 +8,6 @@
 #include "scene.h"
 #include "scene_validity.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #define PNG_RED_BLUE                                                                                                   \
     "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAADUlEQVR42mP4zwAE/wEHAAH/"                   \
     "PX2MSQAAAABJRU5ErkJggg=="
@@ -49,9 +45,8 @@ static gltf_writer triangle(void)
 
 #define ONE_NODE "\"nodes\":[{\"mesh\":0}]"
 
-static void factors_have_gltfs_defaults_and_are_kept(void **state)
+TEST(factors_have_gltfs_defaults_and_are_kept)
 {
-    (void)state;
     gltf_writer w = triangle();
     scene *s = load(&w, "", "", ONE_NODE);
     const scene_material *m = &s->materials[0];
@@ -99,9 +94,8 @@ static void assert_tangents(const scene *s, float x, float y, float z, float sig
     }
 }
 
-static void normal_maps_bring_tangents(void **state)
+TEST(normal_maps_bring_tangents)
 {
-    (void)state;
     gltf_writer w = triangle();
     scene *s = load(&w, "", NORMAL_MAPPED, ONE_NODE);
     assert_float_equal(s->materials[0].normal_scale, 2, 0);
@@ -121,9 +115,8 @@ static void normal_maps_bring_tangents(void **state)
     "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[" list "]}},\"nodes\":[{\"mesh\":0},{" node "}]"
 #define LIT "\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}"
 
-static void lights_stand_where_their_nodes_stand(void **state)
+TEST(lights_stand_where_their_nodes_stand)
 {
-    (void)state;
     gltf_writer w = triangle();
     scene *s = load(&w, "", "",
                     LIGHTS("{\"type\":\"spot\",\"color\":[1,0.5,0],\"intensity\":4,\"range\":7,\"spot\":{"
@@ -147,9 +140,8 @@ static void lights_stand_where_their_nodes_stand(void **state)
 
 #define MESH "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]"
 
-static void wrong_ones_are_refused_by_name(void **state)
+TEST(wrong_ones_are_refused_by_name)
 {
-    (void)state;
     static const char *const faults[][2] = {
         {"\"materials\":[{\"normalTexture\":{\"index\":3}}]", "material 0: texture 3 does not exist"},
         {"\"materials\":[{\"emissiveTexture\":{\"index\":4}}]", "material 0: texture 4 does not exist"},
@@ -175,11 +167,5 @@ static void wrong_ones_are_refused_by_name(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(factors_have_gltfs_defaults_and_are_kept),
-        cmocka_unit_test(normal_maps_bring_tangents),
-        cmocka_unit_test(lights_stand_where_their_nodes_stand),
-        cmocka_unit_test(wrong_ones_are_refused_by_name),
-    };
-    return cmocka_run_group_tests_name("scene surfaces", tests, gltf_writer_setup, gltf_writer_teardown);
+    return test_run("scene surfaces", gltf_writer_setup, gltf_writer_teardown);
 }

@@ -5,10 +5,6 @@
  */
 #include "guest.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { W = 64, H = 48, UNITS = 7 };
 
 /* ---- a snapshot: rows of name and values, so that a failure can name the difference ---- */
@@ -577,13 +573,13 @@ static void check_all(fixture *f)
     free(calm_picture);
 }
 
-static void host_state_comes_back_and_does_no_harm(void **state)
+TEST_GL(host_state_comes_back_and_does_no_harm)
 {
     check_all(*state);
 }
 
 /* glssao_apply writes no undefined colours into other draw buffers of the host's framebuffer. */
-static void apply_writes_the_first_draw_buffer_alone(void **state)
+TEST_GL(apply_writes_the_first_draw_buffer_alone)
 {
     fixture *f = *state;
     load_newer(f);
@@ -617,12 +613,6 @@ static void apply_writes_the_first_draw_buffer_alone(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(host_state_comes_back_and_does_no_harm),
-        GL_TEST(apply_writes_the_first_draw_buffer_alone),
-    };
-    const struct CMUnitTest compatibility_tests[] = {GL_TEST(host_state_comes_back_and_does_no_harm)};
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown) +
-           cmocka_run_group_tests_name("compatibility", compatibility_tests, guest_setup_compatibility,
-                                       fixture_teardown);
+    return test_run("core", fixture_setup, fixture_teardown) +
+           test_run("compatibility", guest_setup_compatibility, fixture_teardown);
 }

@@ -7,11 +7,6 @@
 #include "small_scene.h"
 #include "tangent_space.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static float (*make(const small_scene *s))[4]
 {
     float(*out)[4] = malloc(s->scene.index_count * sizeof *out);
@@ -29,9 +24,8 @@ static small_scene *quad(void)
 }
 
 /* Green of a normal map points to where its rows begin, against v: up on this quad. */
-static void quad_has_its_us_direction_and_a_bitangent_against_v(void **state)
+TEST(quad_has_its_us_direction_and_a_bitangent_against_v)
 {
-    (void)state;
     for (int k = 0; k < 12; k++) {
         const bool mirrored = k % 2;
         const double angle = 0.5 * (k / 2);
@@ -56,9 +50,8 @@ static void quad_has_its_us_direction_and_a_bitangent_against_v(void **state)
 }
 
 /* Two quads whose uvs mirror each other at their common edge: each keeps its own side's tangent. */
-static void mirrored_seam_is_not_averaged(void **state)
+TEST(mirrored_seam_is_not_averaged)
 {
-    (void)state;
     static const float left[3] = {-1, 0, 0}, right[3] = {0, 0, 0}, u[3] = {1, 0, 0}, v[3] = {0, 1, 0};
     small_scene *s = small_scene_create();
     small_scene_begin_mesh(s, small_scene_add_material(s, small_scene_material()));
@@ -77,9 +70,8 @@ static void mirrored_seam_is_not_averaged(void **state)
 }
 
 /* Equal vertices count as one, with or without an index buffer. */
-static void split_vertices_give_the_same_as_shared_ones(void **state)
+TEST(split_vertices_give_the_same_as_shared_ones)
 {
-    (void)state;
     small_scene *s = small_scene_create();
     small_scene_begin_mesh(s, small_scene_add_material(s, small_scene_material()));
     small_scene_add_sphere(s);
@@ -100,9 +92,8 @@ static void split_vertices_give_the_same_as_shared_ones(void **state)
     free(s);
 }
 
-static void uvs_without_direction_give_some_tangent(void **state)
+TEST(uvs_without_direction_give_some_tangent)
 {
-    (void)state;
     for (int k = 0; k < 3; k++) {
         small_scene *s = quad();
         for (int i = 0; i < 4; i++) {
@@ -125,9 +116,8 @@ static void uvs_without_direction_give_some_tangent(void **state)
 }
 
 /* MikkTSpace made the Flight Helmet's tangents. */
-static void file_made_by_mikktspace_has_the_same(void **state)
+TEST(file_made_by_mikktspace_has_the_same)
 {
-    (void)state;
     char path[4096], error[512];
     const char *folder = getenv("GLSSAO_SHARED_SCENES");
     snprintf(path, sizeof path, "%s/flight-helmet/FlightHelmet.gltf", folder ? folder : "");
@@ -163,12 +153,5 @@ static void file_made_by_mikktspace_has_the_same(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quad_has_its_us_direction_and_a_bitangent_against_v),
-        cmocka_unit_test(mirrored_seam_is_not_averaged),
-        cmocka_unit_test(split_vertices_give_the_same_as_shared_ones),
-        cmocka_unit_test(uvs_without_direction_give_some_tangent),
-        cmocka_unit_test(file_made_by_mikktspace_has_the_same),
-    };
-    return cmocka_run_group_tests_name("tangents", tests, NULL, NULL);
+    return test_run("tangents", NULL, NULL);
 }

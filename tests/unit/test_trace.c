@@ -3,17 +3,8 @@
  * The ray tracer: what must not change its result, and what rays hit.
  */
 #include "small_scene.h"
+#include "testing.h"
 #include "trace_shot.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 enum { ERROR_LENGTH = 512 };
 
@@ -76,9 +67,8 @@ static void make_transform(float angle, const float scale[3], float out[16], flo
     out[15] = inverse[15] = transpose[15] = 1;
 }
 
-static void nodes_may_turn_mirror_and_stretch(void **state)
+TEST(nodes_may_turn_mirror_and_stretch)
 {
-    (void)state;
     const trace_options options = {.radius = 1.5f, .samples = 256};
     const scene_view view = trace_shot_view((float[3]){3, 2.5f, 4}, (float[3]){0, -0.2f, 0}, 1);
     small_scene *plain = small_scene_create();
@@ -143,9 +133,8 @@ static small_scene *make_hollow(scene_view *out_view, float scale)
     return s;
 }
 
-static void error_falls_with_the_root_of_the_rays(void **state)
+TEST(error_falls_with_the_root_of_the_rays)
 {
-    (void)state;
     scene_view view;
     small_scene *s = make_hollow(&view, 1);
     const trace_shot truth =
@@ -164,9 +153,8 @@ static void error_falls_with_the_root_of_the_rays(void **state)
     free(s);
 }
 
-static void same_seed_gives_same_bits(void **state)
+TEST(same_seed_gives_same_bits)
 {
-    (void)state;
     scene_view view;
     small_scene *s = make_hollow(&view, 1);
     const trace_options options = {.radius = 1.5f, .samples = 37, .seed = 5, .threads = 1};
@@ -187,9 +175,8 @@ static void same_seed_gives_same_bits(void **state)
     free(s);
 }
 
-static void scale_does_not_matter(void **state)
+TEST(scale_does_not_matter)
 {
-    (void)state;
     scene_view view;
     small_scene *s = make_hollow(&view, 1);
     const trace_shot truth = trace_shot_take(&s->scene, &view, (trace_options){.radius = 1.5f, .samples = 256});
@@ -208,9 +195,8 @@ static void scale_does_not_matter(void **state)
 }
 
 /* A quad that faces +z, seen from either side, and one that rays from both sides may hit. */
-static void back_faces_are_unseen_but_block(void **state)
+TEST(back_faces_are_unseen_but_block)
 {
-    (void)state;
     for (int double_sided = 0; double_sided < 2; double_sided++) {
         small_scene *s = small_scene_create();
         scene_material m = small_scene_material();
@@ -243,9 +229,8 @@ static void back_faces_are_unseen_but_block(void **state)
     }
 }
 
-static void projections_agree(void **state)
+TEST(projections_agree)
 {
-    (void)state;
     scene_view view;
     small_scene *s = make_hollow(&view, 1);
     const trace_options options = {.radius = 1.5f, .samples = 32};
@@ -299,9 +284,8 @@ static void projections_agree(void **state)
     free(s);
 }
 
-static void flat_instances_are_seen(void **state)
+TEST(flat_instances_are_seen)
 {
-    (void)state;
     const float flat[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1};
     small_scene *s = small_scene_create();
     scene_material m = small_scene_material();
@@ -319,9 +303,8 @@ static void flat_instances_are_seen(void **state)
     free(s);
 }
 
-static void nothing_is_fully_accessible(void **state)
+TEST(nothing_is_fully_accessible)
 {
-    (void)state;
     small_scene *s = small_scene_create();
     small_scene_add_material(s, small_scene_material());
     const scene_view view = trace_shot_view((float[3]){0, 0, 4}, (float[3]){0, 0, 0}, 1);
@@ -333,9 +316,8 @@ static void nothing_is_fully_accessible(void **state)
     free(s);
 }
 
-static void wrong_arguments_are_named(void **state)
+TEST(wrong_arguments_are_named)
 {
-    (void)state;
     char error[ERROR_LENGTH] = "";
     scene_view view;
     small_scene *s = make_hollow(&view, 1);
@@ -361,9 +343,8 @@ static bool is_stopped(void *user)
     return true;
 }
 
-static void tracing_ends_when_told_to(void **state)
+TEST(tracing_ends_when_told_to)
 {
-    (void)state;
     char error[ERROR_LENGTH] = "";
     scene_view view;
     int asked = 0;
@@ -383,12 +364,5 @@ static void tracing_ends_when_told_to(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nodes_may_turn_mirror_and_stretch), cmocka_unit_test(error_falls_with_the_root_of_the_rays),
-        cmocka_unit_test(same_seed_gives_same_bits),         cmocka_unit_test(scale_does_not_matter),
-        cmocka_unit_test(back_faces_are_unseen_but_block),   cmocka_unit_test(projections_agree),
-        cmocka_unit_test(flat_instances_are_seen),           cmocka_unit_test(nothing_is_fully_accessible),
-        cmocka_unit_test(wrong_arguments_are_named),         cmocka_unit_test(tracing_ends_when_told_to),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run(NULL, NULL, NULL);
 }

@@ -10,10 +10,6 @@
 
 #include "fixture.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { W = 150, H = 90, ERROR_LENGTH = 512 };
 
 typedef struct setup {
@@ -56,8 +52,7 @@ static void tear_down(setup *t)
     scene_destroy(t->scene);
 }
 
-/* Accessibility of each texel; the rays' own memory. */
-static const float *trace(setup *t, int samples, int step, int threads, uint32_t seed)
+static const float *trace_by(setup *t, const trace_options *options, int step)
 {
     char error[ERROR_LENGTH] = "";
     failure why = {.text = error, .size = sizeof error};
@@ -66,10 +61,17 @@ static const float *trace(setup *t, int samples, int step, int threads, uint32_t
                           .normals = t->gbuffer.normals,
                           .view = &t->gbuffer.view,
                           .step = step,
-                          .options = {.radius = t->radius, .samples = samples, .threads = threads, .seed = seed}};
+                          .options = *options};
     if (!rays_trace(&t->rays, t->traced, &job, &why))
         fail_msg("%s", error);
     return t->rays.accessibility;
+}
+
+/* Accessibility of each texel; the rays' own memory. */
+static const float *trace(setup *t, int samples, int step, int threads, uint32_t seed)
+{
+    const trace_options options = {.radius = t->radius, .samples = samples, .threads = threads, .seed = seed};
+    return trace_by(t, &options, step);
 }
 
 static void truth_of(const setup *t, float truth[W * H], uint8_t seen[W * H])
@@ -106,9 +108,8 @@ static void assert_near_truth(setup *t, const char *what)
     assert_true(elsewhere * 100 < W * H);
 }
 
-static void rays_agree_with_the_truth(void **state)
+TEST_GL(rays_agree_with_the_truth)
 {
-    (void)state;
     static const char *const names[] = {"steps", "columns", "cornell"};
     for (int i = 0; i < 6; i++) {
         setup t;
@@ -119,9 +120,8 @@ static void rays_agree_with_the_truth(void **state)
 }
 
 /* An open plane, seen ever more from the side and from ever farther, blocks none of its rays. */
-static void no_surface_blocks_its_own_rays(void **state)
+TEST_GL(no_surface_blocks_its_own_rays)
 {
-    (void)state;
     for (int i = 0; i < 12; i++) {
         const float distance = powf(10, (float)(i / 4)), height = distance * powf(0.25f, (float)(i % 4));
         small_scene *s = small_scene_create();
@@ -147,9 +147,8 @@ static void no_surface_blocks_its_own_rays(void **state)
 }
 
 /* Holes that an alpha test cuts are holes for rays, too: a roof whose texels are all holes darkens nothing. */
-static void alpha_tests_let_rays_through(void **state)
+TEST_GL(alpha_tests_let_rays_through)
 {
-    (void)state;
     for (int hole = 0; hole < 2; hole++) {
         small_scene *s = small_scene_create();
         scene_material roof = small_scene_material();
@@ -176,9 +175,8 @@ static void alpha_tests_let_rays_through(void **state)
     }
 }
 
-static void threads_change_nothing(void **state)
+TEST_GL(threads_change_nothing)
 {
-    (void)state;
     setup t;
     set_up(&t, "steps", false);
     float *alone = malloc(sizeof(float) * W * H);
@@ -190,9 +188,8 @@ static void threads_change_nothing(void **state)
 }
 
 /* At half size a texel stands for the lower left of four pixels. */
-static void half_size_takes_every_other_surface(void **state)
+TEST_GL(half_size_takes_every_other_surface)
 {
-    (void)state;
     setup t;
     set_up(&t, "steps", false);
     uint8_t *full = malloc(W * H);
@@ -209,9 +206,8 @@ static void half_size_takes_every_other_surface(void **state)
 }
 
 /* Counts of 0 to N, fed by and by: texels without rays are negative, and the others unbiased whatever their count. */
-static void counts_are_kept(void **state)
+TEST_GL(counts_are_kept)
 {
-    (void)state;
     setup t;
     set_up(&t, "columns", false);
     static float truth[W * H], out[W * H], (*texels)[4];
@@ -260,9 +256,73 @@ static void counts_are_kept(void **state)
     tear_down(&t);
 }
 
-static void wrong_arguments_are_named(void **state)
+typedef struct mean_error {
+    double bias, rmse, rays;
+} mean_error;
+
+/* Of means over 4 x 4 pixels, as a blur takes them; rays a run. */
+static mean_error measure_means(setup *t, bool adaptive, const float truth[W * H], const uint8_t seen[W * H])
 {
-    (void)state;
+    enum { RUNS = 8 };
+    mean_error e = {0, 0, 0};
+    double pixels = 0, means = 0;
+    t->rays.stats.rays = 0;
+    for (uint32_t seed = 0; seed < RUNS; seed++) {
+        const trace_options options = {.radius = t->radius, .samples = 4, .adaptive = adaptive, .seed = seed};
+        const float *got = trace_by(t, &options, 1);
+        for (int y = 0; y + 4 <= H; y += 4)
+            for (int x = 0; x + 4 <= W; x += 4) {
+                double sum = 0, count = 0;
+                for (int i = 0; i < 16; i++) {
+                    const int at = (y + i / 4) * W + x + i % 4;
+                    sum += got[at] >= 0 && seen[at] ? (double)got[at] - (double)truth[at] : 0;
+                    count += got[at] >= 0 && seen[at];
+                }
+                e.bias += sum;
+                pixels += count;
+                e.rmse += count > 0 ? sum * sum / count / count : 0;
+                means += count > 0;
+            }
+    }
+    return (mean_error){e.bias / pixels, sqrt(e.rmse / means), (double)t->rays.stats.rays / RUNS};
+}
+
+/* Fewer rays than a fixed count's, no more error of what a blur makes of them, no bias, and the same bits by any
+ * threads. */
+TEST_GL(adaptive_counts_pay)
+{
+    setup t;
+    static float truth[W * H], first[W * H];
+    static uint8_t seen[W * H];
+    set_up(&t, "columns", false);
+    truth_of(&t, truth, seen);
+    const mean_error fixed = measure_means(&t, false, truth, seen), adaptive = measure_means(&t, true, truth, seen);
+    print_message("fixed: %.0f rays, RMSE %.4f; adaptive: %.0f rays, bias %+.4f, RMSE %.4f\n", fixed.rays, fixed.rmse,
+                  adaptive.rays, adaptive.bias, adaptive.rmse);
+    assert_true(adaptive.rays < 0.9 * fixed.rays);
+    assert_true(adaptive.rmse <= fixed.rmse);
+    assert_true(fabs(adaptive.bias) < 0.004);
+    for (int threads = 1; threads <= 3; threads += 2) {
+        const trace_options options = {.radius = t.radius, .samples = 2, .adaptive = true, .threads = threads};
+        const float *got = trace_by(&t, &options, 1);
+        if (threads == 1)
+            memcpy(first, got, sizeof first);
+        assert_memory_equal(first, got, sizeof first);
+    }
+    tear_down(&t);
+    set_up(&t, "plane", false); /* nothing is occluded */
+    const float *open = trace_by(&t, &(trace_options){.radius = t.radius, .samples = 12, .adaptive = true}, 1);
+    int surfaces = 0;
+    for (int i = 0; i < W * H; i++) {
+        surfaces += open[i] >= 0;
+        assert_true(open[i] < 0 || open[i] > 0.999f);
+    }
+    assert_true(t.rays.stats.rays < 5 * (uint64_t)surfaces); /* 3 where 16 x 16 agree */
+    tear_down(&t);
+}
+
+TEST_GL(wrong_arguments_are_named)
+{
     setup t;
     char error[ERROR_LENGTH] = "";
     failure why = {.text = error, .size = sizeof error};
@@ -277,6 +337,8 @@ static void wrong_arguments_are_named(void **state)
     assert_string_equal(error, "65 rays within a radius of 1: out of range");
     job.options.samples = 0;
     assert_false(rays_trace(&t.rays, t.traced, &job, &why));
+    job.options = (trace_options){.radius = 1, .samples = 17, .adaptive = true};
+    assert_false(rays_trace(&t.rays, t.traced, &job, &why));
     job.options.samples = 1;
     assert_true(rays_trace(&t.rays, t.traced, &job, &why));
     tear_down(&t);
@@ -284,11 +346,5 @@ static void wrong_arguments_are_named(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(rays_agree_with_the_truth),           GL_TEST(no_surface_blocks_its_own_rays),
-        GL_TEST(alpha_tests_let_rays_through),        GL_TEST(threads_change_nothing),
-        GL_TEST(half_size_takes_every_other_surface), GL_TEST(counts_are_kept),
-        GL_TEST(wrong_arguments_are_named),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

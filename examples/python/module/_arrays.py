@@ -52,7 +52,10 @@ def _unmask(values: Any, dtype: Any) -> Any:
 
 
 def _map(values: ArrayLike, name: str, channels: int = 1) -> Floats:
-    """A packed array of floats, checked for its shape."""
+    """A packed array of floats, checked for its type and shape."""
+    kind = np.asarray(values).dtype
+    if kind.kind not in "biufO":
+        raise ValueError(f"{name} holds values of type {kind}: want real numbers")
     with np.errstate(over="ignore"):  # beyond float32: infinite
         array = np.ascontiguousarray(_unmask(values, np.float32), np.float32)
     last = (channels,) if channels > 1 else ()
@@ -124,6 +127,8 @@ def heightmap(heights: ArrayLike, spacing: float, radius: float, quality: str = 
 def _read(function: Any, path: str | os.PathLike[str], *arguments: Any) -> tuple[Floats, int]:
     """An array (height, width, channels) from a file, and the value that stands for 1 in it."""
     held = _layout.map_file()
+    if b"\0" in os.fsencode(path):
+        raise ValueError("a path can't hold a zero character")
     _call(function, os.fsencode(path), *arguments, ctypes.byref(held))
     try:
         shape = (held.height, held.width, held.channels)

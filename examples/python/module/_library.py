@@ -61,7 +61,7 @@ def choose(enum: Any, name: str, value: str) -> int:
     """The number of an enum's member, by its name in lower case."""
     try:
         return int(enum[value.upper()])
-    except KeyError:
+    except (AttributeError, KeyError):
         raise ValueError(f"{name} = {value!r}: want {', '.join(member.name.lower() for member in enum)}") from None
 
 

@@ -11,8 +11,17 @@ from numpy.typing import NDArray
 Matrix = NDArray[np.float64]
 
 
+def _check(**values: float) -> None:
+    for name, value in values.items():
+        if not (math.isfinite(value) and value > 0):
+            raise ValueError(f"{name} = {value}: want a positive number")
+
+
 def perspective(fov: float, width: float, height: float, near: float = 0.1, far: float = 1000.0) -> Matrix:
     """A camera with a vertical field of view of `fov` degrees and a picture of width x height (any unit)."""
+    _check(fov=fov, width=width, height=height)
+    if fov >= 180:
+        raise ValueError(f"fov = {fov}: want less than 180 degrees")
     focal = 0.5 * height / math.tan(math.radians(fov) / 2.0)
     return pinhole(focal, focal, width / 2.0, height / 2.0, width, height, near, far)
 
@@ -20,6 +29,7 @@ def perspective(fov: float, width: float, height: float, near: float = 0.1, far:
 def pinhole(fx: float, fy: float, cx: float, cy: float, width: float, height: float, near: float = 0.1,
             far: float = 1000.0) -> Matrix:
     """A calibrated camera: focal lengths and principal point in pixels, from the picture's upper left corner."""
+    _check(fx=fx, fy=fy, width=width, height=height)
     return np.array([[2.0 * fx / width, 0.0, 1.0 - 2.0 * cx / width, 0.0],
                      [0.0, 2.0 * fy / height, 2.0 * cy / height - 1.0, 0.0],
                      [0.0, 0.0, (far + near) / (near - far), 2.0 * far * near / (near - far)],
@@ -28,6 +38,7 @@ def pinhole(fx: float, fy: float, cx: float, cy: float, width: float, height: fl
 
 def orthographic(width: float, height: float, near: float = 0.1, far: float = 1000.0) -> Matrix:
     """A view of width x height scene units without perspective."""
+    _check(width=width, height=height)
     return np.array([[2.0 / width, 0.0, 0.0, 0.0],
                      [0.0, 2.0 / height, 0.0, 0.0],
                      [0.0, 0.0, 2.0 / (near - far), (far + near) / (near - far)],

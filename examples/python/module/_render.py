@@ -62,6 +62,8 @@ def render(path: str | os.PathLike[str] | None = None, output: str = "picture", 
         if done.returncode != 0:
             lines = done.stderr.decode(errors="replace").splitlines() or [f"{program} ended with code {done.returncode}"]
             raise Error(next((line for line in lines if line.startswith("glssao-render: ")), lines[-1]))
+        if not os.path.exists(file):
+            raise ValueError(f"with these options glssao-render makes no single picture: {', '.join(options)}")
         if output == "normals":
             return _read(library.map_file_read_normals, file)[0]
         values = _read(library.map_file_read, file)[0]

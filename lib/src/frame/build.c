@@ -118,7 +118,7 @@ void glssao__build_tiles(const glssao__builder *b, glssao__step *step, int facto
 /* The map that holds the value after so many of the passes that draw by turns. */
 enum glssao__map glssao__build_turn_map(const glssao__builder *b, int number)
 {
-    if (number == 0 && b->c.has_history)
+    if (number == 0 && b->c.has_history && !b->c.corrects)
         return MAP_RAW;
     return (enum glssao__map)((b->c.paired ? MAP_PAIRED_0 : MAP_AMBIENT_0) + number % 2);
 }

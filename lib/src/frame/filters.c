@@ -80,10 +80,10 @@ static void add_rays_blur(glssao__builder *b)
 {
     const int count = 2 * b->c.rays_rounds;
     for (int i = 0; i < count; ++i) {
-        glssao__step *step =
-            glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_PLANAR_BLUR, i + 1, i + 1 == count && !b->c.upsamples);
+        glssao__step *step = glssao__build_turn(b, GLSSAO_PASS_BLUR, SHADER_PLANAR_BLUR, i + 1,
+                                                i + 1 == count && !glssao__build_has_more(b));
         set_rays_blur(b, step, i, glssao__build_turn_map(b, i));
-        if (i + 1 == count)
+        if (i + 1 == count && !b->c.has_history)
             glssao__build_set(step, MACRO_RAYS, 2);
     }
 }
@@ -139,7 +139,7 @@ void glssao__build_rays(glssao__builder *b, glssao__step *step, bool is_last)
     glssao__build_point(step, UNIT_NORMAL, b->c.normals);
     glssao__build_point(step, UNIT_DEPTH, b->c.depth);
     glssao__build_point(step, UNIT_RAYS, MAP_HOST_RAYS);
-    glssao__build_set(step, MACRO_RAYS, is_last ? 2 : 1);
+    glssao__build_set(step, MACRO_RAYS, is_last && !b->c.has_history ? 2 : 1);
     glssao__build_finish(b, step);
 }
 
@@ -164,10 +164,18 @@ void glssao__add_correction(glssao__builder *b)
             set_rays_blur(b, step, i - 1, (enum glssao__map)(MAP_RAYS_0 + (i - 1) % 2));
         }
     }
-    glssao__step *step = glssao__build_turn(b, GLSSAO_PASS_RAYS, SHADER_PLANAR_BLUR, turns + 1, !b->c.upsamples);
+    if (b->c.has_history) { /* what rays say without the estimate and the blur */
+        glssao__step *raw = glssao__build_step(b, GLSSAO_PASS_RAYS, SHADER_RAYS, MAP_RAW);
+        raw->region = glssao__region_of(&b->c, GLSSAO_PASS_RAYS);
+        glssao__build_set(raw, MACRO_OUTPUT, OUTPUT_PAIRED);
+        glssao__build_rays(b, raw, false);
+    }
+    glssao__step *step =
+        glssao__build_turn(b, GLSSAO_PASS_RAYS, SHADER_PLANAR_BLUR, turns + 1, !b->c.upsamples && !b->c.has_history);
     glssao__build_set(step, MACRO_CORRECTS, 2);
     glssao__build_point(step, UNIT_RAYS, estimate);
     set_rays_blur(b, step, count - 1, (enum glssao__map)(MAP_RAYS_0 + (count - 1) % 2));
+    glssao__build_set(step, MACRO_RAYS, b->c.has_history ? 1 : 2);
 }
 
 enum glssao__map glssao__last_turn(const glssao__builder *b)

@@ -194,8 +194,10 @@ static void add_history(glssao__builder *b)
         glssao__build_set(step, MACRO_MOTION, 1);
     }
     glssao__build_set(step, MACRO_UPSAMPLE, b->c.factor == 2);
+    glssao__build_set(step, MACRO_RAYS, b->c.is_rays || b->c.corrects);
     glssao__build_finish(b, step);
     step = glssao__build_step(b, GLSSAO_PASS_HISTORY, SHADER_STEADY, MAP_RESULT);
+    glssao__build_set(step, MACRO_RAYS, b->c.is_rays || b->c.corrects);
     glssao__build_point(step, UNIT_HISTORY, next);
     glssao__build_finish(b, step);
     step->origin[0] = b->s->delivered.x;

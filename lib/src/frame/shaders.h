@@ -55,7 +55,7 @@ enum glssao__shader {
     X(FILTER, 2)          /* blur: Gaussian, bilateral, box */                                                         \
     X(WIDE, 1)            /* planar blur: the first round is not the blur's first */                                   \
     X(STRIDE, 3)          /* planar blur: the neighbours are 2 to that power of pixels apart */                        \
-    X(RAYS, 2)            /* values come from the host's rays: they may be missing; the same, but not in the output */ \
+    X(RAYS, 2)            /* values come from the host's rays: they may be missing, and the power waits; no longer */  \
     X(CORRECTS, 2)        /* rays: the difference to another technique's estimate; 2: its sum with that */             \
     X(ROUNDS, 2)          /* planar blur: rounds of one dispatch */                                                    \
     X(UPSAMPLE, 1)        /* planar tile: brings the result to full size */                                            \

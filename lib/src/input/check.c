@@ -177,8 +177,6 @@ bool glssao__check_frame(const glssao_frame *frame, const glssao_settings *setti
     if (settings->bent_normals && frame->rays_texture != 0)
         return refuse(log, "settings.bent_normals", 1,
                       "frame.rays_texture, which knows no directions, can't correct them");
-    if (settings->history > 0 && frame->rays_texture != 0)
-        return refuse(log, "settings.history", settings->history, "want 0: rays are not reused over time");
     if (settings->history > 0 && settings->bent_normals)
         return refuse(log, "settings.history", settings->history, "want 0: bent normals are not reused over time");
     return check_margin(frame, size, log) && check_viewport(frame, size, log) && check_logarithm(frame, log) &&

@@ -91,6 +91,27 @@ def depth(folder):
     return table(["level", "ms", "ms, depth alone", "ratio", "RMSE", "depth alone", "depth alone, flat truth"], rows)
 
 
+def plain_rays(a):
+    """Ray tracing as it comes: rays-N."""
+    return [c for c in a.configs(technique="rays") if c.split("-")[1].isdigit()]
+
+
+def traced(folder, use="tuning"):
+    """A few rays alone and as corrections, beside screen space and plain ray tracing, from fast to slow."""
+    a = Accuracy(folder, use)
+    few = [c for c in a.by_config if data.is_few_rays(c)]
+    beside = [f"horizon-{level}" for level in LEVELS if a.has(f"horizon-{level}")]
+    if not few:
+        return None
+    base = a.time("horizon-high", "cpu_ms") if a.has("horizon-high") else None
+    rows = []
+    for c in sorted(few + beside + plain_rays(a), key=lambda c: (a.time(c, "cpu_ms") or 0, -a.figure(c, "rmse"))):
+        time = a.time(c, "cpu_ms")
+        rows.append([f"`{c}`", ms(time), number(time / base if time and base else None, 2), number(a.figure(c, "rmse")),
+                     number(a.figure(c, "rmse", "mean")), number(a.figure(c, "ssim"), 3), number(a.figure(c, "grain"))])
+    return table(["configuration", "CPU ms", "of `horizon-high`'s", "RMSE", "mean of the scenes' RMSE", "SSIM", "grain"], rows)
+
+
 def bent(folder, use="tuning"):
     """Bent normals of each level, in degrees off the traced mean open direction; each scene counts the same."""
     t, scenes = load(folder, "bent"), load(folder, "scenes")
@@ -126,7 +147,7 @@ def bent_light(folder):
 def rays(folder):
     a = Accuracy(folder)
     rows = []
-    for c in a.configs(technique="rays"):
+    for c in plain_rays(a):
         rows.append([c.split("-")[1], ms(a.time(c)), number(a.figure(c, "rmse")), number(a.figure(c, "ssim"), 3),
                      number(a.figure(c, "flip"), 3), number(a.figure(c, "grain"))])
     return table(["rays a pixel", "ms (CPU)", "RMSE", "SSIM", "FLIP", "grain"], rows, 0) if rows else None
@@ -285,3 +306,33 @@ def bandwidth(folder):
     t = load(folder, "bandwidth")
     return table(["what", "how", "ms", "GB/s"], [[r["what"], r["how"], number(r["ms"]), f"{r['gb_per_s']:.0f}"] for r in t.rows],
                  2) if t else None
+
+
+# The cut is none of a history's motions, and where nothing moves there is no flicker to see.
+MOTIONS = ["orbit", "walk", "pan", "dolly", "bend"]
+
+
+def motion(folder):
+    """Settings with a history beside single frames, over all motions of all scenes; the lag where a box leaves."""
+    t = load(folder, "motion")
+    if not t:
+        return None
+    rows, base = [], None
+    for setting in ["ultra"] + t.values("setting"):
+        own = [r for r in t.where(setting=setting) if r["motion"] in MOTIONS]
+        lags = [r["lag"] for r in t.where(setting=setting, motion="box")]
+        figures = [combine((r[c] for r in own), how) for c, how in (
+            ("rmse", "rms"), ("ssim", "mean"), ("flip", "mean"), ("frame_change", "rms"), ("new_rmse", "rms"), ("cpu_ms", "mean"))]
+        base = base or figures
+        rmse, ssim, flip, change, new, time = figures
+        rows.append([f"`{setting}`", f"{number(rmse)} ({rmse / base[0]:.2f})", number(ssim, 3), number(flip, 3),
+                     f"{number(change)} ({change / base[3]:.2f})", number(new), f"{max(lags):.0f}" if setting.endswith("-16") else "",
+                     f"{ms(time)} ({time / base[5]:.2f})"])
+    head = ["setting", "RMSE (of ultra's)", "SSIM", "FLIP", "frame change (of ultra's)", "RMSE of new pixels", "lag, frames",
+            "CPU ms (of ultra's)"]
+    return table(head, rows[1:])
+
+
+def motion_command(folder):
+    t = load(folder, "motion")
+    return f"Made by `{t.command}`; {t.notes['context']}." if t else None

@@ -72,7 +72,7 @@ def short(config, technique):
 
 def needs_scene(config, info):
     """Whether a host needs more than depth and normals: hidden surfaces, or rays through the scene."""
-    return info["inputs"] == "beyond" or technique_of(info) == "rays" or config.endswith("-rays")
+    return info["inputs"] == "beyond" or technique_of(info) == "rays" or data.is_few_rays(config)
 
 
 def accuracy(a, column, picture):
@@ -118,7 +118,7 @@ def accuracy(a, column, picture):
     labels = Labels(map(pixel, points.values()))
     for config in sorted(configs, key=lambda c: (not a.info(c)["level"], c not in front)):
         info = a.info(config)
-        if not info["level"] and config not in front and not config.endswith("-rays"):
+        if not info["level"] and config not in front and not data.is_few_rays(config):
             continue
         at, text = pixel(points[config]), short(config, technique_of(info))
         place = labels.place(*at, text)

@@ -58,6 +58,12 @@ def load(folder, name):
     return Table(path) if os.path.exists(path) else None
 
 
+def is_few_rays(config):
+    """Whether a configuration gets a few rays that the host traces: rays-LEVEL, or any -with-N-rays, adaptive or not."""
+    name = config.removesuffix("-adaptive")
+    return name.endswith("-rays") or (name.startswith("rays-") and not name.split("-")[1].isdigit())
+
+
 def combine(values, how):
     """One figure over scenes, each of the same weight; None where one is missing."""
     values = list(values)

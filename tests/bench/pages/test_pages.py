@@ -38,6 +38,19 @@ class Figures(unittest.TestCase):
         self.folder = self.temporary.name
         self.addCleanup(self.temporary.cleanup)
 
+    def test_motion_compares_with_ultra(self):
+        columns = ["scene", "motion", "setting", "rmse", "ssim", "flip", "frame_change", "new_rmse", "lag", "cpu_ms"]
+        rows = [["a", m, s, r, 0.5, 0.1, 2 * r, 3 * r, 4, 100 * r]
+                for m in ("orbit", "cut", "box") for s, r in (("low", 0.3), ("low-16", 0.15), ("ultra", 0.1))]
+        rows += [["b", "pan", s, 0.1, 0.5, 0.1, 0.1, 0.1, 0, 10] for s in ("low", "low-16", "ultra")]
+        write(self.folder, "motion", columns, rows)
+        lines = blocks.motion(self.folder).split("\n")
+        rms = math.sqrt((0.15**2 + 0.1**2) / 2)
+        self.assertIn(f"| `low-16` | {rms:.4f} ({rms / 0.1:.2f}) | 0.500 | 0.100 |", lines[3])
+        self.assertIn("| 4 | 12.5 (1.25) |", lines[3])
+        self.assertIn("|  | 20.0 (2.00) |", lines[2])
+        self.assertEqual(len(lines), 5)
+
     def test_scenes_count_the_same(self):
         a = make(self.folder, {"horizon-low": [0.3, 0.4]}, {"horizon-low": 1})
         self.assertAlmostEqual(a.figure("horizon-low", "rmse"), math.sqrt((0.09 + 0.16) / 2))
@@ -70,6 +83,8 @@ class Figures(unittest.TestCase):
         plain = {"inputs": "normals", "technique": "horizon"}
         self.assertFalse(charts.needs_scene("horizon-high", plain))
         self.assertTrue(charts.needs_scene("horizon-high-with-2-rays", plain))
+        self.assertTrue(charts.needs_scene("horizon-high-with-2-rays-adaptive", plain))
+        self.assertFalse(charts.needs_scene("horizon-high", plain))
         self.assertTrue(charts.needs_scene("horizon-high-beyond", {**plain, "inputs": "beyond"}))
         self.assertTrue(charts.needs_scene("rays-low", {**plain, "technique": "rays"}))
 

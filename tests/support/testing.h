@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * cmocka, and tests that register themselves, so that no list of them can miss one:
+ *
+ *     TEST(doubles_are_even)
+ *     {
+ *         assert_int_equal(2 * 3 % 2, 0);
+ *     }
+ *
+ *     int main(void)
+ *     {
+ *         return test_run(NULL, NULL, NULL);
+ *     }
+ *
+ * Inside a test, `state` is cmocka's.
+ */
+#ifndef GLSSAO_TESTS_TESTING_H
+#define GLSSAO_TESTS_TESTING_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* A test with a teardown of its own; NULL: none. */
+#define TEST_WITH(name, teardown)                                                                                      \
+    static void name(void **state);                                                                                    \
+    __attribute__((constructor)) static void name##_registers(void)                                                    \
+    {                                                                                                                  \
+        test_register(#name, name, teardown);                                                                          \
+    }                                                                                                                  \
+    static void name(__attribute__((unused)) void **state)
+#define TEST(name) TEST_WITH(name, NULL)
+
+void test_register(const char *name, CMUnitTestFunction test, CMFixtureFunction teardown);
+
+/* Runs the tests of the program in the order of their definition, between the group's setup and teardown, and returns
+ * the number of those that failed. `group` is a name for the output, or NULL. */
+int test_run(const char *group, CMFixtureFunction setup, CMFixtureFunction teardown);
+
+#endif
