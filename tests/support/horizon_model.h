@@ -14,7 +14,7 @@
 #include <stdbool.h>
 
 typedef struct horizon_constants {
-    double jump, alike, open_end, width, veil, veil_width, veil_reach, veil_far, rise, calibration;
+    double jump, alike, open_end, width, veil, veil_width, veil_reach, veil_far, reach_on, rise, calibration;
     double plan_width, plan_from, plan_to; /* of runs, in orthographic projections about points that face the eye */
     double second;                         /* used with a second layer only */
 } horizon_constants;

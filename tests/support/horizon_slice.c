@@ -84,8 +84,21 @@ static interval hide_between(const slice *s, const side *d, const place *at, int
     return t;
 }
 
-/* Adds what one sample hides whose run is `width` steps wide. */
-static void add_sample(const point *p, const slice *s, const side *d, const candidate *at, rounded width, hidden *h)
+/* The height from which the end of a sample's occluder is seen. `rise`: of its run by a step. */
+static interval top_of(const candidate *at, rounded rise, double reach_on)
+{
+    const rounded part = once_rounded(reach_on);
+    const rounded farther = add(at->x, multiply(part, at->step));
+    const interval y = bounds(at->y);
+    if (farther.v - farther.e <= 0.0)
+        return y;
+    const interval end = bounds(divide(multiply(at->x, add(at->y, multiply(part, rise))), farther));
+    return (interval){fmax(y.low, end.low), fmax(y.high, end.high)};
+}
+
+/* Adds what one sample hides whose run is `width` steps wide and rises by `rise` a step. */
+static void add_sample(const point *p, const slice *s, const side *d, const candidate *at, rounded width, rounded rise,
+                       hidden *h)
 {
     const horizon_constants *c = &p->in->constants;
     const interval x = bounds(at->x), y = bounds(at->y);
@@ -118,7 +131,8 @@ static void add_sample(const point *p, const slice *s, const side *d, const cand
         const rounded known_part = {-at->thickness.v, at->thickness.e};
         thickness = at->thickness.v > 0.0 ? at->thickness : thickness.v > known_part.v ? thickness : known_part;
     }
-    const interval t = hide_between(s, d, &here, y, bounds(subtract(at->y, thickness)), h);
+    const interval top = top_of(at, rise, c->reach_on);
+    const interval t = hide_between(s, d, &here, top, bounds(subtract(at->y, thickness)), h);
     const interval lowest = bounds(d->lowest);
     const interval far = {lowest.low + c->veil_far * (t.low - lowest.low) - 4.0 * ROUNDING,
                           lowest.high + c->veil_far * (t.high - lowest.high) + 4.0 * ROUNDING};
@@ -160,7 +174,9 @@ static void add_runs(const point *p, const slice *s, const side *d, const candid
         const rounded end = next < steps ? exactly(next)
                                          : add(subtract(once_rounded(p->in->constants.open_end * steps), exactly(0.5)),
                                                exactly(s->jitter));
-        add_sample(p, s, d, samples[i], subtract(end, exactly(start)), &h);
+        const rounded before = i > 0 ? samples[i - 1]->y : exactly(0.0);
+        const rounded rise = i > start ? subtract(samples[i]->y, before) : exactly(0.0);
+        add_sample(p, s, d, samples[i], subtract(end, exactly(start)), rise, &h);
     }
     merge(all, &h);
 }

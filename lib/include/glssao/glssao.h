@@ -128,7 +128,8 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     float fade_start, fade_end;    /* scene units of view distance, 0 <= start <= end (classic): an occluder that is nearer
                                       than the point by start counts fully, by end not at all */
     float surface_epsilon;         /* scene units, >= 0: an occluder counts only if it is nearer than the point (classic) or
-                                      than the sample (hemisphere) by more than this */
+                                      than the sample (hemisphere) by more than this. horizon, rays: depths that differ by
+                                      less are taken for one surface (noise of scans, point clouds, edge lines); 0 */
     float power;                   /* 0 to 64: accessibility is raised to this; more is darker */
     int sample_count;              /* classic: 1 to 14 offsets; hemisphere: 1 to 64; horizon: depths, 12 (one slice of 6 a
                                       side), 16 (1 x 8), 24 (1 x 12), 32 (2 x 8), 48 (2 x 12) or 64 (2 x 16); rays: 1 to 64
