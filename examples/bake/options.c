@@ -45,6 +45,8 @@ static const option table[] = {
     {0, "root", "DIR", "allow the scene to refer to files below DIR (default: only below the scene's own folder)",
      OPTION_FILE, AT(file.root), 0, 0, "", 0},
     {0, "strict", NULL, "refuse a scene that would cause a warning", OPTION_FLAG, AT(file.strict), 0, 0, NULL, 0},
+    {0, "flat-normals", NULL, "ignore the file's normals: every triangle has its own", OPTION_FLAG,
+     AT(file.flat_normals), 0, 0, NULL, 0},
     {0, "memory", "MIB", "memory limit for loading the scene (default: half of the machine's memory)", OPTION_INT,
      AT(memory_mib), 1, 1e9, "a whole number from 1", 0},
     {'h', "help", NULL, "print this help", OPTION_FLAG, AT(help), 0, 0, NULL, 0},

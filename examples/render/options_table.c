@@ -53,7 +53,7 @@ static const option table[] = {
      "trace N rays from each pixel of the estimate, 1 to 64: all of it with -t rays (default 2 to 8, by quality), and "
      "a "
      "correction with another technique (default none)",
-     OPTION_INT, AT(rays), 1, 64, "a whole number from 1 to 64", SCOPE_RENDERED},
+     OPTION_INT, AT(rays), 1, 64, "a whole number from 1 to 64", SCOPE_PICTURE},
     {0, "adaptive-rays", NULL,
      "more rays where few neighbours can be averaged, fewer where all say the same; --rays is at most 16 then",
      OPTION_FLAG, AT(adaptive_rays), 0, 0, NULL, SCOPE_RENDERED},
@@ -107,6 +107,8 @@ static const option table[] = {
      OPTION_FILE, AT(file.root), 0, 0, "", SCOPE_PICTURE},
     {0, "strict", NULL, "refuse a scene that would cause a warning", OPTION_FLAG, AT(file.strict), 0, 0, NULL,
      SCOPE_PICTURE},
+    {0, "flat-normals", NULL, "ignore the file's normals: every triangle has its own", OPTION_FLAG,
+     AT(file.flat_normals), 0, 0, NULL, SCOPE_PICTURE},
     {0, "memory", "MIB", "memory limit for loading a scene (default: half of the machine's memory)", OPTION_INT,
      AT(memory_mib), 1, 1e9, "a whole number from 1", SCOPE_PICTURE},
     {0, "scene", "NAME", "draw a built-in scene: columns, cornell, steps or plane (default columns)", OPTION_TEXT,

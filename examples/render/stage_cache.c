@@ -91,8 +91,8 @@ static bool is_same_request(const key *a, const key *b)
 {
     return a->time_s.given == b->time_s.given && a->time_s.value == b->time_s.value && a->memory_mib == b->memory_mib &&
            a->file.scene == b->file.scene && a->file.animation == b->file.animation &&
-           a->file.strict == b->file.strict && is_same_text(a->file.variant, b->file.variant) &&
-           is_same_text(a->file.root, b->file.root);
+           a->file.strict == b->file.strict && a->file.flat_normals == b->file.flat_normals &&
+           is_same_text(a->file.variant, b->file.variant) && is_same_text(a->file.root, b->file.root);
 }
 
 static bool is_same(const key *a, const key *b)
@@ -238,7 +238,7 @@ stage *stage_cache_get(stage_cache *c, const options *o, failure *why)
         inputs in = {0};
         scene *s = k.name ? load_scene(c, &k, &in, why) : NULL;
         e = s ? calloc(1, sizeof *e) : NULL;
-        if (!e || !stage_open_spending(&e->stage, s, c->first ? &c->first->stage : NULL, why)) {
+        if (!e || !stage_open_spending(&e->stage, s, c->first ? &c->first->stage : NULL, o, why)) {
             if (e)
                 stage_close(&e->stage);
             else if (s || !k.name)

@@ -101,7 +101,10 @@ scene *scene_load_with(const char *path, const scene_load_options *options, char
     scene *made = NULL;
     if (gltf_document_open(&document, path, options, &warnings, &fault)) {
         if (gltf_check(&document, &fault) && scene_builder_begin(&builder, gltf_file_name(path), &fault)) {
-            gltf_loader loader = {.document = &document, .builder = &builder, .fault = &fault};
+            gltf_loader loader = {.document = &document,
+                                  .builder = &builder,
+                                  .fault = &fault,
+                                  .flat_normals = options && options->flat_normals};
             gltf_pose pose = {0};
             const bool timed = options && options->timed;
             if (gltf_loader_begin(&loader) && (!timed || gltf_animate(&loader, &document, options->time_s, &pose)) &&

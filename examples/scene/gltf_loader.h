@@ -52,6 +52,7 @@ typedef struct gltf_loader {
     gltf_document *document;
     scene_builder *builder;
     scene_fault *fault;
+    bool flat_normals;                           /* as in scene_load_options */
     double (*world_from_node)[16];               /* of every node */
     bool *drawn;                                 /* of every node */
     int *material_map, *texture_map, *image_map; /* the scene's index for the document's; -1: not made yet */

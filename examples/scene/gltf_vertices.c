@@ -175,7 +175,8 @@ static bool read_all(gltf_loader *l, gltf_vertices *v)
 {
     const gltf_attribute_list *attributes = &v->source->attributes;
     v->positions = (float(*)[3])read_attribute(l, attributes, "POSITION", 3, GLTF_AS_SAID);
-    v->normals = (float(*)[3])read_attribute(l, attributes, "NORMAL", 3, GLTF_AS_SAID);
+    if (!l->flat_normals)
+        v->normals = (float(*)[3])read_attribute(l, attributes, "NORMAL", 3, GLTF_AS_SAID);
     for (int slot = 0; slot < v->slots.count; ++slot)
         v->uvs[slot] = (float(*)[2])read_uvs(l, v, v->slots.sets[slot]);
     v->colors = (float(*)[4])read_colors(l, v);

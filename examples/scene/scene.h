@@ -152,6 +152,7 @@ typedef struct scene_load_options { /* all zero: the file as it stands */
     int scene, animation;  /* which of the file's, counted from 1; 0: its default scene, its first animation */
     const char *variant;   /* KHR_materials_variants: its name, or its number from 1 on; NULL: none */
     bool strict;           /* fail where there would be a warning */
+    bool flat_normals;     /* ignore the file's normals: every triangle has its own */
     const char *root;      /* files that the glTF file names may also lie below this folder; NULL: only below its own */
     uint64_t memory_bytes; /* limit on what loading the file may allocate; 0: half of the machine's memory */
 } scene_load_options;

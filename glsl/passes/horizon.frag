@@ -160,10 +160,16 @@ uint hidden_between(slice_side side, float x2, float chord, float top, float bot
     return sectors_from(side, cos_top) ^ sectors_from(side, cos_bottom);
 }
 
-// The sectors that one sample hides, whose run is `width` steps wide. Raises `highest` to the sample's top where the sample
-// is thick enough to veil what is behind it, and part of the way where it neither is
-// near the point nor reaches down to it.
-uint hidden_by(slice_side side, vec3 at, vec2 layers, float width, inout float highest)
+// The height at a sample's x from which the occluder's end is seen, which lies a part of a step farther on.
+float top_of(vec3 at, float rise)
+{
+    return at.x > 0.0 ? max(at.y, at.x * (at.y + REACH_ON * rise) / (at.x + REACH_ON * at.z)) : at.y;
+}
+
+// The sectors that one sample hides, whose run is `width` steps wide and rises by `rise` a step. Raises `highest` to the
+// sample's top where the sample is thick enough to veil what is behind it, and part of the way where it neither is near the
+// point nor reaches down to it.
+uint hidden_by(slice_side side, vec3 at, vec2 layers, float width, float rise, inout float highest)
 {
     float x2 = at.x * at.x + 1e-12;
     float chord = sqrt(1.0 - x2); // x is below 1
@@ -175,7 +181,7 @@ uint hidden_by(slice_side side, vec3 at, vec2 layers, float width, inout float h
     mask = hidden_between(side, x2, chord, second, second - SECOND_WIDTH * thickness, cos_top);
     thickness = layers.x > 0.0 ? layers.x : max(thickness, -layers.x);
 #endif
-    mask |= hidden_between(side, x2, chord, at.y, at.y - thickness, cos_top);
+    mask |= hidden_between(side, x2, chord, top_of(at, rise), at.y - thickness, cos_top);
     float veil_top = at.y < max(VEIL_REACH, thickness) ? cos_top : mix(side.lowest, cos_top, VEIL_FAR);
     highest = thickness > VEIL_WIDTH ? max(highest, veil_top) : highest;
     return mask;
@@ -221,7 +227,7 @@ uint hidden_sectors(point p, slice_side side, out float highest)
     uint mask = 0u;
     UNROLL for (int i = 0; i < STEPS; ++i) {
         start = i > 0 && end[max(i - 1, 0)] == float(i) ? float(i) : start;
-        mask |= hidden_by(side, samples[i], layers[i], end[i] - start, highest);
+        mask |= hidden_by(side, samples[i], layers[i], end[i] - start, float(i) > start ? rise[i] : 0.0, highest);
     }
     return mask;
 }

@@ -7,8 +7,8 @@
 //
 // After the first round the only noise left is that of twice the tile's period. Later rounds remove it in one pass each: a
 // quarter of the pixel and 3/16 of each of the four at three pixels from it, where they lie on a line or in a hollow. In a
-// hollow both sides darken, and the rest of the noise would show along it. What is left of the noise is less than the share of
-// one sample, so no round changes a pixel by more: larger differences are shade.
+// hollow both sides darken, and the rest of the noise would show along it. What is left of the noise is about the share of one
+// sample, so a neighbour counts less the more it differs, and not at all from twice that share on: such a difference is shade.
 // BRANCHES 1: a branch that all pixels of a warp take alike spares work.
 
 float line_tolerance(float linear)
@@ -119,15 +119,16 @@ CONTENTS blurred_wide(PAIRED left, PAIRED below, PAIRED center, PAIRED above, PA
     }
     vec4 weights = mix(vec4(0.0), vec4(0.1875), joins);
     float own = accessibility_of(center);
-    float most = 1.0 / float(gSampleCount);
     vec4 taps = vec4(accessibility_of(left), accessibility_of(below), accessibility_of(above), accessibility_of(right));
+#if !RAYS
+    vec4 apart = (taps - own) * (float(gSampleCount) / BLUR_ALIKE);
+    weights *= max(vec4(0.0), 1.0 - apart * apart);
+#endif
     float mean = weighted_mean(own, 0.25, taps, weights);
-#if RAYS
-    return mean;
-#elif BENT
+#if BENT
     // The first round leaves little noise in directions, and in a crease they differ more than by noise.
-    return vec4(clamp(mean, own - most, own + most), contents_of(center).yzw);
+    return vec4(mean, contents_of(center).yzw);
 #else
-    return clamp(mean, own - most, own + most);
+    return mean;
 #endif
 }

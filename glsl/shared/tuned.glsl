@@ -10,12 +10,13 @@
 #define PLAN_WIDTH 4.0        // the same in a parallel projection, about points that face the eye ...
 #define PLAN_FROM 0.75        // ... from this cosine on in part ...
 #define PLAN_TO 0.9           // ... and from this one on in full
-#define VEIL_ONE_LAYER 0.18   // share of what lies hidden behind occluders that counts as occluded, however deep
+#define VEIL_ONE_LAYER 0.14   // share of what lies hidden behind occluders that counts as occluded, however deep
 #define VEIL_TWO_LAYERS 0.03  // the same where a second layer is known
 #define VEIL_WIDTH 0.2        // occluders thinner than this hide nothing behind them
 #define VEIL_REACH 2.0        // those that are higher above the point than this, and than they are thick, veil less ...
 #define VEIL_FAR 0.45         // ... their cosine counts this far from the rim of the hemisphere
 #define SECOND_WIDTH 0.3      // thickness of the second layer's surfaces, in units of what is guessed for the first's
+#define REACH_ON 0.2          // an occluder reaches so many steps farther than the sample that sees it
 #define CALIBRATION_6 1.1     // exponent that makes up for what 6 samples a side miss
 #define CALIBRATION_8 1.05    // the same for 8 samples
 #define CALIBRATION_12 1.0    // the same for 12 and 16 samples
@@ -28,6 +29,7 @@
 #define BLUR_TOLERANCE 0.02   // how far off a line may be
 #define BLUR_NEAR 0.1         // how far off a neighbour may be of a pixel that has no other
 #define BLUR_ALONE 0.5        // how much darker than its neighbours a pixel may be that can't be smoothed
+#define BLUR_ALIKE 2.0        // from this difference on a later round's tap counts no more, in shares of a sample
 #define BLUR_HOLLOW 0.1       // how far a later round's line may bend towards the eye at its ends
 
 // The blur of rays (shared/planar_blur.glsl).

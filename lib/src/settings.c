@@ -21,13 +21,15 @@ static glssao_settings hemisphere_settings(glssao_settings s, glssao_quality qua
 static glssao_settings horizon_settings(glssao_settings s, glssao_quality quality)
 {
     s.technique = GLSSAO_HORIZON;
+    s.surface_epsilon = 0.0f;
     s.power = 1.0f;
     s.sample_count = quality == GLSSAO_LOW ? 12 : quality == GLSSAO_MEDIUM ? 16 : 48;
     s.half_resolution = quality != GLSSAO_ULTRA;
     s.upsample = true;
     s.blur = GLSSAO_BLUR_PLANAR;
-    /* One round smooths a 4x4 tile of noise. The second is for the 8x8 tile of a single slice, and for what is left. */
-    s.blur_rounds = 2;
+    /* One round smooths a 4x4 tile of noise. The second is for the 8x8 tile of a single slice, and for what is left;
+     * ULTRA, whose pixels are half as wide, needs a third to reach as far. */
+    s.blur_rounds = quality == GLSSAO_ULTRA ? 3 : 2;
     return s;
 }
 
@@ -35,6 +37,7 @@ static glssao_settings horizon_settings(glssao_settings s, glssao_quality qualit
 static glssao_settings rays_settings(glssao_settings s, glssao_quality quality)
 {
     s.technique = GLSSAO_RAYS;
+    s.surface_epsilon = 0.0f;
     s.power = 1.0f;
     s.sample_count = quality == GLSSAO_LOW ? 2 : quality == GLSSAO_ULTRA ? 8 : 4;
     s.half_resolution = quality <= GLSSAO_MEDIUM;

@@ -47,6 +47,7 @@ void horizon_read_pass_constants(pass_constants *out_blur, pass_constants *out_u
                                  .near = BLUR_NEAR,
                                  .hollow = BLUR_HOLLOW,
                                  .alone = BLUR_ALONE,
+                                 .wide_alike = BLUR_ALIKE,
                                  .chord = CHORD,
                                  .normal_step = NORMAL_STEP};
     *out_upsample = (pass_constants){.tolerance = UPSAMPLE_TOLERANCE,
@@ -85,6 +86,7 @@ bool horizon_variant(const glssao_effect *effect, horizon_input *out)
         .rise = LEAST_RISE,
         .veil_reach = VEIL_REACH,
         .veil_far = VEIL_FAR,
+        .reach_on = REACH_ON,
         .plan_width = PLAN_WIDTH,
         .plan_from = PLAN_FROM,
         .plan_to = PLAN_TO,

@@ -202,7 +202,7 @@ enum { ON_ROW, ON_COLUMN, JOINS_AROUND, WIDE_TESTS = JOINS_AROUND + 4 };
 /* The fifth tap is the pixel's own; opposite pairs are 0 and 1, 2 and 3. */
 typedef struct cross {
     texel taps[5];
-    double most; /* change */
+    double alike; /* difference from which on a tap counts no more */
 } cross;
 
 static double blurred_wide(const truth *t, const void *user)
@@ -212,17 +212,19 @@ static double blurred_wide(const truth *t, const void *user)
     double sum = taps[4].value / 4.0, total = 1.0 / 4.0;
     for (int i = 0; i < 4; ++i)
         if (t[i < 2 ? ON_ROW : ON_COLUMN] && t[JOINS_AROUND + i]) {
-            sum += 3.0 / 16.0 * taps[i].value;
-            total += 3.0 / 16.0;
+            const double apart = (taps[i].value - taps[4].value) / c->alike;
+            const double weight = 3.0 / 16.0 * fmax(1.0 - apart * apart, 0.0);
+            sum += weight * taps[i].value;
+            total += weight;
         }
-    return fmin(fmax(sum / total, taps[4].value - c->most), taps[4].value + c->most);
+    return sum / total;
 }
 
 void wide_blur_model(const paired_map *map, bool orthographic, const pass_constants *constants, int x, int y,
                      double *out_low, double *out_high)
 {
     static const int ways[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
-    cross c = {.most = constants->most};
+    cross c = {.alike = constants->wide_alike};
     texel *taps = c.taps;
     taps[4] = texel_at(map, x, y);
     const double tolerance = fmax(in_linear(constants->tolerance, taps[4].linear, orthographic),

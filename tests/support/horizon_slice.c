@@ -84,8 +84,21 @@ static interval hide_between(const slice *s, const side *d, const place *at, int
     return t;
 }
 
-/* Adds what one sample hides whose run is `width` steps wide. */
-static void add_sample(const point *p, const slice *s, const side *d, const candidate *at, rounded width, hidden *h)
+/* The height from which the end of a sample's occluder is seen. `rise`: of its run by a step. */
+static interval top_of(const candidate *at, rounded rise, double reach_on)
+{
+    const rounded part = once_rounded(reach_on);
+    const rounded farther = add(at->x, multiply(part, at->step));
+    const interval y = bounds(at->y);
+    if (farther.v - farther.e <= 0.0)
+        return y;
+    const interval end = bounds(divide(multiply(at->x, add(at->y, multiply(part, rise))), farther));
+    return (interval){fmax(y.low, end.low), fmax(y.high, end.high)};
+}
+
+/* Adds what one sample hides whose run is `width` steps wide and rises by `rise` a step. */
+static void add_sample(const point *p, const slice *s, const side *d, const candidate *at, rounded width, rounded rise,
+                       hidden *h)
 {
     const horizon_constants *c = &p->in->constants;
     const interval x = bounds(at->x), y = bounds(at->y);
@@ -118,7 +131,8 @@ static void add_sample(const point *p, const slice *s, const side *d, const cand
         const rounded known_part = {-at->thickness.v, at->thickness.e};
         thickness = at->thickness.v > 0.0 ? at->thickness : thickness.v > known_part.v ? thickness : known_part;
     }
-    const interval t = hide_between(s, d, &here, y, bounds(subtract(at->y, thickness)), h);
+    const interval top = top_of(at, rise, c->reach_on);
+    const interval t = hide_between(s, d, &here, top, bounds(subtract(at->y, thickness)), h);
     const interval lowest = bounds(d->lowest);
     const interval far = {lowest.low + c->veil_far * (t.low - lowest.low) - 4.0 * ROUNDING,
                           lowest.high + c->veil_far * (t.high - lowest.high) + 4.0 * ROUNDING};
@@ -160,7 +174,9 @@ static void add_runs(const point *p, const slice *s, const side *d, const candid
         const rounded end = next < steps ? exactly(next)
                                          : add(subtract(once_rounded(p->in->constants.open_end * steps), exactly(0.5)),
                                                exactly(s->jitter));
-        add_sample(p, s, d, samples[i], subtract(end, exactly(start)), &h);
+        const rounded before = i > 0 ? samples[i - 1]->y : exactly(0.0);
+        const rounded rise = i > start ? subtract(samples[i]->y, before) : exactly(0.0);
+        add_sample(p, s, d, samples[i], subtract(end, exactly(start)), rise, &h);
     }
     merge(all, &h);
 }
@@ -239,4 +255,67 @@ hidden horizon_slice_hidden(const point *p, const slice *s, const side *d)
             return anything;
     }
     return all;
+}
+
+/* ---- directions ---- */
+
+/* The measure from the minus rim up to a signed angle. */
+static double measure_up_to(const slice *s, double angle)
+{
+    const double sign = angle < 0.0 ? -1.0 : 1.0;
+    return s->total_minus.v + sign * horizon_measure(s->cos_g.v, sign * s->sin_g.v, cos(angle));
+}
+
+static double angle_of(const slice *s, double measure, double low, double high)
+{
+    for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        *(measure_up_to(s, middle) < measure ? &low : &high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+/* The integral of (sin t, cos t) cos(t - g) |sin t|, by Simpson's rule. */
+static void add_directions(const slice *s, double from, double to, double weight, double out[2])
+{
+    enum { PARTS = 200 };
+    const double step = (to - from) / PARTS;
+    for (int i = 0; i <= PARTS; ++i) {
+        const double t = from + i * step, simpson = i == 0 || i == PARTS ? 1.0 : i % 2 ? 4.0 : 2.0;
+        const double value = (cos(t) * s->cos_g.v + sin(t) * s->sin_g.v) * fabs(sin(t)) * weight * simpson * step / 3.0;
+        out[0] += value * sin(t);
+        out[1] += value * cos(t);
+    }
+}
+
+/* Across the eye's direction the integrand bends, so each side is integrated by itself. */
+static void add_run(const slice *s, double from, double to, double weight, double out[2])
+{
+    const double middle = fmin(fmax(0.0, from), to);
+    add_directions(s, from, middle, weight, out);
+    add_directions(s, middle, to, weight, out);
+}
+
+bool horizon_slice_directions(const point *p, const slice *s, const hidden h[2], double out[2])
+{
+    const uint32_t mask = h[0].surely | h[1].surely;
+    const double g = atan2(s->sin_g.v, s->cos_g.v), low = g - 0.5 * PI, high = g + 0.5 * PI,
+                 veil = p->in->constants.veil;
+    out[0] = out[1] = 0.0;
+    if (mask != (h[0].possibly | h[1].possibly) || s->projected.v < 10.0 * s->projected.e)
+        return false;
+    for (int i = 0; i < 2; ++i) {
+        if (h[i].highest.high - h[i].highest.low > 1e-3)
+            return false;
+        const double horizon = acos(0.5 * (h[i].highest.low + h[i].highest.high));
+        if (i == 0)
+            add_run(s, horizon, high, veil, out);
+        else
+            add_run(s, low, -horizon, veil, out);
+    }
+    for (int i = 0; i < SECTORS; ++i)
+        if (mask >> i & 1u)
+            add_run(s, angle_of(s, s->total.v * i / SECTORS, low, high),
+                    angle_of(s, s->total.v * (i + 1) / SECTORS, low, high), 1.0 - veil, out);
+    return true;
 }

@@ -607,6 +607,20 @@ static void cameras_and_lights_move_with_the_scene(void **state)
     scene_destroy(s);
 }
 
+static void normals_of_the_file_can_be_ignored(void **state)
+{
+    (void)state;
+    char path[1024];
+    snprintf(path, sizeof path, "%s/aura.glb", folder);
+    for (int flat = 0; flat < 2; ++flat) {
+        scene *s = load_path(path, &(scene_load_options){.flat_normals = flat});
+        assert_true(s->primitive_count > 0);
+        for (uint32_t i = 0; i < s->primitive_count; ++i)
+            assert_int_equal(s->primitives[i].flat, flat);
+        scene_destroy(s);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
@@ -636,6 +650,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(vertices_stored_far_away_are_centred),
         cmocka_unit_test(joints_far_away_keep_a_skin_s_shape),
         cmocka_unit_test(cameras_and_lights_move_with_the_scene),
+        cmocka_unit_test(normals_of_the_file_can_be_ignored),
     };
     if (argc != 2)
         return 2;

@@ -6,23 +6,16 @@
  * occluded), or multiplies that map into your picture. It does not open windows, make contexts, load models
  * or draw your scene. It has no global state and needs no library: you hand it a GL function loader.
  *
- * Rules for every call
- *   Context    The GL context that the effect was created in is current on the calling thread: 3.3 or later, core
- *              or compatibility. One effect belongs to one context and is used by one thread at a time. Several
- *              effects may live in one context, and several contexts may run on several threads. Contexts that share
- *              objects may hand their textures to an effect and read its maps, ordered by glFinish or a fence. The
- *              effect itself stays in its own context, since framebuffers and vertex arrays are not shared.
- *   State      Each call leaves GL state as it found it, unless config.host_restores_state is set. Conditional rendering
- *              and transform feedback must be off: OpenGL can't be asked about the first, and the second would record
- *              the effect's vertices. An occlusion query that runs counts the effect's fragments too.
+ * Rules for every call (docs/integration.md says more about contexts, state and errors)
+ *   Context    The effect's GL context is current on the calling thread: 3.3 or later, core or compatibility. One thread at a
+ *              time uses an effect. Contexts that share objects may exchange textures with it, after glFinish or a fence.
+ *   State      Each call leaves GL state as it found it, unless config.host_restores_state is set. Conditional rendering and
+ *              transform feedback must be off.
  *   Errors     A call that fails changes nothing, says why in one line of the log, and leaves the effect usable. A NULL
- *              effect gives GLSSAO_INVALID_ARGUMENT, 0 or NULL, as the type allows. No call leaves a GL error behind,
- *              and release builds take none of yours: glGetError is called only after a GL call that is known to have
- *              failed (no memory, or a texture of another target in a context older than 4.5), and about the first copy of
- *              a depth buffer.
+ *              effect gives GLSSAO_INVALID_ARGUMENT, 0 or NULL, as the type allows. No call leaves a GL error behind.
  *   Ownership  Structs handed in are copied. The effect deletes only what it created.
- *   Growth     Later versions add fields at the end of a struct, whose zero keeps today's meaning. Zero a struct, or use its
- *              default function, before you fill it.
+ *   Growth     Later versions add fields at the end of a struct; 0 keeps today's meaning. Zero a struct before you fill it, or
+ *              use its default function.
  *
  * Spaces: view space has the camera at its origin, is right-handed, and looks down -z; view distance is -z.
  * Window depth is what the depth buffer stores, 0 to 1. uv is 0 to 1 with its origin at the bottom left.
@@ -93,21 +86,14 @@ typedef struct glssao_config { /* zero means default */
     glssao_log_fn log;   /* NULL: silent */
     void *log_user;      /* handed to log */
     int width, height;   /* full size in pixels: that of the depth maps handed over. 1 to GL_MAX_TEXTURE_SIZE */
-    uint32_t seed;       /* of classic's vectors, hemisphere's kernel and the noise of glssao_accumulate: same seed, same
-                            bits. The horizon technique's tile of noise does not depend on it */
+    uint32_t seed;       /* of classic's vectors, hemisphere's kernel and glssao_accumulate's noise: same seed, same bits */
     bool no_timers;      /* true: no timer queries; glssao_stats then holds no times */
-    const char *program_cache; /* a folder where linked programs are kept for the next run, if the driver can; NULL: none. It
-                            must exist, belong to the user who runs the program, and be writable by nobody else, since a
-                            linked program is code that the driver runs. Otherwise the log warns and nothing is kept */
+    const char *program_cache; /* a folder where linked programs are kept for the next run; NULL: none. It must exist, belong
+                            to the user, and be writable by nobody else; otherwise the log warns and nothing is kept */
     glssao_path path;    /* compute shaders or fragment shaders, where both can do it */
     glssao_proc (*get_proc)(const char *name); /* instead of load: glfwGetProcAddress, eglGetProcAddress and SDL's fit */
-    bool host_restores_state; /* true: calls neither ask for GL state nor restore it, which spares a threaded driver every
-                            wait. They change: program, vertex array, draw and read framebuffer, viewport, active texture
-                            unit, 2D textures and samplers of units 0 to 7, uniform buffers 0 to 2, image unit 0, pixel
-                            store, pack and unpack buffers, blend functions and colour. They leave off: blending, scissor, depth and
-                            stencil test, culling and all that could drop a fragment. They leave on: colour mask 0, depth
-                            mask, filled polygons. A framebuffer for glssao_apply is not checked; a texture only the first
-                            time, until glssao_resize, and its swizzle and base level must be the default */
+    bool host_restores_state; /* true: calls neither query GL state nor restore it, and check less; docs/integration.md lists
+                            what they change */
 } glssao_config;
 
 /* ---- settings: may change every frame ------------------------------------------------------------------- */
@@ -142,12 +128,12 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     float fade_start, fade_end;    /* scene units of view distance, 0 <= start <= end (classic): an occluder that is nearer
                                       than the point by start counts fully, by end not at all */
     float surface_epsilon;         /* scene units, >= 0: an occluder counts only if it is nearer than the point (classic) or
-                                      than the sample (hemisphere) by more than this */
+                                      than the sample (hemisphere) by more than this. horizon, rays: depths that differ by
+                                      less are taken for one surface (noise of scans, point clouds, edge lines); 0 */
     float power;                   /* 0 to 64: accessibility is raised to this; more is darker */
-    int sample_count;              /* classic: 1 to 14 offset vectors, the 8 cube corners first; hemisphere: 1 to 64; rays: 1
-                                      to 64, how many a texel of rays_texture stands for, which only the host reads;
-                                      horizon: samples of depth, 12 (one slice of 6 a side), 16 (1 x 8), 24 (1 x 12),
-                                      32 (2 x 8), 48 (2 x 12) or 64 (2 x 16) */
+    int sample_count;              /* classic: 1 to 14 offsets; hemisphere: 1 to 64; horizon: depths, 12 (one slice of 6 a
+                                      side), 16 (1 x 8), 24 (1 x 12), 32 (2 x 8), 48 (2 x 12) or 64 (2 x 16); rays: 1 to 64
+                                      that a texel of rays_texture stands for, which only the host reads */
     bool half_resolution;          /* estimate at half the size, (w + 1) / 2 by (h + 1) / 2 */
     bool upsample;                 /* true: a half-size result is brought to full size along surfaces */
     glssao_blur blur;              /* of the estimate, before upsampling */
@@ -161,12 +147,11 @@ typedef struct glssao_settings {   /* fill with glssao_default_settings() first,
     /* Over time: */
     uint32_t noise_index;          /* another pattern of noise for each value, for instance the number of the frame where
                                       the host averages frames itself (TAA); 0: the pattern of docs/decisions/0028 */
-    int history;                   /* 0 to 63: earlier frames are reused, and at most so many count in a pixel's mean; 0:
-                                      none. The result has the full size. Needs frame.view; not with bent normals.
-                                      docs/integration.md has more */
+    int history;                   /* 0 to 63: earlier frames that count in a pixel's mean at most; 0: none. The result has the
+                                      full size. Needs frame.view; not with bent normals. See docs/integration.md */
     /* How far occlusion reaches: */
-    float thickness;               /* horizon: multiplies the thickness that is estimated for occluders, 0.001 to 1000; 0: 1.
-                                      What a second layer tells stays */
+    float thickness;               /* horizon: multiplies the estimated thickness of occluders, 0.001 to 1000; 0: 1. A second
+                                      layer's is kept */
     float fade_far_start, fade_far_end; /* scene units of view distance, 0 <= start <= end: occlusion is full up to start and
                                       fades to nothing at end. 0, 0: never */
     bool radius_in_pixels;         /* radius counts pixels of the full size, as wide as they are where the point lies */
@@ -204,28 +189,24 @@ typedef struct glssao_frame { /* zero a field that you don't use */
                                   of the result, which is that much smaller. projection is that of the whole */
     bool no_ambient_light;     /* true: there is no light that the result could scale. Nothing is drawn, the result is 1 */
     bool only_sky;             /* true: only sky is seen. The same */
-    uint32_t back_texture;     /* horizon: a second layer, both textures or neither. They are stored as depth_texture is, or */
-    uint32_t second_texture;   /* hold view distance in red where depth is in the normal map. back: the nearest back face at
-                                  or behind the visible surface, where two-sided surfaces count as back faces. second: the
-                                  nearest front face behind it. Store the sky value where there is no such surface. With
-                                  both layers the effect measures thickness instead of estimating it */
+    uint32_t back_texture;     /* horizon: the nearest back face (or two-sided surface) at or behind the visible surface */
+    uint32_t second_texture;   /* horizon: the nearest front face behind that. Both or neither, stored as depth_texture; view
+                                  distance in red where depth is in the normal map; the sky value where there is none.
+                                  Thickness is then measured instead of estimated */
     float log_depth_far;       /* GLSSAO_DEPTH_LOGARITHMIC: view distance at depth 1, scene units, 1e-12 to 1e12 */
     float log_depth_constant;  /* GLSSAO_DEPTH_LOGARITHMIC: c, 1e-12 to 1e12; 0: 1, which is what three.js has */
-    bool multisample;          /* true: the textures are GL_TEXTURE_2D_MULTISAMPLE; the first sample of each pixel is read.
-                                  Each texture is copied: one pass, and until the next resize 4 bytes a pixel (depth,
-                                  back, second) or 16 (normals) of memory */
+    bool multisample;          /* true: the textures are GL_TEXTURE_2D_MULTISAMPLE; each pixel's first sample is read. Each
+                                  texture is copied: one pass, and 4 bytes a pixel, or 16 of normals, until the next resize */
     int viewport[4];           /* x, y, width, height, pixels: where the picture lies in larger textures; width and height
                                   are the effect's full size. Each texture is copied, as above. All 0: the whole texture */
     float view[16];            /* view_from_world, column-major; for world_normals, and where settings.history > 0 */
-    uint32_t motion_texture;   /* settings.history > 0, or 0: for things that move by themselves. Float format, full size, red
-                                  and green: uv of the point now minus its uv in the last frame, the camera's motion
-                                  included. A value outside -2..2 leaves the pixel to view */
+    uint32_t motion_texture;   /* settings.history > 0, optional: float format, full size. Red and green: the point's uv now
+                                  minus its uv in the last frame, camera included. Outside -2..2: view tells it */
     bool cut;                  /* settings.history > 0: nothing of the earlier frames holds */
     bool world_normals;        /* true: normal_texture is in world space. view turns each normal as it is read */
-    uint32_t rays_texture;     /* linear accessibility in red from a few rays a texel, unbiased (from Embree, from hardware ray
-                                  tracing): GL_TEXTURE_2D of R8, R16, R16F or R32F, full or half size, where a texel belongs
-                                  to the lower left of four pixels. Negative, NaN: no rays there. It corrects the technique's
-                                  result by the blurred difference, or is all of it (GLSSAO_RAYS); see docs/integration.md */
+    uint32_t rays_texture;     /* optional, R8, R16, R16F or R32F, full or half size (a texel belongs to the lower left of four
+                                  pixels). Red: unbiased linear accessibility from a few rays; negative, NaN: none there.
+                                  Corrects the technique's result, or is all of it (GLSSAO_RAYS): docs/integration.md */
 } glssao_frame;
 
 /* ---- apply: how the result gets into a picture ---------------------------------------------------------- */
@@ -249,20 +230,17 @@ typedef struct glssao_apply_options { /* fill with glssao_default_apply_options(
 typedef enum glssao_map_id { /* textures to look at */
     GLSSAO_MAP_AMBIENT = 0,   /* the result: accessibility in red, R16; half size where it was estimated so and not upsampled */
     GLSSAO_MAP_AMBIENT_OTHER, /* the second of the two ping-pong maps, with what the blur last drew into it: accessibility in
-                                 red, R16. After upsampling or the planar blur RG32F: green is the linear quantity of
-                                 distance (glsl/shared/inverse_depth.glsl), and red's ten lowest bits hold the normal. With bent
-                                 normals RGBA32F: their hidden vectors (glsl/shared/bent.glsl) in blue and alpha */
+                                 red, R16; RG32F or RGBA32F after some passes, see docs/conventions.md */
     GLSSAO_MAP_NORMAL,        /* the effect's own normal map, RGBA16F, full size */
     GLSSAO_MAP_RANDOM_VECTOR, /* RGBA8, 256 x 256 */
     GLSSAO_MAP_DEPTH,         /* the host's depth texture as last handed over; 0 before the first */
-    GLSSAO_MAP_TILES,         /* R32F, one texel for each tile: its distance in tiles from the nearest one that was estimated,
-                                 over 16; 0 for an estimated one. No texture where the last frame had no tiles */
-    GLSSAO_MAP_REBUILT_NORMAL, /* normals that the last frame without a normal map rebuilt from depth: RG32F, octahedral, view
-                                 space, at the estimate's size. No texture before one */
+    GLSSAO_MAP_TILES,         /* R32F, one texel a tile: its distance in tiles from the nearest estimated one, over 16. None
+                                 where the last frame had no tiles */
+    GLSSAO_MAP_REBUILT_NORMAL, /* normals that the last frame rebuilt from depth: RG32F, octahedral, view space, of the
+                                 estimate's size. None before one */
     GLSSAO_MAP_BENT_NORMAL    /* with settings.bent_normals, else none: RGBA16F, of the result's size. rgb: view-space mean of
-                                 the directions that no occluder within the radius blocks, each weighted by its cosine
-                                 with the normal, unit length; nearly closed: towards the normal; sky: (0, 0, 1). Alpha:
-                                 the result. How to light with it: docs/integration.md */
+                                 the open directions, weighted by their cosine with the normal, unit length; alpha: the
+                                 result. How to light with it: docs/integration.md */
 } glssao_map_id;
 
 /* The uniform block cbSsao, std140, with the D3D12 demo's members and names. Matrices are column-major. */
@@ -319,11 +297,10 @@ typedef struct glssao_stats { /* of the last glssao_compute or glssao_accumulate
     int draw_calls;          /* and dispatches; sum over the passes */
     double gpu_ms;           /* sum over the passes of timed_frame; negative: none is known yet */
     int estimates;           /* in the mean of glssao_accumulate; 0 after glssao_compute */
-    double sampling_error;   /* accessibility, RMS over visible surfaces: the estimated distance of the mean of
-                                glssao_accumulate from the mean of endless estimates; negative: not known (yet) */
+    double sampling_error;   /* accessibility, RMS over visible surfaces: how far glssao_accumulate's mean is from that of
+                                endless estimates, as estimated; negative: not known (yet) */
     glssao_pass_stats passes[GLSSAO_PASS_COUNT]; /* indexed by glssao_pass */
-    uint64_t timed_frame;    /* the newest frame whose times the GPU has finished; 0: none. A frame goes untimed when four
-                                earlier ones wait to be read here, so that no call ever waits */
+    uint64_t timed_frame;    /* the newest frame whose times the GPU has finished; 0: none. Frames go untimed while four wait */
 } glssao_stats;
 
 /* ---- functions ------------------------------------------------------------------------------------------ */
@@ -342,11 +319,10 @@ GLSSAO_API glssao_result glssao_resize(glssao_effect *effect, int width, int hei
 /* Settings that suit the technique. Out-of-range arguments count as GLSSAO_CLASSIC and GLSSAO_HIGH. */
 GLSSAO_API glssao_settings glssao_default_settings(glssao_technique technique, glssao_quality quality);
 
-/* For hosts without view-space normals of their own: binds the effect's normal map and your depth texture (depth or
- * depth-stencil format, full size) as the draw framebuffer, sets the viewport to the full size, and clears both: normals to
- * (0, 0, 1, 0), depth to your glClearDepth value. Draw your opaque geometry, write view-space normals to output 0, and sample
- * neither texture. With the same framebuffer bound, call glssao_end_normals, and hand glssao_map(effect, GLSSAO_MAP_NORMAL,
- * ...) to glssao_compute as normal_texture. May fail with INVALID_ARGUMENT and FRAMEBUFFER_ERROR. */
+/* For hosts without normals of their own: binds the effect's normal map and your depth texture (depth or depth-stencil format,
+ * full size) as the draw framebuffer with a viewport of the full size. Clears normals to (0, 0, 1, 0), depth to your glClearDepth
+ * value. Draw opaque geometry with view-space normals in output 0, call glssao_end_normals, and hand over GLSSAO_MAP_NORMAL as
+ * normal_texture. May fail with INVALID_ARGUMENT and FRAMEBUFFER_ERROR. */
 GLSSAO_API glssao_result glssao_begin_normals(glssao_effect *effect, uint32_t depth_texture);
 /* Restores the framebuffer and viewport that were there before glssao_begin_normals. INVALID_ARGUMENT without one, or where
  * another framebuffer is bound: pairs of several effects end in reverse order. */
@@ -357,10 +333,10 @@ GLSSAO_API glssao_result glssao_end_normals(glssao_effect *effect);
 GLSSAO_API glssao_result glssao_compute(glssao_effect *effect, const glssao_frame *frame,
                                         const glssao_settings *settings);
 
-/* For hosts without a depth texture: copies the depth of `framebuffer` (0: the default one), of any depth format and any number
- * of samples, follows its size by glssao_resize, and runs glssao_compute. frame.viewport is the part to copy; all 0: that of
- * glViewport. frame.depth_texture is 0, the other textures have that part's size. glssao_apply covers the same part. May fail as
- * these do, with INVALID_ARGUMENT where there is no depth buffer, and with FRAMEBUFFER_ERROR. */
+/* For hosts without a depth texture: copies the depth of `framebuffer` (0: the default one), of any format and any number of
+ * samples, follows its size, and runs glssao_compute. frame.viewport is the part to copy, which glssao_apply then covers; all 0:
+ * that of glViewport. frame.depth_texture is 0, the other textures have that part's size. May fail as glssao_resize and
+ * glssao_compute, and with FRAMEBUFFER_ERROR. */
 GLSSAO_API glssao_result glssao_compute_framebuffer(glssao_effect *effect, uint32_t framebuffer, const glssao_frame *frame,
                                                     const glssao_settings *settings);
 
@@ -369,23 +345,20 @@ GLSSAO_API glssao_result glssao_compute_framebuffer(glssao_effect *effect, uint3
 GLSSAO_API glssao_result glssao_prepare(glssao_effect *effect, const glssao_frame *frame,
                                         const glssao_settings *settings);
 
-/* For the horizon technique and a still view: adds one full-resolution estimate, with new noise, to a running mean in 32-bit
- * floats. The mean is the result; with the number of estimates its error falls to the technique's own. It starts anew after
- * glssao_compute, glssao_resize and glssao_restart_accumulation, and when frame, radius or sample_count differ from the last
- * call's. It can't see that the contents of a texture changed. half_resolution and upsample are ignored. The planar blur
- * smooths a mean of fewer than 16 estimates, unless blur is GLSSAO_BLUR_NONE. A history stays as it was. May fail as glssao_compute, and with
- * INVALID_ARGUMENT for another technique. */
+/* For the horizon technique and a still view: adds one full-resolution estimate, with new noise, to a running mean, which is the
+ * result. The mean starts anew after glssao_compute, glssao_resize and glssao_restart_accumulation, and when frame, radius or
+ * sample_count differ from the last call's. half_resolution and upsample are ignored; a history stays as it was. The planar blur
+ * smooths a mean of fewer than 16 estimates, unless blur is GLSSAO_BLUR_NONE. May fail as glssao_compute. */
 GLSSAO_API glssao_result glssao_accumulate(glssao_effect *effect, const glssao_frame *frame,
                                            const glssao_settings *settings);
 
 /* Makes the next glssao_accumulate start anew. Call it when the contents of the textures changed. */
 GLSSAO_API void glssao_restart_accumulation(glssao_effect *effect);
 
-/* Multiplies accessibility into the colour (alpha stays) of draw buffer 0 of `framebuffer` (0: the default one): with the
- * default options below. This darkens direct light too: to be exact, sample the map in your own shader and scale ambient
- * light alone. Needs a glssao_compute before. Fails with INVALID_ARGUMENT where `framebuffer` does not exist or has a texture
- * attached that is read, with FRAMEBUFFER_ERROR where it is not complete. Scissor, stencil and colour mask are ignored; the log
- * says so once where they would count. Blending follows GL_FRAMEBUFFER_SRGB, as the host's own does. */
+/* Multiplies accessibility into the colour (alpha stays) of draw buffer 0 of `framebuffer` (0: the default one), with the default
+ * options below. This darkens direct light too; to be exact, sample the map in your own shader and scale ambient light alone.
+ * Needs a glssao_compute before. Ignores scissor, stencil and colour mask; the log says so once. Follows GL_FRAMEBUFFER_SRGB.
+ * Fails with INVALID_ARGUMENT where `framebuffer` does not exist or shows a texture that is read, else with FRAMEBUFFER_ERROR. */
 GLSSAO_API glssao_result glssao_apply(glssao_effect *effect, uint32_t framebuffer);
 
 /* Full intensity and black, without textures, into the default framebuffer. */

@@ -232,6 +232,8 @@ static void fill_frame(glssao__frame_block *c, const glssao__uniforms_source *so
     fill_tiles(c, source);
     fill_extent(c, settings, projection);
     glssao__projection_depth_step(frame, projection, &source->precision, c->gDepthStep);
+    if (settings->technique == GLSSAO_HORIZON || settings->technique == GLSSAO_RAYS)
+        c->gDepthStep[0] += settings->surface_epsilon;
     if (frame->depth_kind == GLSSAO_DEPTH_LOGARITHMIC) {
         const double constant = glssao__projection_log_constant(frame);
         c->gLogDepth[0] = (float)log2(constant * (double)frame->log_depth_far + 1.0);
