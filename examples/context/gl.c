@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Fills the table of OpenGL functions for examples and tests.
+ * The table of OpenGL functions for examples and tests, and what most of them make with it.
  */
 #include "gl.h"
 
@@ -23,4 +23,31 @@ bool gl_load(void *(*load)(const char *name, void *user), void *user, char *erro
     GL_FUNCTIONS(GL_LOAD)
 #undef GL_LOAD
     return true;
+}
+
+GLuint gl_make_texture(GLenum internal_format, GLenum format, GLenum type, int width, int height, const void *data)
+{
+    GLuint texture;
+    gl.GenTextures(1, &texture);
+    gl.BindTexture(GL_TEXTURE_2D, texture);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)internal_format, width, height, 0, format, type, data);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* the default filter needs mipmaps */
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    return texture;
+}
+
+bool gl_make_framebuffer(GLuint color, GLuint depth, GLuint *out)
+{
+    gl.GenFramebuffers(1, out);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, *out);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
+    if (!color) {
+        gl.DrawBuffer(GL_NONE);
+        gl.ReadBuffer(GL_NONE);
+    }
+    return gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
 }

@@ -159,4 +159,9 @@ extern struct gl_functions gl; /* functions of the context that gl_load was last
 /* Fills the table. False, with the name in `error`, if `load` does not find a function. */
 bool gl_load(void *(*load)(const char *name, void *user), void *user, char *error, size_t error_size);
 
+/* A texture of one level, read without filtering; `data` may be NULL. Leaves no texture bound. */
+GLuint gl_make_texture(GLenum internal_format, GLenum format, GLenum type, int width, int height, const void *data);
+/* A framebuffer of these textures, either of which may be 0; leaves it bound. False if it is not complete. */
+bool gl_make_framebuffer(GLuint color, GLuint depth, GLuint *out);
+
 #endif

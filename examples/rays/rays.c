@@ -2,6 +2,7 @@
 #include "rays.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 enum { TEXEL_BYTES = 4 * sizeof(float) };
 
@@ -16,18 +17,6 @@ void rays_close(rays *r)
     free(r->accessibility);
     free(r->rows);
     *r = (rays){0};
-}
-
-static GLuint make_texture(GLenum internal_format, GLenum format, int width, int height)
-{
-    GLuint texture;
-    gl.GenTextures(1, &texture);
-    gl.BindTexture(GL_TEXTURE_2D, texture);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)internal_format, width, height, 0, format, GL_FLOAT, NULL);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* the default filter needs mipmaps */
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl.BindTexture(GL_TEXTURE_2D, 0);
-    return texture;
 }
 
 /* The first row of a strip. */
@@ -48,12 +37,9 @@ bool rays_open(rays *r, int full_width, int full_height, int step, failure *why)
     r->rows = malloc((size_t)height * sizeof *r->rows);
     if (!r->accessibility || !r->rows)
         return fault_set(why, "rays for %d x %d pixels: out of memory", width, height);
-    r->surfaces = make_texture(GL_RGBA32F, GL_RGBA, width, height);
-    r->texture = make_texture(GL_R32F, GL_RED, width, height);
-    gl.GenFramebuffers(1, &r->framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, r->framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, r->surfaces, 0);
-    const bool complete = gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+    r->surfaces = gl_make_texture(GL_RGBA32F, GL_RGBA, GL_FLOAT, width, height, NULL);
+    r->texture = gl_make_texture(GL_R32F, GL_RED, GL_FLOAT, width, height, NULL);
+    const bool complete = gl_make_framebuffer(r->surfaces, 0, &r->framebuffer);
     gl.GenBuffers(RAYS_STRIPS, r->buffers);
     for (int i = 0; i < RAYS_STRIPS; i++) {
         const size_t rows = (size_t)(strip_row(r, i + 1) - strip_row(r, i));
@@ -103,6 +89,34 @@ static void release_strips(rays *r)
     gl.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
 }
 
+float (*rays_read_surfaces(rays *r, const rays_job *job, failure *why))[4]
+{
+    if (!rays_open(r, job->view->width, job->view->height, job->step, why))
+        return NULL;
+    GLsync fences[RAYS_STRIPS];
+    float(*surfaces)[4] = malloc((size_t)r->width * (size_t)r->height * sizeof *surfaces);
+    request_strips(r, job, fences);
+    bool mapped = true;
+    for (int i = 0; i < RAYS_STRIPS; i++)
+        mapped = receive_strip(r, i, fences[i]) && mapped;
+    for (int y = 0; surfaces && mapped && y < r->height; y++)
+        memcpy(surfaces + (size_t)y * (size_t)r->width, r->rows[y], (size_t)r->width * sizeof *surfaces);
+    release_strips(r);
+    if (surfaces && mapped)
+        return surfaces;
+    fault_set(why, "%s", surfaces ? "depth and normals could not be read back" : "out of memory");
+    free(surfaces);
+    return NULL;
+}
+
+void rays_upload(const rays *r)
+{
+    gl.BindTexture(GL_TEXTURE_2D, r->texture);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, r->width, r->height, GL_RED, GL_FLOAT, r->accessibility);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+}
+
 bool rays_trace(rays *r, const trace_scene *s, const rays_job *job, failure *why)
 {
     const int step = job->step;
@@ -129,9 +143,6 @@ bool rays_trace(rays *r, const trace_scene *s, const rays_job *job, failure *why
         return fault_set(why, "%s", done ? "depth and normals could not be read back" : "stopped");
     r->stats.rays += stats.rays;
     r->stats.seconds += stats.seconds;
-    gl.BindTexture(GL_TEXTURE_2D, r->texture);
-    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, r->width, r->height, GL_RED, GL_FLOAT, r->accessibility);
-    gl.BindTexture(GL_TEXTURE_2D, 0);
+    rays_upload(r);
     return true;
 }

@@ -21,14 +21,8 @@ static GLuint draw_distance(pipeline *p, const scene_view *view)
     const float *m = view->clip_from_view;
     const float far_plane = (m[14] - m[15]) / (m[10] - m[11]); /* the view distance with NDC z = 1 */
     if (!p->scratch) {
-        gl.GenTextures(1, &p->scratch);
-        gl.BindTexture(GL_TEXTURE_2D, p->scratch);
-        gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, p->width, p->height, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
-        gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-        gl.BindTexture(GL_TEXTURE_2D, 0);
-        gl.GenFramebuffers(1, &p->scratch_framebuffer);
-        gl.BindFramebuffer(GL_FRAMEBUFFER, p->scratch_framebuffer);
-        gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, p->scratch, 0);
+        p->scratch = gl_make_texture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, p->width, p->height, NULL);
+        (void)gl_make_framebuffer(p->scratch, 0, &p->scratch_framebuffer);
     }
     gl.BindFramebuffer(GL_FRAMEBUFFER, p->scratch_framebuffer);
     scene_draw_distance_picture(p->renderer, view, p->depth, far_plane > 0 ? 1 / far_plane : 1);

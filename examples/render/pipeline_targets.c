@@ -7,31 +7,6 @@
 
 #include <stdio.h>
 
-static GLuint make_texture(GLenum internal_format, GLenum format, GLenum type, int width, int height)
-{
-    GLuint texture;
-    gl.GenTextures(1, &texture);
-    gl.BindTexture(GL_TEXTURE_2D, texture);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)internal_format, width, height, 0, format, type, NULL);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* the default filter needs mipmaps */
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    return texture;
-}
-
-/* Leaves the framebuffer bound. Either texture may be 0. */
-static bool make_framebuffer(GLuint color, GLuint depth, GLuint *out)
-{
-    gl.GenFramebuffers(1, out);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, *out);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
-    if (!color) {
-        gl.DrawBuffer(GL_NONE);
-        gl.ReadBuffer(GL_NONE);
-    }
-    return gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-}
-
 static bool check_size(int width, int height, failure *why)
 {
     GLint max_size = 0;
@@ -70,21 +45,23 @@ bool pipeline_make_targets(pipeline *p, failure *why)
 {
     bool complete = true;
     if (!p->depth)
-        p->depth = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, p->width, p->height);
+        p->depth =
+            gl_make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, p->width, p->height, NULL);
     if (p->wants.prepass && !p->depth_framebuffer)
-        complete = make_framebuffer(0, p->depth, &p->depth_framebuffer);
+        complete = gl_make_framebuffer(0, p->depth, &p->depth_framebuffer);
     if (p->wants.picture && !p->color) {
-        p->color = make_texture(GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, p->width, p->height);
-        complete = make_framebuffer(p->color, p->depth, &p->color_framebuffer) && complete;
+        p->color = gl_make_texture(GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, p->width, p->height, NULL);
+        complete = gl_make_framebuffer(p->color, p->depth, &p->color_framebuffer) && complete;
     }
     if (p->draw_options.layers && !p->layer_framebuffer) {
         for (int i = 0; i < 2; i++)
-            p->layers[i] = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, p->width, p->height);
-        complete = make_framebuffer(0, p->layers[0], &p->layer_framebuffer) && complete;
+            p->layers[i] =
+                gl_make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, p->width, p->height, NULL);
+        complete = gl_make_framebuffer(0, p->layers[0], &p->layer_framebuffer) && complete;
     }
     if (p->wants.motion && !p->motion_framebuffer) {
-        p->motion = make_texture(GL_RG32F, GL_RG, GL_FLOAT, p->width, p->height);
-        complete = make_framebuffer(p->motion, p->depth, &p->motion_framebuffer) && complete;
+        p->motion = gl_make_texture(GL_RG32F, GL_RG, GL_FLOAT, p->width, p->height, NULL);
+        complete = gl_make_framebuffer(p->motion, p->depth, &p->motion_framebuffer) && complete;
     }
     if (p->wants.picture && (p->wants.samples > 1 || p->transparent) &&
         !samples_open(&p->samples, p->width, p->height, p->depth, why))
@@ -106,9 +83,9 @@ GLuint pipeline_map_framebuffer(pipeline *p, pixel_kind kind)
                    [PIXELS_GREY8] = {GL_R8, GL_RED, GL_UNSIGNED_BYTE},
                    [PIXELS_FLOAT] = {GL_R32F, GL_RED, GL_FLOAT}};
     if (!p->maps[kind]) {
-        p->maps[kind] =
-            make_texture(layouts[kind].internal_format, layouts[kind].format, layouts[kind].type, p->width, p->height);
-        if (!make_framebuffer(p->maps[kind], 0, &p->map_framebuffers[kind])) {
+        p->maps[kind] = gl_make_texture(layouts[kind].internal_format, layouts[kind].format, layouts[kind].type,
+                                        p->width, p->height, NULL);
+        if (!gl_make_framebuffer(p->maps[kind], 0, &p->map_framebuffers[kind])) {
             gl.DeleteFramebuffers(1, &p->map_framebuffers[kind]);
             gl.DeleteTextures(1, &p->maps[kind]);
             p->maps[kind] = p->map_framebuffers[kind] = 0;

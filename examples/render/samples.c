@@ -59,16 +59,8 @@ static bool make_program(samples *s, failure *why)
 static bool make_target(GLenum format, int width, int height, GLuint depth, GLuint *out_texture,
                         GLuint *out_framebuffer)
 {
-    gl.GenTextures(1, out_texture);
-    gl.BindTexture(GL_TEXTURE_2D, *out_texture);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)format, width, height, 0, GL_RGBA, GL_FLOAT, NULL);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* the default filter needs mipmaps */
-    gl.BindTexture(GL_TEXTURE_2D, 0);
-    gl.GenFramebuffers(1, out_framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, *out_framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *out_texture, 0);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
-    return gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+    *out_texture = gl_make_texture(format, GL_RGBA, GL_FLOAT, width, height, NULL);
+    return gl_make_framebuffer(*out_texture, depth, out_framebuffer);
 }
 
 bool samples_open(samples *s, int width, int height, GLuint depth, failure *why)

@@ -20,11 +20,7 @@ bool truth_open(truth *t, const trace_scene *s, int width, int height, failure *
     if (!t->accessibility) {
         return fault_set(why, "--size %dx%d: out of memory", width, height);
     }
-    gl.GenTextures(1, &t->map);
-    gl.BindTexture(GL_TEXTURE_2D, t->map);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, width, height, 0, GL_RED, GL_FLOAT, NULL);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* the default filter needs mipmaps */
-    gl.BindTexture(GL_TEXTURE_2D, 0);
+    t->map = gl_make_texture(GL_R32F, GL_RED, GL_FLOAT, width, height, NULL);
     return true;
 }
 

@@ -92,12 +92,8 @@ static bool open_stage(cost *c, stage *s, int width, int height)
     scene *shown = bench_scene_open(&c->scene, width, height, &view, &s->radius, c->error, sizeof c->error);
     bool done = shown && gbuffer_draw(&s->gbuffer, shown, &view, 0, c->error, sizeof c->error);
     scene_destroy(shown);
-    gl.GenTextures(1, &s->color);
-    gl.BindTexture(GL_TEXTURE_2D, s->color);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
-    gl.GenFramebuffers(1, &s->framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, s->framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, s->color, 0);
+    s->color = gl_make_texture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, width, height, NULL);
+    (void)gl_make_framebuffer(s->color, 0, &s->framebuffer);
     for (int i = 0; done && i < CASES; i++)
         done = make_effect(c, s, i);
     return done;

@@ -44,12 +44,8 @@ static bool make_picture(gbuffer *g, int kind, double share)
         n[3] = 0;
     }
     const bool made = depth && normals;
-    gl.GenTextures(1, &g->depth);
-    gl.BindTexture(GL_TEXTURE_2D, g->depth);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, w, h, 0, GL_DEPTH_COMPONENT, GL_FLOAT, depth);
-    gl.GenTextures(1, &g->normals);
-    gl.BindTexture(GL_TEXTURE_2D, g->normals);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, w, h, 0, GL_RGBA, GL_FLOAT, normals);
+    g->depth = gl_make_texture(GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, w, h, depth);
+    g->normals = gl_make_texture(GL_RGBA16F, GL_RGBA, GL_FLOAT, w, h, normals);
     free(depth);
     free(normals);
     return made;

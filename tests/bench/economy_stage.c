@@ -40,18 +40,9 @@ bool economy_player_open(economy_player *p, const economy_stage *s, glssao_load_
         snprintf(error, error_size, "no effect of %dx%d", w, h);
         return false;
     }
-    gl.GenTextures(1, &p->depth);
-    gl.BindTexture(GL_TEXTURE_2D, p->depth);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, w, h, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, NULL);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-    gl.GenTextures(1, &p->color);
-    gl.BindTexture(GL_TEXTURE_2D, p->color);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, w, h, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
-    gl.GenFramebuffers(1, &p->framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, p->framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, p->color, 0);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, p->depth, 0);
-    return true;
+    p->depth = gl_make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, w, h, NULL);
+    p->color = gl_make_texture(GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, w, h, NULL);
+    return gl_make_framebuffer(p->color, p->depth, &p->framebuffer);
 }
 
 void economy_player_close(economy_player *p)

@@ -13,14 +13,8 @@ bool map_reader_create(map_reader *m, int width, int height, char *error, size_t
     m->renderer = m->scene ? scene_renderer_create(m->scene, error, error_size) : NULL;
     if (!m->renderer)
         return false;
-    gl.GenTextures(1, &m->texture);
-    gl.BindTexture(GL_TEXTURE_2D, m->texture);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, width, height, 0, GL_RED, GL_FLOAT, NULL);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* the default wants mipmaps */
-    gl.GenFramebuffers(1, &m->framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, m->framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, m->texture, 0);
-    if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+    m->texture = gl_make_texture(GL_R32F, GL_RED, GL_FLOAT, width, height, NULL);
+    if (!gl_make_framebuffer(m->texture, 0, &m->framebuffer)) {
         snprintf(error, error_size, "no float framebuffer of %dx%d", width, height);
         return false;
     }

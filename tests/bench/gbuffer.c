@@ -12,13 +12,7 @@
 
 static GLuint make_texture(GLenum internal_format, GLenum format, GLenum type, const scene_view *view)
 {
-    GLuint texture;
-    gl.GenTextures(1, &texture);
-    gl.BindTexture(GL_TEXTURE_2D, texture);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)internal_format, view->width, view->height, 0, format, type, NULL);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); /* the default wants mipmaps */
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    return texture;
+    return gl_make_texture(internal_format, format, type, view->width, view->height, NULL);
 }
 
 int gbuffer_margin(int width)
@@ -52,11 +46,7 @@ bool gbuffer_draw(gbuffer *g, const scene *s, const scene_view *view, int margin
     g->depth = make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, &g->view);
     g->normals = make_texture(GL_RGBA16F, GL_RGBA, GL_FLOAT, &g->view);
     GLuint framebuffer;
-    gl.GenFramebuffers(1, &framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, g->normals, 0);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, g->depth, 0);
-    const bool complete = gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+    const bool complete = gl_make_framebuffer(g->normals, g->depth, &framebuffer);
     if (complete) {
         gl.Viewport(0, 0, g->view.width, g->view.height);
         gl.DepthMask(GL_TRUE);

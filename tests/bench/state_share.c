@@ -54,21 +54,9 @@ int main(int argc, char **argv)
     void *state = NULL;
     if (width < 1 || height < 1 || fixture_setup(&state) != 0)
         return 2;
-    const analytic_view view = analytic_make_view(PERSPECTIVE, (double)width / height, 0.5, 40.0, 1.0);
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    float *depth, *normals;
-    analytic_room(room, 1.0);
-    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, width, height, &depth, &normals);
-    glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT24, width, height, depth),
-                          .normal_texture = fixture_normal_texture(width, height, normals)};
-    memcpy(frame.projection, view.projection, sizeof frame.projection);
-    GLuint color, framebuffer;
-    gl.GenTextures(1, &color);
-    gl.BindTexture(GL_TEXTURE_2D, color);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
-    gl.GenFramebuffers(1, &framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
+    const glssao_frame frame = fixture_room(PERSPECTIVE, width, height);
+    const fixture_target target = fixture_make_target(GL_RGBA8, width, height);
+    const GLuint framebuffer = target.framebuffer;
     glssao_effect *effect = fixture_effect(state, width, height);
     frame_ms(effect, &frame, framebuffer); /* compiles */
     double least_frame = 1e9, least_pair = 1e9;
@@ -81,10 +69,8 @@ int main(int argc, char **argv)
            height, least_frame, 2.0 * least_pair, 200.0 * least_pair / least_frame,
            (const char *)gl.GetString(GL_RENDERER));
     glssao_destroy(effect);
-    gl.DeleteFramebuffers(1, &framebuffer);
-    gl.DeleteTextures(1, &color);
-    free(depth);
-    free(normals);
+    fixture_delete_target(&target);
+    fixture_delete_frame(&frame);
     fixture_teardown(&state);
     return 0;
 }

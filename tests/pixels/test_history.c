@@ -5,10 +5,6 @@
  */
 #include "fixture.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { W = 96, H = 64, N = W * H, FRAMES = 20 };
 
 /* How the host hands over what it has. */
@@ -188,7 +184,7 @@ static float *make_floor(fixture *f, const shot *s, const glssao_settings *setti
 /* ---- noise_index ---- */
 
 /* The mean over indices converges: 16 of them leave less than a third of one's noise, and 8 less than half. */
-static void means_over_noise_indices_converge(void **state)
+TEST_GL(means_over_noise_indices_converge)
 {
     fixture *f = *state;
     const shot s = first_shot(PERSPECTIVE);
@@ -217,7 +213,7 @@ static void means_over_noise_indices_converge(void **state)
     }
 }
 
-static void index_0_is_the_pattern_without_an_index(void **state)
+TEST_GL(index_0_is_the_pattern_without_an_index)
 {
     fixture *f = *state;
     const shot s = first_shot(PERSPECTIVE);
@@ -243,7 +239,7 @@ static void index_0_is_the_pattern_without_an_index(void **state)
 /* ---- history ---- */
 
 /* At rest a history of 16 comes nearer to the floor than the single frame, whatever the projection. */
-static void rest_converges_in_every_projection(void **state)
+TEST_GL(rest_converges_in_every_projection)
 {
     fixture *f = *state;
     for (int p = 0; p < PROJECTION_COUNT; ++p)
@@ -268,7 +264,7 @@ static void rest_converges_in_every_projection(void **state)
 
 /* A camera that moves finds its points again: the error stays below the single frame's. Without gLastView it would not.
  */
-static void motion_keeps_the_history(void **state)
+TEST_GL(motion_keeps_the_history)
 {
     fixture *f = *state;
     for (int p = 0; p < PROJECTION_COUNT; ++p) {
@@ -292,7 +288,7 @@ static void motion_keeps_the_history(void **state)
     }
 }
 
-static void first_frames_and_cuts_stand_alone(void **state)
+TEST_GL(first_frames_and_cuts_stand_alone)
 {
     fixture *f = *state;
     const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM, 16);
@@ -338,7 +334,7 @@ static void first_frames_and_cuts_stand_alone(void **state)
 
 /* The single frame is that of today: of a level that estimates at full size, to a step of R16 and what pairing rounds.
  */
-static void single_frame_is_as_good_as_without_history(void **state)
+TEST_GL(single_frame_is_as_good_as_without_history)
 {
     fixture *f = *state;
     const shot s = first_shot(PERSPECTIVE);
@@ -354,7 +350,7 @@ static void single_frame_is_as_good_as_without_history(void **state)
     glssao_destroy(effect);
 }
 
-static void same_frames_give_the_same_bits(void **state)
+TEST_GL(same_frames_give_the_same_bits)
 {
     fixture *f = *state;
     const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
@@ -375,7 +371,7 @@ static void same_frames_give_the_same_bits(void **state)
 }
 
 /* A mean of a still view, taken in between, changes no bit of the history. */
-static void accumulating_leaves_the_history(void **state)
+TEST_GL(accumulating_leaves_the_history)
 {
     fixture *f = *state;
     const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
@@ -400,7 +396,7 @@ static void accumulating_leaves_the_history(void **state)
 }
 
 /* Depth and normals that are not numbers leave no trace once they are gone. */
-static void no_number_is_forgotten(void **state)
+TEST_GL(no_number_is_forgotten)
 {
     fixture *f = *state;
     const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
@@ -430,7 +426,7 @@ static void no_number_is_forgotten(void **state)
 }
 
 /* Where a box was, 16 frames later the floor is as bright as for an effect that never saw the box, within 0.02. */
-static void shadows_of_what_moved_away_fade(void **state)
+TEST_GL(shadows_of_what_moved_away_fade)
 {
     fixture *f = *state;
     const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_HIGH, 16);
@@ -466,7 +462,7 @@ static void shadows_of_what_moved_away_fade(void **state)
 }
 
 /* Draws and dispatches give the same history, within what an eye can see. */
-static void dispatches_do_as_draws(void **state)
+TEST_GL(dispatches_do_as_draws)
 {
     fixture *f = *state;
     const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM, 16);
@@ -496,7 +492,7 @@ static void dispatches_do_as_draws(void **state)
 
 /* A box that moves across the picture keeps its history by the motion texture alone: its front is then nearer to the
  * floor. */
-static void motion_texture_keeps_the_history_of_what_moves(void **state)
+TEST_GL(motion_texture_keeps_the_history_of_what_moves)
 {
     fixture *f = *state;
     const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
@@ -549,7 +545,7 @@ static float *walk(glssao_effect *effect, shot s, const glssao_settings *setting
 
 /* Whatever the host hands over: the same frames give the same bits; a cut gives those of a first frame, and without it
  * the history counts. A viewport gives the bits of the whole texture, and logarithmic depth nearly the same. */
-static void every_situation_has_a_history(void **state)
+TEST_GL(every_situation_has_a_history)
 {
     fixture *f = *state;
     static const struct {
@@ -614,7 +610,7 @@ static void every_situation_has_a_history(void **state)
 
 /* Rays that differ from frame to frame: at rest the mean comes nearer to what they say, 0.5 in the open and closed
  * alike, than one frame does, alone and as a correction. Where no ray says anything, what is known stays. */
-static void means_of_rays_converge(void **state)
+TEST_GL(means_of_rays_converge)
 {
     fixture *f = *state;
     for (int alone = 0; alone < 2; ++alone)
@@ -646,7 +642,7 @@ static void means_of_rays_converge(void **state)
         }
 }
 
-static void every_technique_size_and_margin_runs(void **state)
+TEST_GL(every_technique_size_and_margin_runs)
 {
     fixture *f = *state;
     for (int t = GLSSAO_CLASSIC; t <= GLSSAO_HORIZON; ++t)
@@ -675,7 +671,7 @@ static void every_technique_size_and_margin_runs(void **state)
 }
 
 /* Each refusal names the field. */
-static void bad_views_are_refused_by_name(void **state)
+TEST_GL(bad_views_are_refused_by_name)
 {
     fixture *f = *state;
     const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
@@ -705,23 +701,5 @@ static void bad_views_are_refused_by_name(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(means_over_noise_indices_converge),
-        GL_TEST(index_0_is_the_pattern_without_an_index),
-        GL_TEST(rest_converges_in_every_projection),
-        GL_TEST(motion_keeps_the_history),
-        GL_TEST(first_frames_and_cuts_stand_alone),
-        GL_TEST(single_frame_is_as_good_as_without_history),
-        GL_TEST(same_frames_give_the_same_bits),
-        GL_TEST(accumulating_leaves_the_history),
-        GL_TEST(no_number_is_forgotten),
-        GL_TEST(shadows_of_what_moved_away_fade),
-        GL_TEST(dispatches_do_as_draws),
-        GL_TEST(motion_texture_keeps_the_history_of_what_moves),
-        GL_TEST(every_situation_has_a_history),
-        GL_TEST(means_of_rays_converge),
-        GL_TEST(every_technique_size_and_margin_runs),
-        GL_TEST(bad_views_are_refused_by_name),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

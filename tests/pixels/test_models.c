@@ -167,53 +167,6 @@ static void check_blur(setup *s, const char *what, double least_change)
     assert_true(changed > least_change);
 }
 
-TEST_GL(estimate_agrees_for_every_projection)
-{
-    static const char *const names[PROJECTION_COUNT] = {
-        "perspective",  "off-centre",           "infinite", "reversed", "infinite reversed",
-        "orthographic", "reversed orthographic"};
-    for (int p = 0; p < PROJECTION_COUNT; ++p) {
-        setup s;
-        set_up(&s, *state, &(setup_options){(analytic_projection)p, GL_DEPTH_COMPONENT32F, 200, 120, 1.0, false});
-        check_estimate(&s, names[p]);
-        tear_down(&s);
-    }
-}
-
-TEST_GL(estimate_agrees_at_half_size_and_odd_sizes)
-{
-    static const int sizes[][2] = {{200, 120}, {201, 121}, {67, 254}};
-    for (int i = 0; i < 3; ++i) {
-        setup s;
-        set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, sizes[i][0], sizes[i][1], 1.0, true});
-        check_estimate(&s, "half size");
-        tear_down(&s);
-    }
-}
-
-TEST_GL(estimate_agrees_for_24_bit_depth)
-{
-    setup s;
-    set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH24_STENCIL8, 200, 120, 1.0, true});
-    check_estimate(&s, "24 bits");
-    tear_down(&s);
-}
-
-TEST_GL(estimate_agrees_at_other_settings)
-{
-    setup s;
-    set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 200, 120, 1.0, false});
-    s.settings.power = 1.0f;
-    s.settings.sample_count = 5;
-    check_estimate(&s, "5 samples, power 1");
-    s.settings.sample_count = 14;
-    s.settings.radius = 1.5f;
-    s.settings.fade_start = s.settings.fade_end = 0.7f;
-    s.settings.surface_epsilon = 0.0f;
-    check_estimate(&s, "equal fade bounds, no epsilon");
-    tear_down(&s);
-}
-
 TEST_GL(estimate_agrees_for_unnormalised_and_unsigned_normals)
 {
     setup s;
@@ -231,15 +184,6 @@ TEST_GL(estimate_agrees_for_unnormalised_and_unsigned_normals)
         s.frame.normal_texture = original;
     }
     free(stored);
-    tear_down(&s);
-}
-
-TEST_GL(estimate_agrees_without_angle_weight)
-{
-    setup s;
-    set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 200, 120, 1.0, false});
-    s.settings.no_angle_weight = true;
-    check_estimate(&s, "no angle weight");
     tear_down(&s);
 }
 
@@ -294,30 +238,77 @@ static void use_hemisphere(setup *s, int sample_count)
     s->input.rotations = (const float(*)[4])s->rotations;
 }
 
-TEST_GL(hemisphere_agrees_for_every_projection)
-{
-    for (int p = 0; p < PROJECTION_COUNT; ++p) {
-        setup s;
-        set_up(&s, *state, &(setup_options){(analytic_projection)p, GL_DEPTH_COMPONENT32F, 151, 100, 1.0, false});
-        use_hemisphere(&s, 16);
-        s.settings.radius = 1.0f;
-        check_estimate(&s, "hemisphere");
-        tear_down(&s);
+#define CHANGE(name, statements)                                                                                       \
+    static void name(glssao_settings *s)                                                                               \
+    {                                                                                                                  \
+        statements;                                                                                                    \
     }
+CHANGE(nothing, (void)s)
+CHANGE(few_samples, s->power = 1.0f; s->sample_count = 5)
+CHANGE(fades_meet, s->radius = 1.5f; s->fade_start = s->fade_end = 0.7f; s->surface_epsilon = 0.0f)
+CHANGE(any_angle, s->no_angle_weight = true)
+CHANGE(wide, s->radius = 1.0f)
+CHANGE(plain, s->radius = 0.5f; s->power = 1.0f)
+/* Samples off the screen and behind the camera. */
+CHANGE(far_samples, s->radius = 3.0f; s->power = 2.0f)
+/* Steps of depth must not occlude, even though no other bias hides them. */
+CHANGE(no_bias, s->surface_epsilon = 0.0f; s->power = 1.0f)
+/* A single sample at any angle: if it is hidden, accessibility is 0, which a small power raises visibly. */
+CHANGE(nothing_left, s->sample_count = 1; s->no_angle_weight = true; s->power = 0.01f)
+/* The radius exceeds the distance of everything visible. Samples behind the camera must be neither mirrored into the
+ * picture nor counted. */
+CHANGE(behind_the_camera, s->radius = 20.0f; s->fade_end = 10.0f; s->power = 1.0f)
+
+static const struct row {
+    const char *what;
+    int samples; /* of the hemisphere technique; 0: classic */
+    setup_options options;
+    void (*change)(glssao_settings *s);
+} rows[] = {
+    {"half size", 0, {PERSPECTIVE, GL_DEPTH_COMPONENT32F, 200, 120, 1.0, true}, nothing},
+    {"half of an odd size", 0, {PERSPECTIVE, GL_DEPTH_COMPONENT32F, 201, 121, 1.0, true}, nothing},
+    {"half of a tall size", 0, {PERSPECTIVE, GL_DEPTH_COMPONENT32F, 67, 254, 1.0, true}, nothing},
+    {"24 bits", 0, {PERSPECTIVE, GL_DEPTH24_STENCIL8, 200, 120, 1.0, true}, nothing},
+    {"16 bits", 0, {PERSPECTIVE, GL_DEPTH_COMPONENT16, 151, 100, 1.0, false}, no_bias},
+    {"5 samples, power 1", 0, {PERSPECTIVE, GL_DEPTH_COMPONENT32F, 200, 120, 1.0, false}, few_samples},
+    {"equal fade bounds, no epsilon", 0, {PERSPECTIVE, GL_DEPTH_COMPONENT32F, 200, 120, 1.0, false}, fades_meet},
+    {"no angle weight", 0, {PERSPECTIVE, GL_DEPTH_COMPONENT32F, 200, 120, 1.0, false}, any_angle},
+    {"nothing left", 0, {PERSPECTIVE, GL_DEPTH_COMPONENT32F, 151, 100, 1.0, false}, nothing_left},
+    {"behind the camera", 0, {PERSPECTIVE, GL_DEPTH_COMPONENT32F, 151, 100, 1.0, false}, behind_the_camera},
+    {"hemisphere, 1 sample", 1, {PERSPECTIVE, GL_DEPTH_COMPONENT24, 151, 100, 1.0, false}, plain},
+    {"hemisphere, 7 samples, half size", 7, {PERSPECTIVE, GL_DEPTH_COMPONENT24, 151, 100, 1.0, true}, plain},
+    {"hemisphere, 64 samples", 64, {PERSPECTIVE, GL_DEPTH_COMPONENT24, 151, 100, 1.0, false}, far_samples},
+    {"hemisphere, 16 bits", 16, {PERSPECTIVE, GL_DEPTH_COMPONENT16, 151, 100, 1.0, false}, no_bias},
+    {"hemisphere, nothing left", 1, {PERSPECTIVE, GL_DEPTH_COMPONENT32F, 151, 100, 1.0, false}, nothing_left},
+    {"hemisphere, behind", 16, {PERSPECTIVE, GL_DEPTH_COMPONENT32F, 151, 100, 1.0, false}, behind_the_camera},
+};
+
+static void check_row(fixture *f, const struct row *row)
+{
+    setup s;
+    set_up(&s, f, &row->options);
+    if (row->samples)
+        use_hemisphere(&s, row->samples);
+    s.settings.half_resolution = row->options.half;
+    row->change(&s.settings);
+    check_estimate(&s, row->what);
+    tear_down(&s);
 }
 
-TEST_GL(hemisphere_agrees_at_other_settings)
+TEST_GL(estimates_agree_with_their_models)
 {
-    static const int counts[] = {1, 7, 64};
-    for (int i = 0; i < 3; ++i) {
-        setup s;
-        set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT24, 151, 100, 1.0, i == 1});
-        use_hemisphere(&s, counts[i]);
-        s.settings.half_resolution = i == 1;
-        s.settings.radius = i == 2 ? 3.0f : 0.5f; /* samples off the screen and behind the camera */
-        s.settings.power = i == 2 ? 2.0f : 1.0f;
-        check_estimate(&s, "hemisphere");
-        tear_down(&s);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)
+        check_row(*state, &rows[i]);
+}
+
+TEST_GL(estimates_agree_for_every_projection)
+{
+    for (int p = 0; p < PROJECTION_COUNT; ++p) {
+        char what[48];
+        snprintf(what, sizeof what, "projection %d", p);
+        const setup_options o = {(analytic_projection)p, GL_DEPTH_COMPONENT32F, 200, 120, 1.0, false};
+        check_row(*state, &(struct row){what, 0, o, nothing});
+        check_row(*state, &(struct row){what, 16, o, wide});
     }
 }
 
@@ -339,54 +330,6 @@ TEST_GL(estimates_agree_for_far_fade_and_radius_in_pixels)
         s.settings.radius = pixels ? 11.5f : 1.0f;
         s.settings.radius_in_pixels = pixels;
         check_estimate(&s, pixels ? "radius in pixels" : "far fade");
-        tear_down(&s);
-    }
-}
-
-/* Steps of depth must not occlude, even though no other bias hides them. */
-TEST_GL(estimates_agree_for_16_bit_depth)
-{
-    for (int hemisphere = 0; hemisphere < 2; ++hemisphere) {
-        setup s;
-        set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT16, 151, 100, 1.0, false});
-        if (hemisphere)
-            use_hemisphere(&s, 16);
-        s.settings.surface_epsilon = 0.0f;
-        s.settings.power = 1.0f;
-        check_estimate(&s, "16 bits");
-        tear_down(&s);
-    }
-}
-
-/* A single sample at any angle: if it is hidden, accessibility is 0, which a small power raises visibly. */
-TEST_GL(estimates_agree_where_nothing_is_left)
-{
-    for (int hemisphere = 0; hemisphere < 2; ++hemisphere) {
-        setup s;
-        set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 151, 100, 1.0, false});
-        if (hemisphere)
-            use_hemisphere(&s, 1);
-        s.settings.sample_count = 1;
-        s.settings.no_angle_weight = true;
-        s.settings.power = 0.01f;
-        check_estimate(&s, "nothing left");
-        tear_down(&s);
-    }
-}
-
-/* The radius exceeds the distance of everything visible. Samples behind the camera must be neither mirrored into the
- * picture nor counted. */
-TEST_GL(estimates_agree_with_samples_behind_the_camera)
-{
-    for (int hemisphere = 0; hemisphere < 2; ++hemisphere) {
-        setup s;
-        set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 151, 100, 1.0, false});
-        if (hemisphere)
-            use_hemisphere(&s, 16);
-        s.settings.radius = 20.0f;
-        s.settings.fade_end = 10.0f;
-        s.settings.power = 1.0f;
-        check_estimate(&s, "samples behind the camera");
         tear_down(&s);
     }
 }

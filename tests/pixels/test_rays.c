@@ -9,11 +9,6 @@
 #include "horizon_internals.h"
 #include "horizon_passes.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const double PAIRED = 0x1p-14 + 1e-6, RESULT = 1.5 / 65535.0;
 
 typedef struct setup {
@@ -144,7 +139,7 @@ static void check_blur(const setup *s, const paired_map *from, bool horizontal, 
 
 /* ---- models ---- */
 
-static void rays_are_read_as_they_are(void **state)
+TEST_GL(rays_are_read_as_they_are)
 {
     setup s;
     set_up_room(&s, *state, PERSPECTIVE, 121, 91);
@@ -197,7 +192,7 @@ static void check_rounds(fixture *f, analytic_projection projection, int width, 
     tear_down(&s);
 }
 
-static void rounds_agree_with_their_model(void **state)
+TEST_GL(rounds_agree_with_their_model)
 {
     check_rounds(*state, PERSPECTIVE, 120, 90);
     check_rounds(*state, PERSPECTIVE_REVERSED_ZERO_TO_ONE, 121, 91);
@@ -255,7 +250,7 @@ static void check_first_round(const setup *s, const paired_map *start, const pai
 }
 
 /* The first round, and the last pass, which adds the difference to the estimate. */
-static void corrections_agree_with_their_model(void **state)
+TEST_GL(corrections_agree_with_their_model)
 {
     static const float powers[] = {1.0f, 3.0f};
     for (int i = 0; i < 2; ++i) {
@@ -306,7 +301,7 @@ static const GLenum formats[] = {GL_R8, GL_R16, GL_R16F, GL_R32F};
 
 /* Rays that all say the same are the result where they see a surface, with any technique before them; as far from the
  * border as a correction's blur reaches, since it trusts windows less that the border cuts. */
-static void agreeing_rays_win(void **state)
+TEST_GL(agreeing_rays_win)
 {
     const analytic_shape wall = {ANALYTIC_PLANE, {0.0, 0.0, -4.0}, {0.3, 0.2, 0.9}};
     setup s;
@@ -332,7 +327,7 @@ static void agreeing_rays_win(void **state)
 }
 
 /* No rays anywhere, as hosts may say it. */
-static void missing_rays_change_nothing(void **state)
+TEST_GL(missing_rays_change_nothing)
 {
     static const float nothing[] = {-1.0f, -1e-6f, NAN, -INFINITY};
     setup s;
@@ -362,7 +357,7 @@ static void missing_rays_change_nothing(void **state)
 }
 
 /* Rays that say what the technique says leave it as it is. */
-static void rays_that_agree_with_the_estimate_keep_it(void **state)
+TEST_GL(rays_that_agree_with_the_estimate_keep_it)
 {
     setup s;
     int count;
@@ -390,7 +385,7 @@ static void rays_that_agree_with_the_estimate_keep_it(void **state)
 }
 
 /* Rays see what darkens a tile that nothing in the picture does: with and without tiles the result is the same. */
-static void corrections_reach_open_tiles(void **state)
+TEST_GL(corrections_reach_open_tiles)
 {
     const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, -4.0}, {0.0, 0.0, 1.0}},
                                      {ANALYTIC_SPHERE, {-1.5, -1.0, -3.7}, {0.3, 0.0, 0.0}}};
@@ -419,7 +414,7 @@ static void corrections_reach_open_tiles(void **state)
 }
 
 /* Infinite and huge values count as open. Sky is open, whatever its rays say. */
-static void odd_values_stay_in_range(void **state)
+TEST_GL(odd_values_stay_in_range)
 {
     static const float odd[] = {INFINITY, 1e30f, 7.0f, 0.0f, NAN, -1.0f, 0.25f};
     const analytic_shape ball = {ANALYTIC_SPHERE, {0.0, 0.0, -3.0}, {1.0, 0.0, 0.0}};
@@ -445,7 +440,7 @@ static void odd_values_stay_in_range(void **state)
 }
 
 /* With a margin the result is what the middle of the whole picture has. */
-static void margins_cut_the_same_picture(void **state)
+TEST_GL(margins_cut_the_same_picture)
 {
     const int width = 92, height = 68, margin = 12;
     for (int half = 0; half < 2; ++half)
@@ -474,7 +469,7 @@ static void margins_cut_the_same_picture(void **state)
 }
 
 /* Depth and normals may lie in a part of larger textures; rays are a picture of their own. */
-static void viewports_do_not_move_rays(void **state)
+TEST_GL(viewports_do_not_move_rays)
 {
     const int width = 60, height = 40, left = 7, bottom = 3;
     setup s, large;
@@ -506,7 +501,7 @@ static void viewports_do_not_move_rays(void **state)
     tear_down(&s);
 }
 
-static void every_size_is_taken(void **state)
+TEST_GL(every_size_is_taken)
 {
     static const int sizes[][2] = {{1, 1}, {2, 1}, {1, 7}, {3, 3}, {5, 2}, {33, 17}};
     for (int i = 0; i < 6; ++i)
@@ -529,7 +524,7 @@ static void every_size_is_taken(void **state)
 }
 
 /* Values are averaged before the power, as light is. */
-static void power_comes_last(void **state)
+TEST_GL(power_comes_last)
 {
     const analytic_shape wall = {ANALYTIC_PLANE, {0.0, 0.0, -4.0}, {0.0, 0.0, 1.0}};
     setup s;
@@ -562,7 +557,7 @@ static void refuse(setup *s, fixture *f, const char *said)
     fixture_refused(f, glssao_compute(s->effect, &s->frame, &s->settings), said);
 }
 
-static void wrong_rays_are_refused(void **state)
+TEST_GL(wrong_rays_are_refused)
 {
     fixture *f = *state;
     setup s;
@@ -590,7 +585,7 @@ static void wrong_rays_are_refused(void **state)
 }
 
 /* A mean of many estimates is not corrected by a few rays. */
-static void accumulation_ignores_rays(void **state)
+TEST_GL(accumulation_ignores_rays)
 {
     setup s;
     int width, height;
@@ -613,21 +608,5 @@ static void accumulation_ignores_rays(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        GL_TEST(rays_are_read_as_they_are),
-        GL_TEST(rounds_agree_with_their_model),
-        GL_TEST(corrections_agree_with_their_model),
-        GL_TEST(agreeing_rays_win),
-        GL_TEST(missing_rays_change_nothing),
-        GL_TEST(rays_that_agree_with_the_estimate_keep_it),
-        GL_TEST(corrections_reach_open_tiles),
-        GL_TEST(odd_values_stay_in_range),
-        GL_TEST(margins_cut_the_same_picture),
-        GL_TEST(viewports_do_not_move_rays),
-        GL_TEST(every_size_is_taken),
-        GL_TEST(power_comes_last),
-        GL_TEST(wrong_rays_are_refused),
-        GL_TEST(accumulation_ignores_rays),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
+    return test_run(NULL, fixture_setup, fixture_teardown);
 }

@@ -17,34 +17,19 @@ typedef struct target {
     GLuint normals_framebuffer, color_framebuffer;
 } target;
 
-static GLuint make_map(GLint internal_format, GLenum format, int size)
-{
-    GLuint name;
-    gl.GenTextures(1, &name);
-    gl.BindTexture(GL_TEXTURE_2D, name);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, internal_format, size, size, 0, format, GL_FLOAT, NULL);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-    gl.BindTexture(GL_TEXTURE_2D, 0);
-    return name;
-}
-
 static GLuint make_framebuffer(GLuint color, GLuint depth)
 {
     GLuint name;
-    gl.GenFramebuffers(1, &name);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, name);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
-    assert_int_equal(gl.CheckFramebufferStatus(GL_FRAMEBUFFER), GL_FRAMEBUFFER_COMPLETE);
+    assert_true(gl_make_framebuffer(color, depth, &name));
     return name;
 }
 
 static target make_target(int size)
 {
     target t = {.size = size};
-    t.normals = make_map(GL_RGBA32F, GL_RGBA, size);
-    t.depth = make_map(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, size);
-    t.color = make_map(GL_SRGB8_ALPHA8, GL_RGBA, size);
+    t.normals = gl_make_texture(GL_RGBA32F, GL_RGBA, GL_FLOAT, size, size, NULL);
+    t.depth = gl_make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_FLOAT, size, size, NULL);
+    t.color = gl_make_texture(GL_SRGB8_ALPHA8, GL_RGBA, GL_FLOAT, size, size, NULL);
     t.normals_framebuffer = make_framebuffer(t.normals, t.depth);
     t.color_framebuffer = make_framebuffer(t.color, t.depth);
     return t;

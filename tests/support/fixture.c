@@ -209,9 +209,7 @@ float *fixture_read_depth(GLuint texture, int width, int height)
 fixture_target fixture_make_target(GLenum internal_format, int width, int height)
 {
     fixture_target target = {.texture = fixture_texture(internal_format, GL_RGBA, GL_FLOAT, width, height, NULL)};
-    gl.GenFramebuffers(1, &target.framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.texture, 0);
+    assert_true(gl_make_framebuffer(target.texture, 0, &target.framebuffer));
     return target;
 }
 

@@ -4,15 +4,7 @@
  */
 #include "frame/unroll.h"
 #include "schedules.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "testing.h"
 
 /* "distance estimate! blur": the steps' shaders in order; "!" after a dispatch, "=1" and "=0" for clears. */
 static void spell(const glssao__schedule *s, char *out, size_t size)
@@ -38,9 +30,8 @@ static void assert_steps(const glssao__request *q, const char *wanted)
     assert_string_equal(steps, wanted);
 }
 
-static void levels_have_their_steps(void **state)
+TEST(levels_have_their_steps)
 {
-    (void)state;
     glssao_frame frame;
     glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     glssao__request q = schedules_request(&frame, &s, 1280, 720);
@@ -61,9 +52,8 @@ static void levels_have_their_steps(void **state)
     assert_steps(&q, "normals hemisphere blur blur");
 }
 
-static void tiles_add_their_steps(void **state)
+TEST(tiles_add_their_steps)
 {
-    (void)state;
     glssao_frame frame;
     glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     glssao__request q = schedules_request(&frame, &s, 1280, 720);
@@ -79,9 +69,8 @@ static void tiles_add_their_steps(void **state)
 }
 
 /* Settings that most frames leave alone run the shaders of before. */
-static void rare_settings_cost_nothing_unused(void **state)
+TEST(rare_settings_cost_nothing_unused)
 {
-    (void)state;
     for (int i = 0; i < 8; ++i) {
         glssao_frame frame;
         glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
@@ -112,9 +101,8 @@ static void rare_settings_cost_nothing_unused(void **state)
     }
 }
 
-static void inputs_are_copied_first(void **state)
+TEST(inputs_are_copied_first)
 {
-    (void)state;
     glssao_frame frame;
     glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_ULTRA);
     glssao__request q = schedules_request(&frame, &s, 64, 48);
@@ -138,9 +126,8 @@ static void inputs_are_copied_first(void **state)
     assert_steps(&q, "input input input input distance! horizon! planar-tile! planar-tile!");
 }
 
-static void rounds_share_dispatches_by_two(void **state)
+TEST(rounds_share_dispatches_by_two)
 {
-    (void)state;
     static const char *const wanted[] = {"distance! horizon! planar-tile!",
                                          "distance! horizon! planar-tile!",
                                          "distance! horizon! planar-tile!",
@@ -154,9 +141,8 @@ static void rounds_share_dispatches_by_two(void **state)
         assert_steps(&q, wanted[s.blur_rounds]);
 }
 
-static void estimates_are_added_and_averaged(void **state)
+TEST(estimates_are_added_and_averaged)
 {
-    (void)state;
     glssao_frame frame;
     const glssao_settings high = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     glssao_settings s = glssao__schedule_accumulated(&high);
@@ -170,9 +156,8 @@ static void estimates_are_added_and_averaged(void **state)
 }
 
 /* The steps of a frame with bent normals are those of one without. */
-static void bent_normals_add_no_step(void **state)
+TEST(bent_normals_add_no_step)
 {
-    (void)state;
     for (int quality = 0; quality <= GLSSAO_ULTRA; ++quality)
         for (int path = GLSSAO_PATH_FRAGMENT; path <= GLSSAO_PATH_COMPUTE; ++path) {
             glssao_frame frame;
@@ -188,9 +173,8 @@ static void bent_normals_add_no_step(void **state)
         }
 }
 
-static void rays_take_the_place_of_an_estimate(void **state)
+TEST(rays_take_the_place_of_an_estimate)
 {
-    (void)state;
     glssao_frame frame;
     glssao_settings s = glssao_default_settings(GLSSAO_RAYS, GLSSAO_MEDIUM);
     glssao__request q = schedules_request(&frame, &s, 1280, 720);
@@ -211,9 +195,8 @@ static void rays_take_the_place_of_an_estimate(void **state)
 }
 
 /* The rounds look ever farther, and only the last step fills in what is missing. */
-static void rounds_of_rays_widen(void **state)
+TEST(rounds_of_rays_widen)
 {
-    (void)state;
     glssao_frame frame;
     glssao_settings s = glssao_default_settings(GLSSAO_RAYS, GLSSAO_HIGH);
     const glssao__request q = schedules_request(&frame, &s, 64, 48);
@@ -230,9 +213,8 @@ static void rounds_of_rays_widen(void **state)
     }
 }
 
-static void rays_correct_an_estimate(void **state)
+TEST(rays_correct_an_estimate)
 {
-    (void)state;
     glssao_frame frame;
     glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     glssao__request q = schedules_request(&frame, &s, 1280, 720);
@@ -252,9 +234,8 @@ static void rays_correct_an_estimate(void **state)
 }
 
 /* The same steps and variants as ever where there are no rays. */
-static void no_rays_cost_nothing(void **state)
+TEST(no_rays_cost_nothing)
 {
-    (void)state;
     glssao_frame frame;
     glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     const glssao__request q = schedules_request(&frame, &s, 1280, 720);
@@ -267,9 +248,8 @@ static void no_rays_cost_nothing(void **state)
                     schedule.steps[i].variant.values[MACRO_STRIDE] == 0);
 }
 
-static void history_takes_the_place_of_upsampling(void **state)
+TEST(history_takes_the_place_of_upsampling)
 {
-    (void)state;
     glssao_frame frame;
     glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     glssao__request q = schedules_request(&frame, &s, 64, 48);
@@ -297,9 +277,8 @@ static void history_takes_the_place_of_upsampling(void **state)
     assert_steps(&q, "tile-rows tile-bounds tile-class tile-rings =1 =1 classic blur blur");
 }
 
-static void nothing_is_only_cleared(void **state)
+TEST(nothing_is_only_cleared)
 {
-    (void)state;
     glssao_frame frame;
     glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     const glssao__request q = schedules_request(&frame, &s, 64, 48);
@@ -378,17 +357,15 @@ static void check_rules(const glssao__request *q, const glssao__schedule *s, voi
     }
 }
 
-static void all_schedules_keep_the_rules(void **state)
+TEST(all_schedules_keep_the_rules)
 {
-    (void)state;
     const int count = schedules_visit(check_rules, NULL);
     print_message("%d schedules\n", count);
     assert_true(count > 10000);
 }
 
-static void frames_by_levels_have_at_most_24_steps(void **state)
+TEST(frames_by_levels_have_at_most_24_steps)
 {
-    (void)state;
     for (int technique = 0; technique <= GLSSAO_RAYS; ++technique)
         for (int quality = 0; quality <= GLSSAO_ULTRA; ++quality) {
             glssao_frame frame;
@@ -405,9 +382,8 @@ static void frames_by_levels_have_at_most_24_steps(void **state)
 
 /* ---- unrolling ---- */
 
-static void loops_are_written_out(void **state)
+TEST(loops_are_written_out)
 {
-    (void)state;
     static const struct {
         const char *source, *wanted;
     } cases[] = {
@@ -437,23 +413,5 @@ static void loops_are_written_out(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(levels_have_their_steps),
-        cmocka_unit_test(tiles_add_their_steps),
-        cmocka_unit_test(rare_settings_cost_nothing_unused),
-        cmocka_unit_test(inputs_are_copied_first),
-        cmocka_unit_test(rounds_share_dispatches_by_two),
-        cmocka_unit_test(estimates_are_added_and_averaged),
-        cmocka_unit_test(bent_normals_add_no_step),
-        cmocka_unit_test(rays_take_the_place_of_an_estimate),
-        cmocka_unit_test(rounds_of_rays_widen),
-        cmocka_unit_test(rays_correct_an_estimate),
-        cmocka_unit_test(no_rays_cost_nothing),
-        cmocka_unit_test(history_takes_the_place_of_upsampling),
-        cmocka_unit_test(nothing_is_only_cleared),
-        cmocka_unit_test(all_schedules_keep_the_rules),
-        cmocka_unit_test(frames_by_levels_have_at_most_24_steps),
-        cmocka_unit_test(loops_are_written_out),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run(NULL, NULL, NULL);
 }

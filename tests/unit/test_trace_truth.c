@@ -5,17 +5,8 @@
 #include "scene_builder.h"
 #include "shapes.h"
 #include "small_scene.h"
+#include "testing.h"
 #include "trace_shot.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 enum { ERROR_LENGTH = 512 };
 
@@ -48,9 +39,8 @@ static small_scene *make_room(int walls)
     return s;
 }
 
-static void empty_plane_is_fully_accessible(void **state)
+TEST(empty_plane_is_fully_accessible)
 {
-    (void)state;
     small_scene *s = make_room(0);
     for (int step = 0; step < 8; step++) {
         const float height = 0.02f + 0.7f * (float)step;
@@ -71,9 +61,8 @@ static double segment(double c)
     return c >= 1 ? 0 : (acos(c) - c * sqrt(1 - c * c)) / pi;
 }
 
-static void wall_blocks_a_segment_of_the_disk(void **state)
+TEST(wall_blocks_a_segment_of_the_disk)
 {
-    (void)state;
     enum { SAMPLES = 1 << 14 };
     small_scene *s = make_room(1);
     trace_scene *t = trace_shot_open(&s->scene);
@@ -95,9 +84,8 @@ static void mean_beside_a_wall(double distance, double *out_away, double *out_no
     *out_normal = 2.0 / 3 - 0.5 * (2.0 / 3 - d + d * d * d / 3);
 }
 
-static void open_directions_have_their_closed_form_beside_a_wall(void **state)
+TEST(open_directions_have_their_closed_form_beside_a_wall)
 {
-    (void)state;
     enum { SIDE = TRACE_SHOT_SIDE };
     static float got[TRACE_SHOT_PIXELS][3];
     char error[ERROR_LENGTH];
@@ -151,9 +139,8 @@ static double disk_corner(double a, double b)
     return sum / pi;
 }
 
-static void corner_of_a_box_blocks_two_segments(void **state)
+TEST(corner_of_a_box_blocks_two_segments)
 {
-    (void)state;
     enum { SAMPLES = 1 << 14 };
     small_scene *s = make_room(2);
     trace_scene *t = trace_shot_open(&s->scene);
@@ -204,9 +191,8 @@ static double blocked_by_sphere(double d, double radius)
     return (double)blocked / total;
 }
 
-static void sphere_on_a_plane_blocks_its_form_factor(void **state)
+TEST(sphere_on_a_plane_blocks_its_form_factor)
 {
-    (void)state;
     enum { SAMPLES = 1 << 14 };
     scene *s = make_resting_sphere();
     trace_scene *t = trace_shot_open(s);
@@ -233,9 +219,8 @@ static small_scene *make_ceiling(scene_material material)
     return s;
 }
 
-static void radius_cuts_hard(void **state)
+TEST(radius_cuts_hard)
 {
-    (void)state;
     enum { SAMPLES = 1 << 14 };
     small_scene *s = make_ceiling(small_scene_material());
     trace_scene *t = trace_shot_open(&s->scene);
@@ -249,9 +234,8 @@ static void radius_cuts_hard(void **state)
     free(s);
 }
 
-static void uniform_rays_see_the_solid_angle(void **state)
+TEST(uniform_rays_see_the_solid_angle)
 {
-    (void)state;
     enum { SAMPLES = 1 << 14 };
     char error[ERROR_LENGTH];
     small_scene *s = make_ceiling(small_scene_material());
@@ -285,9 +269,8 @@ static double under(scene_material material, const uint8_t *rgba, float vertex_a
     return out;
 }
 
-static void alpha_test_lets_rays_through(void **state)
+TEST(alpha_test_lets_rays_through)
 {
-    (void)state;
     const uint8_t clear[16] = {0}, left_clear[16] = {9, 9, 9, 0, 9, 9, 9, 255, 9, 9, 9, 0, 9, 9, 9, 255};
     const uint8_t top_clear[16] = {9, 9, 9, 0, 9, 9, 9, 0, 9, 9, 9, 255, 9, 9, 9, 255};
     scene_material m = small_scene_material();
@@ -316,15 +299,5 @@ static void alpha_test_lets_rays_through(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(empty_plane_is_fully_accessible),
-        cmocka_unit_test(wall_blocks_a_segment_of_the_disk),
-        cmocka_unit_test(open_directions_have_their_closed_form_beside_a_wall),
-        cmocka_unit_test(corner_of_a_box_blocks_two_segments),
-        cmocka_unit_test(sphere_on_a_plane_blocks_its_form_factor),
-        cmocka_unit_test(radius_cuts_hard),
-        cmocka_unit_test(uniform_rays_see_the_solid_angle),
-        cmocka_unit_test(alpha_test_lets_rays_through),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run(NULL, NULL, NULL);
 }
