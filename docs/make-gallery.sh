@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# make-gallery.sh GLSSAO_RENDER SCENES: makes docs/gallery.md and its pictures in docs/pictures/gallery. SCENES is the
+# make-gallery.sh GLSSAO_RENDER SCENES GLSSAO_BENCH: makes docs/gallery.md and its pictures in docs/pictures/gallery. SCENES is the
 # folder of test scenes; credit for each stands in the page. Needs ImageMagick's convert, and a glssao-render with Embree.
 set -euo pipefail
-[ $# = 2 ] || { sed -n 3,4p "$0"; exit 2; }
+[ $# = 3 ] || { sed -n 3,4p "$0"; exit 2; }
 render=$(realpath "$1")
 scenes=$(realpath "$2")
+bench=$(realpath "$3")
 docs=$(dirname "$(realpath "$0")")
 out=$docs/pictures/gallery
 work=$(mktemp -d)
@@ -46,3 +47,16 @@ strip drive "Cycloidal drive" "By Michael Dawson-Haggerty, MIT. Radius 6 mm." --
     "$scenes/cycloidal-drive/cycloidal.glb"
 strip mannequin "Mannequiny" "By GDQuest and contributors, CC BY 4.0. Radius 0.2 m." --eye 1.2,1.5,2.4 --target 0,0.9,0 \
     --radius 0.2 "$scenes/mannequin-skinned/mannequiny.glb"
+
+cat >>"$page" <<'PAGE'
+
+## Bent normals
+
+A matte surface above, a glossy one below, under a dim sky with one lamp: lit by accessibility alone, by bent normals as
+`glssao-render --bent-normals` does, and by rays (HIGH, `glssao-bench --bent`; [accuracy-bent.md](accuracy-bent.md) has the errors).
+PAGE
+"$bench" --bent --scenes "$scenes" --pick steps,zdm2,hermes --size 640x360 --rays 256 --cache "$work/cache" --out "$work/bent" 2>/dev/null
+for name in steps:Steps zdm2-courtyard:Courtyard hermes-scan:Hermes; do
+    convert "$work/bent/bent-${name%%:*}.png" -resize 50% -quality 88 -strip "$out/bent-${name%%:*}.jpg"
+    printf '\n![%s: accessibility, bent normals, ray-traced](pictures/gallery/bent-%s.jpg)\n' "${name#*:}" "${name%%:*}" >>"$page"
+done

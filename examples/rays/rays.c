@@ -2,6 +2,7 @@
 #include "rays.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 enum { TEXEL_BYTES = 4 * sizeof(float) };
 
@@ -88,6 +89,34 @@ static void release_strips(rays *r)
     gl.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
 }
 
+float (*rays_read_surfaces(rays *r, const rays_job *job, failure *why))[4]
+{
+    if (!rays_open(r, job->view->width, job->view->height, job->step, why))
+        return NULL;
+    GLsync fences[RAYS_STRIPS];
+    float(*surfaces)[4] = malloc((size_t)r->width * (size_t)r->height * sizeof *surfaces);
+    request_strips(r, job, fences);
+    bool mapped = true;
+    for (int i = 0; i < RAYS_STRIPS; i++)
+        mapped = receive_strip(r, i, fences[i]) && mapped;
+    for (int y = 0; surfaces && mapped && y < r->height; y++)
+        memcpy(surfaces + (size_t)y * (size_t)r->width, r->rows[y], (size_t)r->width * sizeof *surfaces);
+    release_strips(r);
+    if (surfaces && mapped)
+        return surfaces;
+    fault_set(why, "%s", surfaces ? "depth and normals could not be read back" : "out of memory");
+    free(surfaces);
+    return NULL;
+}
+
+void rays_upload(const rays *r)
+{
+    gl.BindTexture(GL_TEXTURE_2D, r->texture);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, r->width, r->height, GL_RED, GL_FLOAT, r->accessibility);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+}
+
 bool rays_trace(rays *r, const trace_scene *s, const rays_job *job, failure *why)
 {
     const int step = job->step;
@@ -114,9 +143,6 @@ bool rays_trace(rays *r, const trace_scene *s, const rays_job *job, failure *why
         return fault_set(why, "%s", done ? "depth and normals could not be read back" : "stopped");
     r->stats.rays += stats.rays;
     r->stats.seconds += stats.seconds;
-    gl.BindTexture(GL_TEXTURE_2D, r->texture);
-    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, r->width, r->height, GL_RED, GL_FLOAT, r->accessibility);
-    gl.BindTexture(GL_TEXTURE_2D, 0);
+    rays_upload(r);
     return true;
 }

@@ -37,6 +37,11 @@ bool rays_open(rays *r, int width, int height, int step, failure *why);
 
 /* Fills r->texture. `r` is zero, or has traced other frames. False, with one line in `why`, on failure. */
 bool rays_trace(rays *r, const trace_scene *s, const rays_job *job, failure *why);
+
+/* For who traces elsewhere: the surfaces, r->width x r->height texels that the caller frees, or NULL with one line in
+ * `why`; and r->accessibility into r->texture. */
+float (*rays_read_surfaces(rays *r, const rays_job *job, failure *why))[4];
+void rays_upload(const rays *r);
 void rays_close(rays *r);
 
 #endif

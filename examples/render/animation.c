@@ -2,10 +2,10 @@
 #include "animation.h"
 
 /* A renderer of its own, where the scene has other triangles than in the step before. */
-static bool open_again(animation *a, scene *next, const stage *like, failure *why)
+static bool open_again(animation *a, scene *next, const options *o, const stage *like, failure *why)
 {
     stage made;
-    if (!stage_open_spending(&made, next, a->scene ? &a->stage : like, why)) {
+    if (!stage_open_spending(&made, next, a->scene ? &a->stage : like, o, why)) {
         stage_close(&made);
         return false;
     }
@@ -20,7 +20,7 @@ bool animation_step(animation *a, const options *o, int frame, const stage *like
     if (!next)
         return false;
     *out_is_known = a->scene && scene_renderer_pose(a->stage.renderer, next);
-    const bool done = *out_is_known ? stage_pose(&a->stage, next, why) : open_again(a, next, like, why);
+    const bool done = *out_is_known ? stage_pose(&a->stage, next, why) : open_again(a, next, o, like, why);
     if (!done && !*out_is_known) {
         scene_destroy(next);
         return false;

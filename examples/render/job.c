@@ -66,7 +66,7 @@ static bool render(job *j, double start_ms, failure *why)
     if (!outputs_check(o, why) || !open_scene_and_context(j, why))
         return false;
     stopwatch_start(&s->times);
-    if (!stage_open_spending(&j->stage, j->loader.scene, NULL, why))
+    if (!stage_open_spending(&j->stage, j->loader.scene, NULL, o, why))
         return false;
     j->stage.inputs = &j->loader.inputs;
     stopwatch_lap(&s->times, PHASE_SETUP);

@@ -223,8 +223,6 @@ static bool check_together(const options *o, bool is_viewer, failure *why)
         return fault_set(why, "--eye and --target are the same point");
     if (o->sky_up.given && o->sky_up.value[0] == 0 && o->sky_up.value[1] == 0 && o->sky_up.value[2] == 0)
         return fault_set(why, "--sky-up 0,0,0: has no direction");
-    if (is_viewer && o->technique == GLSSAO_RAYS)
-        return fault_set(why, "--technique rays: the viewer traces no rays while the view moves");
     if (is_viewer && traced)
         return fault_set(why, "--technique raytrace: the viewer shows ray-traced accessibility with the keys T and Y");
     if (!file_wanted)

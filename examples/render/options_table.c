@@ -53,7 +53,7 @@ static const option table[] = {
      "trace N rays from each pixel of the estimate, 1 to 64: all of it with -t rays (default 2 to 8, by quality), and "
      "a "
      "correction with another technique (default none)",
-     OPTION_INT, AT(rays), 1, 64, "a whole number from 1 to 64", SCOPE_RENDERED},
+     OPTION_INT, AT(rays), 1, 64, "a whole number from 1 to 64", SCOPE_PICTURE},
     {0, "adaptive-rays", NULL,
      "more rays where few neighbours can be averaged, fewer where all say the same; --rays is at most 16 then",
      OPTION_FLAG, AT(adaptive_rays), 0, 0, NULL, SCOPE_RENDERED},

@@ -267,7 +267,7 @@ glssao_frame pipeline_frame(const pipeline *p, const scene_view *view)
                           .back_texture = p->draw_options.layers ? p->layers[0] : 0,
                           .second_texture = p->draw_options.layers ? p->layers[1] : 0,
                           .normal_texture = glssao_map(p->effect, GLSSAO_MAP_NORMAL, NULL, NULL),
-                          .rays_texture = p->wants.rays ? p->rays.texture : 0,
+                          .rays_texture = p->wants.rays || p->rays_ready ? p->rays.texture : 0,
                           .motion_texture = reads_motion(p) ? p->motion : 0,
                           .cut = !p->has_last};
     memcpy(frame.projection, view->clip_from_view, sizeof frame.projection);
@@ -286,20 +286,31 @@ static bool is_stopped(void *user)
     return stop_signal();
 }
 
+static rays_job make_rays_job(const pipeline *p, const scene_view *view, int step)
+{
+    return (rays_job){.renderer = p->renderer,
+                      .depth = p->depth,
+                      .normals = glssao_map(p->effect, GLSSAO_MAP_NORMAL, NULL, NULL),
+                      .view = view,
+                      .margin = p->margin,
+                      .step = step};
+}
+
 static bool trace_rays(pipeline *p, const scene_view *view, int index, failure *why)
 {
-    const rays_job job = {.renderer = p->renderer,
-                          .depth = p->depth,
-                          .normals = glssao_map(p->effect, GLSSAO_MAP_NORMAL, NULL, NULL),
-                          .view = view,
-                          .margin = p->margin,
-                          .step = ray_step(p),
-                          .options = {.radius = p->settings.radius,
-                                      .samples = p->ray_count,
-                                      .adaptive = p->adaptive_rays,
-                                      .seed = p->seed + (uint32_t)index * 0x9e3779b9u + p->frame_number * 0x85ebca6bu,
-                                      .stopped = is_stopped}};
+    rays_job job = make_rays_job(p, view, ray_step(p));
+    job.options = (trace_options){.radius = p->settings.radius,
+                                  .samples = p->ray_count,
+                                  .adaptive = p->adaptive_rays,
+                                  .seed = p->seed + (uint32_t)index * 0x9e3779b9u + p->frame_number * 0x85ebca6bu,
+                                  .stopped = is_stopped};
     return rays_trace(&p->rays, p->traced, &job, why);
+}
+
+float (*pipeline_read_surfaces(pipeline *p, const scene_view *view, int step, failure *why))[4]
+{
+    const rays_job job = make_rays_job(p, view, step);
+    return rays_read_surfaces(&p->rays, &job, why);
 }
 
 /* Finds accessibility for one of `count` samples of a pixel. The picture shows their mean. So each sample gets its

@@ -49,8 +49,9 @@ typedef struct pipeline {
     bool kept_timers;
     glssao_path kept_path;
     uint32_t seed;
-    truth truth; /* only if wants.traced */
-    rays rays;   /* only if wants.rays */
+    truth truth;     /* only if wants.traced */
+    rays rays;       /* only if wants.rays, or where pipeline_read_surfaces was called */
+    bool rays_ready; /* the texture has rays of the view that were traced elsewhere */
     const trace_scene *traced;
     bool adaptive_rays;
     int ray_count; /* from each traced pixel */
@@ -95,6 +96,10 @@ glssao_settings pipeline_settings(const options *o, const scene *s);
 
 /* Makes the targets again for another size. Call pipeline_destroy in either case. Not for traced frames. */
 bool pipeline_resize(pipeline *p, int width, int height, failure *why);
+
+/* What rays start from, for who traces them elsewhere (rays.h): one texel of each `step` x `step` pixels of the last
+ * frame's pre-pass. The caller frees it. NULL, with one line in `why`, on failure. */
+float (*pipeline_read_surfaces(pipeline *p, const scene_view *view, int step, failure *why))[4];
 
 /* Texture name of the accessibility map of the last frame. */
 GLuint pipeline_ambient_map(const pipeline *p);

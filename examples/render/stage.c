@@ -1,8 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 #include "stage.h"
 
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
+
+typedef struct stage_build {
+    pthread_t thread;
+    const scene *scene;
+    trace_scene *traced;
+    char error[512];
+} stage_build;
 
 scene *stage_load_pose(const options *o, double time_s, failure *why)
 {
@@ -43,15 +51,53 @@ bool stage_open(stage *st, const scene *s, failure *why)
     return st->renderer;
 }
 
-bool stage_open_spending(stage *st, scene *s, const stage *like, failure *why)
+static void *build(void *argument)
 {
-    if (open(st, s, why))
-        st->renderer = scene_renderer_create_spending(s, like ? like->renderer : NULL, why->text, why->size);
+    stage_build *b = argument;
+    b->traced = trace_scene_create(b->scene, b->error, sizeof b->error);
+    return NULL;
+}
+
+/* The upload frees opaque images alone, which the tracer does not read. Without a thread, stage_trace builds. */
+static void start_build(stage *st, const options *o)
+{
+    const bool traces = o->rays || o->technique == GLSSAO_RAYS || o->technique == OPTIONS_RAYTRACE;
+    stage_build *b = traces && !o->no_ao ? calloc(1, sizeof *b) : NULL;
+    if (!b)
+        return;
+    b->scene = st->scene;
+    if (pthread_create(&b->thread, NULL, build, b) == 0)
+        st->build = b;
+    else
+        free(b);
+}
+
+static void finish_build(stage *st, failure *why)
+{
+    stage_build *b = st->build;
+    if (!b)
+        return;
+    pthread_join(b->thread, NULL);
+    st->traced = b->traced;
+    if (!b->traced)
+        fault_set(why, "%s", b->error);
+    free(b);
+    st->build = NULL;
+}
+
+bool stage_open_spending(stage *st, scene *s, const stage *like, const options *o, failure *why)
+{
+    if (!open(st, s, why))
+        return false;
+    start_build(st, o);
+    st->renderer = scene_renderer_create_spending(s, like ? like->renderer : NULL, why->text, why->size);
     return st->renderer;
 }
 
 bool stage_pose(stage *st, const scene *next, failure *why)
 {
+    char ignored[64];
+    finish_build(st, FAULT(ignored));
     const stage before = *st;
     const bool done = open(st, next, why);
     trace_scene_destroy(before.traced);
@@ -62,6 +108,8 @@ bool stage_pose(stage *st, const scene *next, failure *why)
 
 void stage_close(stage *st)
 {
+    char ignored[64];
+    finish_build(st, FAULT(ignored));
     trace_scene_destroy(st->traced);
     scene_renderer_destroy(st->renderer);
     free(st->lights);
@@ -70,7 +118,9 @@ void stage_close(stage *st)
 
 bool stage_trace(stage *st, failure *why)
 {
-    if (!st->traced)
+    if (st->build)
+        finish_build(st, why);
+    else if (!st->traced)
         st->traced = trace_scene_create(st->scene, why->text, why->size);
     return st->traced;
 }

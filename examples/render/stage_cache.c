@@ -238,7 +238,7 @@ stage *stage_cache_get(stage_cache *c, const options *o, failure *why)
         inputs in = {0};
         scene *s = k.name ? load_scene(c, &k, &in, why) : NULL;
         e = s ? calloc(1, sizeof *e) : NULL;
-        if (!e || !stage_open_spending(&e->stage, s, c->first ? &c->first->stage : NULL, why)) {
+        if (!e || !stage_open_spending(&e->stage, s, c->first ? &c->first->stage : NULL, o, why)) {
             if (e)
                 stage_close(&e->stage);
             else if (s || !k.name)

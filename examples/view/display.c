@@ -42,6 +42,7 @@ void viewer_free_targets(viewer *v)
 bool viewer_resize(viewer *v, int width, int height)
 {
     viewer_drop_truth(v);
+    rays_view_drop(v);
     viewer_free_targets(v);
     v->width = width;
     v->height = height;
@@ -66,6 +67,7 @@ static glssao_settings frame_settings(const viewer *v)
     glssao_settings s = v->settings;
     if (!rest_reuses(v))
         s.history = 0;
+    rays_view_adjust(v, &s);
     if (v->shown == SHOWN_RAW) {
         s.blur = GLSSAO_BLUR_NONE;
         s.blur_rounds = 0;
@@ -115,6 +117,7 @@ static bool find_view(viewer *v)
 static bool draw_frame(viewer *v)
 {
     stopwatch times = {.finish = true};
+    rays_view_take(v);
     v->pipeline.settings = frame_settings(v);
     v->pipeline.goal = frame_goal(v);
     v->pipeline.reached = (progressive_report){0};
@@ -130,6 +133,7 @@ static bool draw_frame(viewer *v)
     v->frames++;
     v->reused += rest_reuses(v);
     record_times(v, &times);
+    rays_view_ask(v);
     return true;
 }
 
@@ -220,7 +224,7 @@ static void compose(const viewer *v, GLuint to)
 void viewer_display(viewer *v)
 {
     const bool off_due = needs_off(v) && (v->frame_due || !v->off_color), off_first = off_due && viewer_averages(v);
-    const bool due = v->frame_due || off_first;
+    const bool due = v->frame_due || off_first || rays_view_is_due(v);
     if (due && !(find_view(v) && (!off_first || draw_off(v)) && draw_frame(v))) {
         v->frame_due = false;
         gl.BindFramebuffer(GL_FRAMEBUFFER, 0);

@@ -8,6 +8,7 @@
 #include "words.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /* The upper end of a slider. For a length it is ten times the default for the scene's suggested radius. */
 static float slider_end(const setting *s, const viewer *v, float standard)
@@ -97,12 +98,29 @@ static bool draw_setting(viewer *v, const setting *s, const glssao_settings *sta
     return changed;
 }
 
+/* Rays that correct another technique, and how far the tracing is. */
+static bool draw_rays(viewer *v)
+{
+    bool changed = false;
+    if (v->settings.technique != GLSSAO_RAYS) {
+        changed = gui_slider_whole("rays", "a pixel and round", &v->options.rays, 0, 16, 0);
+        gui_tip("Rays that correct this technique while the view rests. 0: none.");
+    }
+    if (rays_view_applies(v)) {
+        char text[64];
+        snprintf(text, sizeof text, "rays: %d of %d rounds", v->rays_rounds, (int)RAY_ROUNDS);
+        gui_progress((float)v->rays_rounds / (float)RAY_ROUNDS, text);
+    }
+    return changed;
+}
+
 void panel_draw_settings(viewer *v)
 {
     if (!gui_section("Occlusion", true))
         return;
     int technique = v->options.technique, quality = v->options.quality;
-    const bool chosen = gui_choice("technique (Tab)", &technique, TECHNIQUE_WORDS);
+    const bool chosen =
+        gui_choice("technique (Tab)", &technique, GLSSAO_HAS_EMBREE ? ALL_TECHNIQUE_WORDS : TECHNIQUE_WORDS);
     if (gui_choice("quality (Shift+Tab)", &quality, QUALITY_WORDS) || chosen)
         viewer_set_technique(v, technique, quality);
     const glssao_settings standard = viewer_standard(v);
@@ -110,6 +128,7 @@ void panel_draw_settings(viewer *v)
     for (int i = 0; i < setting_count; i++)
         if (setting_table[i].techniques & 1u << v->settings.technique)
             changed = draw_setting(v, &setting_table[i], &standard) || changed;
+    changed = (GLSSAO_HAS_EMBREE && draw_rays(v)) || changed;
     if (gui_button("Default settings")) {
         v->settings = standard;
         changed = true;

@@ -14,7 +14,7 @@ static bool applies(const viewer *v)
 {
     const pipeline *p = &v->pipeline;
     return v->settings.history > 0 && p->wants.ao && !viewer_averages(v) && !v->options.budget_ms.given &&
-           v->shown != SHOWN_RAW && !v->settings.bent_normals;
+           v->shown != SHOWN_RAW && !v->settings.bent_normals && !rays_view_applies(v);
 }
 
 double rest_error(const viewer *v)

@@ -128,6 +128,10 @@ static void add_occlusion(line *l, const viewer *v)
         add(l, " --layers %d", o->layers);
     if (rest_error(v) > 0 && v->mode != MODE_OFF)
         add(l, " --error %.9g", rest_error(v));
+    const int rounds = v->rays_rounds > 1 ? v->rays_rounds : 1;
+    const int each = v->settings.technique == GLSSAO_RAYS ? v->settings.sample_count : o->rays;
+    if (rays_view_applies(v) && each > 0 && v->mode != MODE_OFF)
+        add(l, " --rays %d", each * rounds < 64 ? each * rounds : 64);
     if (o->budget_ms.given && horizon && v->mode != MODE_OFF)
         add(l, " --budget %.9g", (double)o->budget_ms.value);
     if (o->path)
@@ -150,7 +154,7 @@ bool viewer_command_line(const viewer *v, char *out, size_t out_size)
     line l = {out, out_size, 0, false};
     out[0] = '\0';
     add(&l, "glssao-render -o picture.png -s %dx%d -t %s -q %s --radius %.9g", v->width, v->height,
-        words_at(TECHNIQUE_WORDS, (int)v->settings.technique).text, words_at(QUALITY_WORDS, o->quality).text,
+        words_at(ALL_TECHNIQUE_WORDS, (int)v->settings.technique).text, words_at(QUALITY_WORDS, o->quality).text,
         (double)v->settings.radius);
     const glssao_settings standard = viewer_standard(v);
     glssao_settings rest = v->settings;

@@ -40,6 +40,7 @@ void viewer_change(viewer *v)
 {
     v->frame_due = true;
     viewer_drop_truth(v);
+    rays_view_drop(v);
 }
 
 void viewer_camera_moved(viewer *v)
@@ -127,6 +128,7 @@ bool viewer_open(viewer *v, const char *path, const char *name)
     }
     if (!first) {
         viewer_drop_truth(v);
+        rays_view_stop(v);
         viewer_free_targets(v);
         pipeline_destroy(&v->pipeline);
         scene_destroy(v->scene);
@@ -176,6 +178,7 @@ bool viewer_open_file(viewer *v, const char *path)
 void viewer_close(viewer *v)
 {
     viewer_drop_truth(v);
+    rays_view_stop(v);
     viewer_free_targets(v);
     if (v->scene)
         pipeline_destroy(&v->pipeline);

@@ -8,6 +8,7 @@
 
 #include "options.h"
 #include "pipeline.h"
+#include "ray_worker.h"
 #include "truth_job.h"
 #include "viewpoint.h"
 
@@ -61,6 +62,10 @@ typedef struct viewer {
     int still_frames; /* with a history, of the same view after the last frame */
     bool rested;      /* nothing more comes of a view that rests */
     GLuint off_color, off_framebuffer, map, map_framebuffer;
+    ray_worker *ray_worker; /* NULL: none yet */
+    bool rays_asked;        /* it was asked for the rays of this view */
+    bool rays_failed;
+    int rays_rounds; /* that are shown */
     truth_job *truth;
     int truth_rounds, truth_shown_rounds;
     float *truth_mean; /* mean of the rounds that were read last */
@@ -123,6 +128,23 @@ bool rest_is_due(const viewer *v);
 bool rest_step(viewer *v);
 /* Whether the map of accessibility is not yet as good as the last one that was shown. */
 bool rest_hides(const viewer *v);
+
+/* ---- rays_view.c ---- */
+
+/* Whether rays are traced for what is shown. */
+bool rays_view_applies(const viewer *v);
+/* A round has come that is not shown. */
+bool rays_view_is_due(const viewer *v);
+/* Before a frame: uploads what has come. */
+void rays_view_take(viewer *v);
+/* After a frame: starts the tracing unless it runs. */
+void rays_view_ask(viewer *v);
+/* Makes the settings those of the frame: screen space where no rays have come yet. */
+void rays_view_adjust(const viewer *v, glssao_settings *settings);
+/* The view has changed. */
+void rays_view_drop(viewer *v);
+/* The scene goes. */
+void rays_view_stop(viewer *v);
 
 /* ---- truth_view.c ---- */
 

@@ -102,8 +102,8 @@ static glssao_result check_framebuffer(const glssao_effect *effect, const call *
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     const gl_enum status = gl->CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE) {
-        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "framebuffer = %u: not complete: 0x%04X", framebuffer,
-                          status);
+        glssao__log_write(&effect->log, GLSSAO_LOG_ERROR, "framebuffer = %u: not complete: 0x%04X %s", framebuffer,
+                          status, glssao__format_status_name(status));
         return GLSSAO_FRAMEBUFFER_ERROR;
     }
     const struct {

@@ -5,6 +5,7 @@
  */
 #include "bent.h"
 
+#include "bent_light.h"
 #include "progress.h"
 #include "table.h"
 
@@ -28,7 +29,12 @@ typedef struct subject {
     float *truth, *other; /* three a pixel; of another seed */
     size_t pixels;
     float *got; /* four a pixel */
+    bent_light light;
 } subject;
+
+typedef struct tables {
+    table degrees, light;
+} tables;
 
 static double degrees_between(const float *a, const float *b)
 {
@@ -108,8 +114,25 @@ static bool run(const subject *s, effects *e, const glssao_settings *settings, b
     return true;
 }
 
+/* Pictures of the last result; of HIGH also a strip. */
+static bool measure_light(const results *r, const subject *s, const char *id, table *t, char *error, size_t error_size)
+{
+    const bent_light_error e = bent_light_measure(&s->light, s->got);
+    const double cells[] = {e.matte, e.matte_bent, e.glossy, e.glossy_lobe, e.glossy_bent};
+    char path[1024];
+    table_text(t, id);
+    table_text(t, s->view->name);
+    for (size_t i = 0; i < sizeof cells / sizeof cells[0]; i++)
+        table_number(t, cells[i]);
+    table_end_row(t);
+    if (strcmp(id, "horizon-high") != 0)
+        return true;
+    snprintf(path, sizeof path, "%s/bent-%s.png", r->options->out, s->view->name);
+    return bent_light_write(&s->light, s->got, path, error, error_size);
+}
+
 /* The levels as they come, but at full size, and the mean of many estimates. */
-static bool measure_levels(const results *r, const subject *s, effects *e, double of_normal, table *t, char *error,
+static bool measure_levels(const results *r, const subject *s, effects *e, double of_normal, tables *t, char *error,
                            size_t error_size)
 {
     for (int i = 0; i < 2 * (GLSSAO_ULTRA + 2); i++) {
@@ -125,7 +148,9 @@ static bool measure_levels(const results *r, const subject *s, effects *e, doubl
         if (!run(s, e, &settings, depth_alone, accumulates ? ESTIMATES : 0, error, error_size))
             return false;
         const figures f = compare(s, s->got, 4);
-        add_row(t, s, names[level], depth_alone ? "depth" : "normals", f);
+        add_row(&t->degrees, s, names[level], depth_alone ? "depth" : "normals", f);
+        if (!depth_alone && !measure_light(r, s, names[level], &t->light, error, error_size))
+            return false;
         if (r->options->check && !depth_alone && !(f.occluded < of_normal)) {
             snprintf(error, error_size, "%s, %s: %g degrees off, the normal %g", s->view->name, names[level], f.mean,
                      of_normal);
@@ -135,7 +160,7 @@ static bool measure_levels(const results *r, const subject *s, effects *e, doubl
     return true;
 }
 
-static bool measure_view(const results *r, int index, effects *e, table *t, char *error, size_t error_size)
+static bool measure_view(const results *r, int index, effects *e, tables *t, char *error, size_t error_size)
 {
     const options *o = r->options;
     const bench_view *v = &r->views[index];
@@ -148,29 +173,32 @@ static bool measure_view(const results *r, int index, effects *e, table *t, char
     request.seed++;
     s.other = s.truth ? truth_get_open(&request, shown, &at, error, error_size) : NULL;
     s.got = malloc(4 * s.pixels * sizeof *s.got);
-    bool done = s.other && s.got;
+    bool done = s.other && s.got && bent_light_open(&s.light, v, shown, &at, o, error, error_size);
     if (!s.got)
         snprintf(error, error_size, "out of memory");
     if (done) {
         char id[32];
         const figures of_normal = compare(&s, v->normals, 3);
         snprintf(id, sizeof id, "rays-%d", o->rays);
-        add_row(t, &s, "normal", "normals", of_normal);
-        add_row(t, &s, id, "normals", compare(&s, s.other, 3));
+        add_row(&t->degrees, &s, "normal", "normals", of_normal);
+        add_row(&t->degrees, &s, id, "normals", compare(&s, s.other, 3));
         done = measure_levels(r, &s, e, of_normal.occluded, t, error, error_size);
     }
     free(s.truth);
     free(s.other);
     free(s.got);
+    bent_light_close(&s.light);
     scene_destroy(shown);
     return done;
 }
 
 bool bent_measure(const results *r, effects *e, char *error, size_t error_size)
 {
-    table t;
-    if (!table_begin(&t, r->options, r->context, "bent", "configuration inputs scene mean rms median p95 occluded_mean",
-                     error, error_size))
+    tables t;
+    if (!table_begin(&t.degrees, r->options, r->context, "bent",
+                     "configuration inputs scene mean rms median p95 occluded_mean", error, error_size) ||
+        !table_begin(&t.light, r->options, r->context, "bent-light",
+                     "configuration scene matte matte_bent glossy glossy_lobe glossy_bent", error, error_size))
         return false;
     bool done = true;
     for (int i = 0; done && i < r->view_count; i++) {
@@ -178,5 +206,5 @@ bool bent_measure(const results *r, effects *e, char *error, size_t error_size)
         done = measure_view(r, i, e, &t, error, error_size);
     }
     progress_clear();
-    return table_end(&t, error, error_size) && done;
+    return table_end(&t.degrees, error, error_size) && table_end(&t.light, error, error_size) && done;
 }

@@ -8,8 +8,9 @@
 #include "effects.h"
 #include "results.h"
 
-/* Measures every level of horizon on every view and writes bent.tsv. With r->options->check it also fails where a level
- * is no better than the normal itself. False, with one line in `error`. */
+/* Measures every level of horizon on every view and writes bent.tsv, bent-light.tsv and a strip of each view. With
+ * r->options->check it also fails where a level is no better than the normal itself. False, with one line in `error`.
+ */
 bool bent_measure(const results *r, effects *e, char *error, size_t error_size);
 
 #endif

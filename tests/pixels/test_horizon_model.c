@@ -81,6 +81,43 @@ static float *read_layers(uint32_t map, int width, int height)
     return texels;
 }
 
+/* Bent normals where the model decides every sector. The shader's ends of runs come from a quadratic and one step of
+ * Newton's method, which leaves 0.02 of a slice's vector at most and 0.001 on average; the map holds half floats. */
+static void check_bent(const setup *s, const char *what)
+{
+    const double most = 0.02, average = 5e-4, steps_of_halves = 1e-3;
+    float *got = fixture_read_texture(glssao_map(s->effect, GLSSAO_MAP_BENT_NORMAL, NULL, NULL), s->input.width,
+                                      s->input.height, 4);
+    double sum = 0.0, worst = 0.0, bends = 0.0;
+    int compared = 0;
+    for (int i = 0; i < s->input.width * s->input.height; ++i) {
+        double open[3], length = 0.0, off = 0.0, bend = 0.0;
+        if (!horizon_model_open(&s->input, i % s->input.width, i / s->input.width, open))
+            continue;
+        for (int axis = 0; axis < 3; ++axis)
+            length += open[axis] * open[axis];
+        length = sqrt(length);
+        if (length < 0.1) /* nearly closed: the direction is noise */
+            continue;
+        const float *n = s->input.normals + 3 * (i / s->input.width * s->width + i % s->input.width);
+        for (int axis = 0; axis < 3; ++axis) {
+            off += pow((double)got[4 * i + axis] - open[axis] / length, 2.0);
+            bend += pow((double)n[axis] - open[axis] / length, 2.0);
+        }
+        off = sqrt(off) * length;
+        worst = fmax(worst, off);
+        sum += off;
+        bends += sqrt(bend);
+        ++compared;
+    }
+    free(got);
+    print_message("%s: bent normals off by %.2e, %.2e on average, bent by %.2f (%d pixels)\n", what, worst,
+                  sum / compared, bends / compared, compared);
+    assert_true(compared > 500 && bends / compared > 0.01);
+    assert_true(worst < most + 2.0 * steps_of_halves);
+    assert_true(sum / compared < average);
+}
+
 /* `depth`: full size, as its texture holds it. Returns the share of pixels that are occluded. */
 static double check(setup *s, const float *depth, const vagueness *most, const char *what)
 {
@@ -129,6 +166,8 @@ static double check(setup *s, const float *depth, const vagueness *most, const c
             wide += high - low > 3.0 / 31.0;
             occluded += high < 0.97;
         }
+    if (s->settings.bent_normals)
+        check_bent(s, what);
     const double share = (double)occluded / (width * height);
     print_message("%s: worst outside interval %.2e, mean width %.1e, wide %.2f %%, occluded %.0f %%, distance %.2f\n",
                   what, worst, vague, 100.0 * wide / (width * height), 100.0 * share, off);
@@ -260,6 +299,19 @@ TEST_GL(agrees_for_thickness_far_fade_and_radius_in_pixels)
         s.radius = i / 2 == 0 ? 6.0f : 17.5f;
         s.radius_in_pixels = true;
         check_scene(*state, &o, &s, "radius in pixels");
+    }
+}
+
+TEST_GL(agrees_for_bent_normals)
+{
+    static const int counts[] = {12, 16, 24, 48};
+    for (int i = 0; i < 4; ++i) {
+        char what[40];
+        snprintf(what, sizeof what, "bent normals, %d samples", counts[i]);
+        const scene_options o = {i % 2 ? ORTHOGRAPHIC : PERSPECTIVE, 80, 51, .posts = i >= 2};
+        glssao_settings s = bare_settings(counts[i], false, 0.8);
+        s.bent_normals = true;
+        check_scene(*state, &o, &s, what);
     }
 }
 

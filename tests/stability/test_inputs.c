@@ -303,6 +303,47 @@ TEST_GL(formats_that_cannot_hold_it_are_named)
     subject_free(&s);
 }
 
+TEST_GL(textures_that_hold_no_motion_are_named)
+{
+    static const struct {
+        GLenum internal, format, type;
+        const char *named; /* NULL: fits */
+    } cases[] = {
+        {GL_RG16, GL_RG, GL_UNSIGNED_SHORT, "GL_RG16 can't hold motion: want GL_RG16F or GL_RG32F\n"},
+        {GL_R32F, GL_RED, GL_FLOAT, "GL_R32F can't hold motion"},
+        {GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_FLOAT, "GL_DEPTH_COMPONENT24 can't hold motion"},
+        {0, GL_RG, GL_FLOAT, ": its level 0 has no storage\n"},
+        {GL_RG16F, GL_RG, GL_FLOAT, NULL},
+        {GL_RGBA32F, GL_RGBA, GL_FLOAT, NULL},
+    };
+    fixture *f = *state;
+    glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
+    settings.history = 4;
+    subject s = room();
+    glssao_frame frame = subject_frame(&s, DEPTH_24, NORMAL_NONE);
+    for (int i = 0; i < 16; i += 5)
+        frame.view[i] = 1.0f;
+    glssao_effect *effect = fixture_shared_effect(f, W, H);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        if (cases[i].internal)
+            frame.motion_texture = empty_texture(GL_TEXTURE_2D, cases[i].internal, cases[i].format, cases[i].type);
+        else
+            gl.GenTextures(1, &frame.motion_texture);
+        gl.BindTexture(GL_TEXTURE_2D, frame.motion_texture); /* a name becomes a texture */
+        gl.BindTexture(GL_TEXTURE_2D, 0);
+        fixture_clear_log(f);
+        const glssao_result result = glssao_compute(effect, &frame, &settings);
+        if (result != (cases[i].named ? GLSSAO_INVALID_ARGUMENT : GLSSAO_OK) ||
+            (cases[i].named && !strstr(f->log, cases[i].named)))
+            fail_msg("case %zu: %s", i, f->log);
+        gl.DeleteTextures(1, &frame.motion_texture);
+    }
+    fixture_clear_log(f);
+    frame.motion_texture = 0;
+    fixture_delete_frame(&frame);
+    subject_free(&s);
+}
+
 /* Each message names what was found and what helps, and no binding changes. */
 TEST_GL(targets_and_sizes_are_named)
 {

@@ -91,6 +91,7 @@ static slice make_slice(const point *p, double angle, double jitter)
     rounded into = dot(p->up, along);
     into.v = -into.v;
     along = unit(sum(along, scaled(into, p->up)));
+    s.along = along;
     const vector across = cross(p->up, along);
     const rounded normal_up = at_least(dot(p->normal, p->up), 0.0);
     const rounded normal_along = dot(p->normal, along);
@@ -128,6 +129,20 @@ static int count_sectors(uint32_t mask)
     return count;
 }
 
+static void find_hidden(const point *p, const slice *s, hidden out[2])
+{
+    const int steps = p->in->steps;
+    for (int minus = 0; minus < 2; ++minus) {
+        side d = {.minus = minus, .lowest = s->sin_g};
+        d.lowest.v *= minus ? 1.0 : -1.0;
+        for (int i = 0; i < steps; ++i) {
+            const double along = (i + 1.0 - s->jitter) / steps;
+            take_sample(p, s, minus ? -along : along, d.candidates[i], &d.candidate_count[i]);
+        }
+        out[minus] = horizon_slice_hidden(p, s, &d);
+    }
+}
+
 /* What the slice adds to occlusion. */
 static interval slice_occlusion(const point *p, double angle, double jitter)
 {
@@ -135,17 +150,8 @@ static interval slice_occlusion(const point *p, double angle, double jitter)
     /* A normal straight across the slice: rounding decides which way it leans, but its weight is nearly 0. */
     if (s.projected.v < 10.0 * s.projected.e)
         return (interval){0.0, 1.6 * (s.projected.v + s.projected.e)};
-    const int steps = p->in->steps;
     hidden h[2];
-    for (int minus = 0; minus < 2; ++minus) {
-        side d = {.minus = minus, .lowest = s.sin_g};
-        d.lowest.v *= minus ? 1.0 : -1.0;
-        for (int i = 0; i < steps; ++i) {
-            const double along = (i + 1.0 - jitter) / steps;
-            take_sample(p, &s, minus ? -along : along, d.candidates[i], &d.candidate_count[i]);
-        }
-        h[minus] = horizon_slice_hidden(p, &s, &d);
-    }
+    find_hidden(p, &s, h);
     const interval total = bounds(s.total), projected = bounds(s.projected);
     const interval plus_veil = horizon_slice_measure(&s, 1.0, h[0].highest),
                    minus_veil = horizon_slice_measure(&s, -1.0, h[1].highest);
@@ -283,4 +289,32 @@ void horizon_model(const horizon_input *in, int x, int y, double *out_low, doubl
     estimate(&p, &low, &high);
     *out_low = seen == OTHER_SIDE ? low : fmin(low, *out_low);
     *out_high = seen == OTHER_SIDE ? high : fmax(high, *out_high);
+}
+
+bool horizon_model_open(const horizon_input *in, int x, int y, double out[3])
+{
+    point p;
+    double noise[2], sum[3] = {0.0, 0.0, 0.0}, occlusion = 0.0;
+    if (!make_point(in, x, y, &p) || side_seen(&p) != OWN_SIDE)
+        return false;
+    tile_noise(in, x, y, noise);
+    for (int i = 0; i < in->slices; ++i) {
+        const double angle = (noise[0] + i) / in->slices;
+        const slice s = make_slice(&p, angle, noise[1]);
+        hidden h[2];
+        double way[2];
+        find_hidden(&p, &s, h);
+        if (!horizon_slice_directions(&p, &s, h, way))
+            return false;
+        const double along[3] = {s.along.x.v, s.along.y.v, s.along.z.v}, up[3] = {p.up.x.v, p.up.y.v, p.up.z.v};
+        for (int axis = 0; axis < 3; ++axis)
+            sum[axis] += s.projected.v * (way[0] * along[axis] + way[1] * up[axis]) / in->slices;
+        const interval one = slice_occlusion(&p, angle, noise[1]);
+        occlusion += 0.5 * (one.low + one.high) / in->slices;
+    }
+    const double normal[3] = {p.normal.x.v, p.normal.y.v, p.normal.z.v}, share = fmax(1.0 - occlusion, 1e-6);
+    const double grows = in->steps < 12 ? (1.0 - pow(share, in->constants.calibration)) / fmax(1.0 - share, 1e-4) : 1.0;
+    for (int axis = 0; axis < 3; ++axis)
+        out[axis] = 2.0 / 3.0 * normal[axis] - grows * sum[axis];
+    return true;
 }

@@ -41,6 +41,11 @@ typedef struct horizon_input {
 /* Accessibility of a pixel of the estimate lies in *out_low .. *out_high. */
 void horizon_model(const horizon_input *in, int x, int y, double *out_low, double *out_high);
 
+/* The open vector of a pixel: 2/3 of its normal without the directions that the hidden sectors stand for, which are
+ * integrated numerically. Not of unit length; bent normals point along it. False where rounding leaves a sector open,
+ * or the side of the surface. */
+bool horizon_model_open(const horizon_input *in, int x, int y, double out[3]);
+
 /* The measure of the angles from 0 to acos(c) on one side of a slice, for a normal that leans to that side by an angle
  * of the given cosine and sine. A polynomial approximates the integral of cos(t - g) sin(t). */
 double horizon_measure(double cos_g, double sin_g, double c);

@@ -256,3 +256,66 @@ hidden horizon_slice_hidden(const point *p, const slice *s, const side *d)
     }
     return all;
 }
+
+/* ---- directions ---- */
+
+/* The measure from the minus rim up to a signed angle. */
+static double measure_up_to(const slice *s, double angle)
+{
+    const double sign = angle < 0.0 ? -1.0 : 1.0;
+    return s->total_minus.v + sign * horizon_measure(s->cos_g.v, sign * s->sin_g.v, cos(angle));
+}
+
+static double angle_of(const slice *s, double measure, double low, double high)
+{
+    for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        *(measure_up_to(s, middle) < measure ? &low : &high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+/* The integral of (sin t, cos t) cos(t - g) |sin t|, by Simpson's rule. */
+static void add_directions(const slice *s, double from, double to, double weight, double out[2])
+{
+    enum { PARTS = 200 };
+    const double step = (to - from) / PARTS;
+    for (int i = 0; i <= PARTS; ++i) {
+        const double t = from + i * step, simpson = i == 0 || i == PARTS ? 1.0 : i % 2 ? 4.0 : 2.0;
+        const double value = (cos(t) * s->cos_g.v + sin(t) * s->sin_g.v) * fabs(sin(t)) * weight * simpson * step / 3.0;
+        out[0] += value * sin(t);
+        out[1] += value * cos(t);
+    }
+}
+
+/* Across the eye's direction the integrand bends, so each side is integrated by itself. */
+static void add_run(const slice *s, double from, double to, double weight, double out[2])
+{
+    const double middle = fmin(fmax(0.0, from), to);
+    add_directions(s, from, middle, weight, out);
+    add_directions(s, middle, to, weight, out);
+}
+
+bool horizon_slice_directions(const point *p, const slice *s, const hidden h[2], double out[2])
+{
+    const uint32_t mask = h[0].surely | h[1].surely;
+    const double g = atan2(s->sin_g.v, s->cos_g.v), low = g - 0.5 * PI, high = g + 0.5 * PI,
+                 veil = p->in->constants.veil;
+    out[0] = out[1] = 0.0;
+    if (mask != (h[0].possibly | h[1].possibly) || s->projected.v < 10.0 * s->projected.e)
+        return false;
+    for (int i = 0; i < 2; ++i) {
+        if (h[i].highest.high - h[i].highest.low > 1e-3)
+            return false;
+        const double horizon = acos(0.5 * (h[i].highest.low + h[i].highest.high));
+        if (i == 0)
+            add_run(s, horizon, high, veil, out);
+        else
+            add_run(s, low, -horizon, veil, out);
+    }
+    for (int i = 0; i < SECTORS; ++i)
+        if (mask >> i & 1u)
+            add_run(s, angle_of(s, s->total.v * i / SECTORS, low, high),
+                    angle_of(s, s->total.v * (i + 1) / SECTORS, low, high), 1.0 - veil, out);
+    return true;
+}

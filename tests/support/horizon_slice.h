@@ -37,6 +37,7 @@ typedef struct slice {
     rounded cos_g, sin_g, projected;
     rounded run_width;          /* thickness of a run, in units of its width */
     rounded total, total_minus; /* measure of the whole slice, and of its minus side */
+    vector along;               /* unit, view space */
     double jitter;
 } slice;
 
@@ -66,5 +67,9 @@ interval horizon_slice_measure(const slice *s, double sign, interval cosine);
 
 /* What the samples of one side hide, over everything that rounding leaves open. */
 hidden horizon_slice_hidden(const point *p, const slice *s, const side *d);
+
+/* The integral of the directions, along the slice and towards the eye, that its hidden sectors and its veil stand for.
+ * False where either is not decided. */
+bool horizon_slice_directions(const point *p, const slice *s, const hidden h[2], double out[2]);
 
 #endif

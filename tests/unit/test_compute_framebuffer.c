@@ -257,10 +257,11 @@ TEST_GL(framebuffers_that_hold_no_depth_are_named)
     gl.GenFramebuffers(1, &empty);
     gl.BindFramebuffer(GL_FRAMEBUFFER, empty);
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
-    char text[64];
+    char text[128];
     snprintf(text, sizeof text, "framebuffer = %u: it has no depth buffer", framebuffer);
     check_refused(f, glssao_compute_framebuffer(effect, framebuffer, &frame, &settings), GLSSAO_INVALID_ARGUMENT, text);
-    snprintf(text, sizeof text, "framebuffer = %u: not complete", empty);
+    snprintf(text, sizeof text, "framebuffer = %u: not complete: 0x8CD7 GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT",
+             empty);
     check_refused(f, glssao_compute_framebuffer(effect, empty, &frame, &settings), GLSSAO_FRAMEBUFFER_ERROR, text);
 
     /* The effect's own copy, handed back to it. */

@@ -152,16 +152,16 @@ vec3 lit_by_lights(surface s)
 }
 #endif
 
-// Irradiance / pi on a surface with that normal, and the radiance that a mirror reflects. `bands`: how much more of the first
-// and second spherical harmonics arrives than from a whole hemisphere.
+// Irradiance / pi on a surface with that normal, and the radiance that a mirror reflects. `linear`: how much more of the light
+// that is linear in direction arrives than from a whole hemisphere.
 #if ENVIRONMENT
-vec3 matte_light(vec3 normal_view, vec2 bands)
+vec3 matte_light(vec3 normal_view, float linear)
 {
-    vec3 n = u_sky_from_view * normal_view, m = bands.x * n;
+    vec3 n = u_sky_from_view * normal_view, m = linear * n;
     vec3 flat_part = u_irradiance[0] + u_irradiance[1] * m.y + u_irradiance[2] * m.z + u_irradiance[3] * m.x;
-    return max(flat_part + u_irradiance[4] * (bands.y * (n.x * n.y)) + u_irradiance[5] * (bands.y * (n.y * n.z)) +
-                   u_irradiance[6] * (bands.y * (3.0 * n.z * n.z - 1.0)) + u_irradiance[7] * (bands.y * (n.x * n.z)) +
-                   u_irradiance[8] * (bands.y * (n.x * n.x - n.y * n.y)), 0.0);
+    return max(flat_part + u_irradiance[4] * (n.x * n.y) + u_irradiance[5] * (n.y * n.z) +
+                   u_irradiance[6] * (3.0 * n.z * n.z - 1.0) + u_irradiance[7] * (n.x * n.z) +
+                   u_irradiance[8] * (n.x * n.x - n.y * n.y), 0.0);
 }
 #if REFLECTIVE
 vec3 glossy_light(vec3 mirror_view, float roughness)
@@ -172,9 +172,9 @@ vec3 glossy_light(vec3 mirror_view, float roughness)
 #else
 // The gradient is linear in the height of the direction, whose mean over a cosine lobe is 2/3 of the lobe's; a rough
 // mirror's lobe is taken to be in between.
-vec3 matte_light(vec3 normal_view, vec2 bands)
+vec3 matte_light(vec3 normal_view, float linear)
 {
-    return u_ambient + u_ambient_tilt * (dot(normal_view, u_up_view) * (2.0 / 3.0 * bands.x));
+    return u_ambient + u_ambient_tilt * (dot(normal_view, u_up_view) * (2.0 / 3.0 * linear));
 }
 #if REFLECTIVE
 vec3 glossy_light(vec3 mirror_view, float roughness)
@@ -188,9 +188,9 @@ vec3 glossy_light(vec3 mirror_view, float roughness)
 vec3 ambient_light(surface s, vec3 open_view, float accessibility)
 {
 #if BENT && !BLENDED
-    vec3 matte = matte_light(open_view, bands_of_cone(accessibility));
+    vec3 matte = matte_light(open_view, linear_light_of_cone(accessibility));
 #else
-    vec3 matte = matte_light(open_view, vec2(1.0));
+    vec3 matte = matte_light(open_view, 1.0);
 #endif
 #if MULTI_BOUNCE && !BLENDED
     // Jimenez et al. 2016, "Practical Realtime Strategies for Accurate Indirect Occlusion", equation 10: light that
@@ -210,7 +210,7 @@ vec3 ambient_light(surface s, vec3 open_view, float accessibility)
     float a004 = min(r.x * r.x, exp2(-9.28 * cos_eye)) * r.x + r.y;
     vec2 scale_bias = vec2(-1.04, 1.04) * a004 + r.zw;
 #if BENT && !BLENDED
-    accessibility = specular_accessibility(vec4(open_view, accessibility), mirror_view, s.roughness);
+    accessibility = specular_accessibility(vec4(open_view, accessibility), s.normal_view, mirror_view, s.roughness);
 #elif SPECULAR_OCCLUSION && !BLENDED
     // Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based Rendering", listing 26.
     float open = pow(cos_eye + accessibility, exp2(-16.0 * s.roughness - 1.0)) - 1.0 + accessibility;

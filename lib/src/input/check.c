@@ -49,7 +49,7 @@ static bool check_fade(const glssao__log *log, const char *field, float start, f
 bool glssao__check_settings(const glssao_settings *settings, const glssao__log *log)
 {
     if ((unsigned)settings->technique > GLSSAO_RAYS)
-        return refuse(log, "settings.technique", settings->technique, "unknown");
+        return refuse(log, "settings.technique", (int)settings->technique, "unknown");
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; ++i) {
         const struct number *n = &numbers[i];
         const char *at = (const char *)settings + n->offset;
@@ -68,7 +68,7 @@ bool glssao__check_settings(const glssao_settings *settings, const glssao__log *
     if (settings->bent_normals && settings->technique != GLSSAO_HORIZON)
         return refuse(log, "settings.bent_normals", 1, "only the horizon technique knows directions");
     if ((unsigned)settings->tiles > GLSSAO_TILES_ON)
-        return refuse(log, "settings.tiles", settings->tiles, "unknown");
+        return refuse(log, "settings.tiles", (int)settings->tiles, "unknown");
     if (settings->thickness > 0.0f && settings->thickness < 1e-3f) {
         glssao__log_write(log, GLSSAO_LOG_ERROR, "settings.thickness = %g: want 0.001 to 1000, or 0 for 1",
                           (double)settings->thickness);
@@ -88,7 +88,7 @@ bool glssao__check_settings(const glssao_settings *settings, const glssao__log *
     case GLSSAO_BLUR_PLANAR:
         return true;
     }
-    return refuse(log, "settings.blur", settings->blur, "unknown");
+    return refuse(log, "settings.blur", (int)settings->blur, "unknown");
 }
 
 static bool check_viewport(const glssao_frame *frame, const int size[2], const glssao__log *log)
@@ -161,9 +161,9 @@ bool glssao__check_frame(const glssao_frame *frame, const glssao_settings *setti
     if (!glssao__check_settings(settings, log))
         return false;
     if ((unsigned)frame->depth_kind > GLSSAO_DEPTH_LOGARITHMIC)
-        return refuse(log, "frame.depth_kind", frame->depth_kind, "unknown");
+        return refuse(log, "frame.depth_kind", (int)frame->depth_kind, "unknown");
     if ((unsigned)frame->normal_kind > GLSSAO_NORMAL_OCTAHEDRAL)
-        return refuse(log, "frame.normal_kind", frame->normal_kind, "unknown");
+        return refuse(log, "frame.normal_kind", (int)frame->normal_kind, "unknown");
     const bool in_alpha = frame->depth_kind == GLSSAO_DEPTH_NORMAL_ALPHA;
     if (in_alpha && frame->normal_texture == 0)
         return refuse(log, "frame.normal_texture", 0, "no texture, but GLSSAO_DEPTH_NORMAL_ALPHA reads depth from it");

@@ -5,6 +5,8 @@
  */
 #include "input/depth_copy.h"
 
+#include "input/formats.h"
+
 #include <string.h>
 
 glssao__state_need glssao__depth_copy_need(void)
@@ -127,7 +129,8 @@ static glssao_result look_at(const glssao__depth_copy *c, const glssao__gl *gl, 
 {
     const gl_enum status = gl->CheckFramebufferStatus(GL_READ_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE) {
-        glssao__log_write(log, GLSSAO_LOG_ERROR, "framebuffer = %u: not complete: 0x%04X", framebuffer, status);
+        glssao__log_write(log, GLSSAO_LOG_ERROR, "framebuffer = %u: not complete: 0x%04X %s", framebuffer, status,
+                          glssao__format_status_name(status));
         return GLSSAO_FRAMEBUFFER_ERROR;
     }
     *out_format = depth_format(gl, framebuffer);

@@ -70,6 +70,17 @@ static const named targets[] = {
     {0x9102, "GL_TEXTURE_2D_MULTISAMPLE_ARRAY"},
 };
 
+static const named statuses[] = {
+    {0x8219, "GL_FRAMEBUFFER_UNDEFINED: this context has no default framebuffer"},
+    {0x8CD6, "GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT"},
+    {0x8CD7, "GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT"},
+    {0x8CDB, "GL_FRAMEBUFFER_INCOMPLETE_DRAW_BUFFER"},
+    {0x8CDC, "GL_FRAMEBUFFER_INCOMPLETE_READ_BUFFER"},
+    {0x8CDD, "GL_FRAMEBUFFER_UNSUPPORTED"},
+    {0x8D56, "GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE"},
+    {0x8DA8, "GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS"},
+};
+
 static const char *name_in(const named *table, size_t count, gl_enum value)
 {
     for (size_t i = 0; i < count; ++i)
@@ -87,6 +98,12 @@ const char *glssao__format_target_name(gl_enum target)
 {
     const char *name = name_in(targets, sizeof targets / sizeof *targets, target);
     return name ? name : "texture";
+}
+
+const char *glssao__format_status_name(gl_enum status)
+{
+    const char *name = name_in(statuses, sizeof statuses / sizeof *statuses, status);
+    return name ? name : "";
 }
 
 static bool is_integer(gl_enum type)
@@ -127,6 +144,11 @@ const char *glssao__format_fault(const glssao__format *f, enum glssao__role role
                    : "can't hold depth: want a depth format, or red of 16 bits or more";
     case ROLE_DISTANCE:
         return distance_fault(f);
+    case ROLE_MOTION:
+        return f->depth_bits == 0 && f->red_type == GL_FLOAT && f->red_bits >= LEAST_SIGNED_FLOAT_BITS &&
+                       f->green_bits > 0
+                   ? NULL
+                   : "can't hold motion: want GL_RG16F or GL_RG32F";
     case ROLE_NORMAL:
         return normal_fault(f, normals);
     case ROLE_NORMAL_AND_DISTANCE:

@@ -71,6 +71,7 @@ static glssao__format format_of(const glssao__gl *gl, gl_enum target, bool reads
     glssao__format f = {.internal = (gl_enum)level_parameter(gl, target, GL_TEXTURE_INTERNAL_FORMAT),
                         .red_bits = level_parameter(gl, target, GL_TEXTURE_RED_SIZE),
                         .red_type = (gl_enum)level_parameter(gl, target, GL_TEXTURE_RED_TYPE),
+                        .green_bits = level_parameter(gl, target, GL_TEXTURE_GREEN_SIZE),
                         .blue_bits = level_parameter(gl, target, GL_TEXTURE_BLUE_SIZE),
                         .depth_bits = level_parameter(gl, target, GL_TEXTURE_DEPTH_SIZE),
                         .depth_type = (gl_enum)level_parameter(gl, target, GL_TEXTURE_DEPTH_TYPE)};
@@ -174,6 +175,10 @@ static bool look_at(const glssao__gl *gl, const glssao__log *log, const char *fi
     /* Level 0 is meant, whatever the base level is. */
     t->width = level_parameter(gl, t->target, GL_TEXTURE_WIDTH);
     t->height = level_parameter(gl, t->target, GL_TEXTURE_HEIGHT);
+    if (t->width == 0) {
+        glssao__log_write(log, GLSSAO_LOG_ERROR, "%s = %u: its level 0 has no storage", field, t->name);
+        return false;
+    }
     t->format = format_of(gl, t->target, t->role == ROLE_NORMAL_AND_DISTANCE);
     t->precision = precision_of(&t->format, t->role == ROLE_NORMAL_AND_DISTANCE);
     return true;
@@ -313,6 +318,7 @@ glssao_result glssao__host_textures_check(const glssao__gl *gl, const glssao__lo
         t->name = names[i];
         t->target = frame->multisample && i != HOST_RAYS ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
         t->role = i == HOST_RAYS     ? ROLE_RAYS
+                  : i == HOST_MOTION ? ROLE_MOTION
                   : i != HOST_NORMAL ? (in_red ? ROLE_DISTANCE : ROLE_WINDOW_DEPTH)
                   : in_alpha         ? ROLE_NORMAL_AND_DISTANCE
                                      : ROLE_NORMAL;

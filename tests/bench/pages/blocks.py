@@ -132,6 +132,18 @@ def bent(folder, use="tuning"):
     return table(head, rows)
 
 
+def bent_light(folder):
+    """RMSE of pictures lit by accessibility alone and by bent normals."""
+    t = load(folder, "bent-light")
+    if not t:
+        return None
+    columns = ["matte", "matte_bent", "glossy", "glossy_lobe", "glossy_bent"]
+    rows = [[f"`{c}`"] + [number(combine((r[column] for r in t.where(configuration=c)), "rms")) for column in columns]
+            for c in t.values("configuration")]
+    return table(["configuration", "matte, accessibility", "matte, bent normals", "glossy, accessibility",
+                  "glossy, specular occlusion", "glossy, bent normals"], rows)
+
+
 def rays(folder):
     a = Accuracy(folder)
     rows = []

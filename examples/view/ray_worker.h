@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * A thread that traces a few rays from the surfaces of the view, in rounds whose mean improves. It builds the scene's
+ * acceleration structure first. A new request ends the last one within moments, and no call waits for tracing but the
+ * last.
+ */
+#ifndef GLSSAO_EXAMPLES_RAY_WORKER_H
+#define GLSSAO_EXAMPLES_RAY_WORKER_H
+
+#include "fault.h"
+#include "trace.h"
+
+enum { RAY_ROUNDS = 16 };
+
+typedef struct ray_worker ray_worker;
+
+typedef struct ray_request {
+    scene_view view;
+    float (*surfaces)[4]; /* as trace_seen has them, row by row; the worker frees them */
+    int step;             /* 1 or 2 */
+    float radius;
+    int rays; /* a texel and round */
+    uint32_t seed;
+} ray_request;
+
+/* `wake` is called on the worker's thread after each round, and where it failed. The scene must outlive the worker.
+ * NULL without memory or a thread. */
+ray_worker *ray_worker_start(const scene *s, void (*wake)(void));
+/* Takes the place of any earlier request. */
+void ray_worker_ask(ray_worker *w, const ray_request *request);
+/* Ends the current request. */
+void ray_worker_forget(ray_worker *w);
+/* Returns how many rounds of the current request are done. If there is one and `out` is not NULL, copies the mean:
+ * negative where no surface is. Negative, with the reason in `why`: the tracing failed. */
+int ray_worker_read(ray_worker *w, float *out, failure *why);
+/* Waits for the thread, at most for an acceleration structure that is being built. NULL is allowed. */
+void ray_worker_stop(ray_worker *w);
+
+#endif
