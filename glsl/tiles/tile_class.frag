@@ -3,10 +3,15 @@
 // the bounds: no surface is seen; no sample leaves its own texel; everything in reach lies within a range of distance that does
 // not count; or the tile is a plane and everything in reach lies in it or below. proof.md has the proofs, and what they allow
 // for rounding.
-// in  u_ambient_map  bounds of tiles; fetched
-// out o_needed       1: to be estimated, 0: open
+// MIDDLES 1: other tiles are taken for their middles, and a tile itself for that and its corners, before bounds are known. What
+// spoils a plane there does so too when all of a tile counts, so a tile that needs an estimate here needs one in any case.
+// in  u_ambient_map  bounds of tiles; fetched (MIDDLES 0)
+// out o_needed       1: to be estimated, 0: open; with MIDDLES 1 how many tiles count for one that may be open, along either
+//                    axis and with itself, and 0 for a tile that needs an estimate
 
+#if !MIDDLES
 uniform sampler2D u_ambient_map;
+#endif
 out float o_needed;
 
 const int MOST_TILES = 16;    // in reach along an axis; with more, the tile is estimated unseen
@@ -14,8 +19,14 @@ const float FACING = 0.35;    // cosine: at more of a slant, horizon's polynomia
 
 vec3 bounds_of(ivec2 tile)
 {
+#if MIDDLES
+    return vec3(distances_at(middle_of_tile(tile)), 0.0);
+#else
     return texelFetch(u_ambient_map, tile, 0).xyz;
+#endif
 }
+
+int counting = 1; // tiles that count along an axis, as far as needs_estimate() has looked
 
 // How far samples reach, in texels; negative: there is no bound.
 vec2 reach_of(float nearest, vec2 widest_ray)
@@ -58,6 +69,20 @@ bool lies_below(ivec2 tile, float nearest, vec3 plane, vec3 point)
     return nearest > 0.0 && along < 0.0 && origin + along * nearest - dot(plane, point) < -gTiles.z * farthest;
 }
 
+#if MIDDLES
+// How far the tile's corners are from its plane, as tile_rows.frag measures it.
+float off_at_corners(ivec2 tile, vec3 plane)
+{
+    float turn = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 texel = min(tile * tile_side() + ivec2(i & 1, i >> 1) * (tile_side() - 1), map_size() - 1);
+        vec3 deviation = normal_at(texel) - plane;
+        turn = max(turn, distances_at(texel).y > 0.0 ? dot(deviation, deviation) : 1.0);
+    }
+    return sqrt(turn);
+}
+#endif
+
 bool lies_in_plane(ivec2 tile, vec3 bounds, vec3 plane, vec3 point)
 {
     ivec2 middle = middle_of_tile(tile);
@@ -92,7 +117,7 @@ bool needs_estimate(ivec2 tile)
     if (max(reach.x, reach.y) < 0.49)
         return false;
 #endif
-    ivec2 tiles = textureSize(u_ambient_map, 0);
+    ivec2 tiles = (map_size() + tile_side() - 1) / tile_side();
     float side = float(tile_side());
     // Bounded first, since large numbers do not fit an integer.
     vec2 low = max(floor((vec2(tile) * side - reach - 1.0) / side), vec2(-1.0));
@@ -101,11 +126,15 @@ bool needs_estimate(ivec2 tile)
     ivec2 last = min(ivec2(high), tiles - 1);
     if (any(greaterThan(last - first, ivec2(MOST_TILES))))
         return true;
+    counting = 2 + max(max(last.x - tile.x, tile.x - first.x), max(last.y - tile.y, tile.y - first.y));
     bool flat_all = false;
 #if PLANES
     ivec2 middle = middle_of_tile(tile);
     vec3 plane = normal_at(middle);
     vec3 point = position_view_from_uv(uv_at(vec2(middle)), distances_at(middle).x);
+#if MIDDLES
+    own.z = off_at_corners(tile, plane);
+#endif
     flat_all = own.z <= gTiles.z;
 #if !FROM_DEPTH
     // On the picture's edge a sample may be clamped to a texel at right angles to its slice, where rounding decides.
@@ -134,5 +163,10 @@ bool needs_estimate(ivec2 tile)
 
 void main()
 {
-    o_needed = needs_estimate(ivec2(gl_FragCoord.xy)) ? 1.0 : 0.0;
+    bool needed = needs_estimate(ivec2(gl_FragCoord.xy));
+#if MIDDLES
+    o_needed = needed ? 0.0 : float(counting); // one more than middles reach, since bounds may reach farther
+#else
+    o_needed = needed ? 1.0 : 0.0;
+#endif
 }

@@ -58,7 +58,8 @@ TEST(tiles_add_their_steps)
     glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     glssao__request q = schedules_request(&frame, &s, 1280, 720);
     q.can.is_software = true;
-    assert_steps(&q, "distance tile-rows tile-bounds tile-class tile-rings =1 =1 =1 horizon open planar-blur "
+    assert_steps(&q, "distance tile-class tile-near tile-near tile-rows tile-bounds tile-class tile-rings tile-fill "
+                     "tile-fill horizon open planar-blur "
                      "planar-blur planar-blur "
                      "upsample spread");
     s = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_LOW);
@@ -223,7 +224,8 @@ TEST(rays_correct_an_estimate)
                      "planar-tile!");
     q.can.path = GLSSAO_PATH_FRAGMENT;
     q.can.is_software = true;
-    assert_steps(&q, "distance tile-rows tile-bounds tile-class tile-rings =1 =1 horizon open planar-blur planar-blur "
+    assert_steps(&q, "distance tile-class tile-near tile-near tile-rows tile-bounds tile-class tile-rings =1 =1 "
+                     "horizon open planar-blur planar-blur "
                      "rays planar-blur planar-blur planar-blur planar-blur upsample spread");
     s = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_LOW);
     s.half_resolution = false; /* one round more */

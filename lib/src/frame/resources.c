@@ -24,6 +24,7 @@ static const struct glssao__sampler_name sampler_names[] = {
     {"u_raw_map", UNIT_RAW},         {"u_history_map", UNIT_HISTORY},   {"u_motion_map", UNIT_MOTION},
     {"u_bent_map", UNIT_BACK},       {"u_other_map", UNIT_BACK},        {"u_bent_target", SECOND_IMAGE_UNIT},
     {"u_rays_map", UNIT_RAYS},       {"u_strength_map", UNIT_DEPTH},    {"u_albedo_map", UNIT_NORMAL}, /* apply.c */
+    {"u_near_map", UNIT_BACK},
 };
 
 static const glssao__program_ties ties = {

@@ -120,10 +120,12 @@ static const struct shader {
                              shader_tile_map_glsl, shader_tile_bounds_frag}},
     [SHADER_TILE_CLASS] = {"tile-class",
                            BIT(RADIUS_GROWS) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PLANES) | BIT(FROM_DEPTH) |
-                               BIT(VARIES) | BIT(DENSE),
+                               BIT(VARIES) | BIT(DENSE) | BIT(MIDDLES),
                            {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                             shader_tile_map_glsl, shader_tile_class_frag}},
     [SHADER_TILE_RINGS] = {"tile-rings", 0, {shader_tile_rings_frag}},
+    [SHADER_TILE_NEAR] = {"tile-near", 0, {shader_tile_near_frag}},
+    [SHADER_TILE_FILL] = {"tile-fill", 0, {shader_tile_fill_frag}},
 };
 
 /* Invocations of a work group, and the rows of a tile that they share (glsl/passes/planar_tile.comp). Found by

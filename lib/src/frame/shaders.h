@@ -33,6 +33,8 @@ enum glssao__shader {
     SHADER_TILE_BOUNDS,
     SHADER_TILE_CLASS,
     SHADER_TILE_RINGS,
+    SHADER_TILE_NEAR,
+    SHADER_TILE_FILL,
     SHADER_COUNT
 };
 
@@ -63,6 +65,7 @@ enum glssao__shader {
     X(LOGARITHMIC, 1)     /* input: logarithmic depth */                                                               \
     X(OBLIQUE, 1)         /* input: window depth under an oblique near plane */                                        \
     X(PLANES, 1)          /* tiles: those that lie in a plane are open too */                                          \
+    X(MIDDLES, 1)         /* tiles: their middles stand for them */                                                    \
     X(FROM_DEPTH, 1)      /* tiles, open: occluders are looked up in the depth map, not in the distance map */         \
     X(VARIES, 1)          /* noise, and at half size the texels that are estimated, differ from frame to frame */      \
     X(DENSE, 1)           /* distances and rebuilt normals have the full size, the estimate half of it */              \
