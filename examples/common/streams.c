@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,6 +30,7 @@ void streams_guard(const char *program, int code)
     for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number)
         if (fcntl(number, F_GETFD) == -1) /* the lowest free number is the one that open takes */
             (void)!open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is an error of its write, not the end */
     name = program;
     failed_code = code;
     atexit(check_output);

@@ -91,25 +91,15 @@ typedef struct draw_sky_seen {
     scene_view view;
 } draw_sky_seen;
 
-/* The parts of a scene_vertex that some draw call reads, one after another in the vertex buffer: positions first. */
-typedef struct draw_vertex_part {
-    unsigned location;
-    size_t components;
-    size_t from, offset; /* bytes in a scene_vertex, and in the buffer's */
-} draw_vertex_part;
-
-typedef struct draw_vertex_layout {
-    draw_vertex_part parts[4];
-    size_t count, stride;
-} draw_vertex_layout;
+enum { DRAW_VERTEX_PARTS = 4 }; /* positions, normals, uv sets, colours */
 
 struct scene_renderer {
     const scene *scene;
-    draw_vertex_layout layout;
     unsigned vertex_array, empty_vertex_array;
-    unsigned vertex_buffer, tangent_buffer, more_uv_buffer, index_buffer, instance_buffer;
-    unsigned last_vertex_buffer, last_instance_buffer; /* of the pose before; 0: there was none */
-    unsigned motion_vertex_array;                      /* 0: not made */
+    unsigned vertex_buffers[DRAW_VERTEX_PARTS]; /* 0: no draw call reads it */
+    unsigned tangent_buffer, more_uv_buffer, index_buffer, instance_buffer;
+    unsigned last_positions, last_instance_buffer; /* of the pose before; 0: there was none */
+    unsigned motion_vertex_array;                  /* 0: not made */
     unsigned *images[2]; /* GL texture of each of the scene's images, 0 where no material uses it: linear, sRGB */
     unsigned *samplers;  /* of each of the scene's textures, 0 likewise */
     unsigned linear_sampler, nearest_sampler; /* clamped, for screen-sized maps */
@@ -154,7 +144,7 @@ typedef struct draw_pass {
     uint32_t first_instance;
 } draw_pass;
 
-/* draw_upload.c: creates r->neutral on first use; fills the vertex buffer by r->layout; points the bound vertex array
+/* draw_upload.c: creates r->neutral on first use; fills the vertex buffers; points the bound vertex array
  * to what it holds; uploads into a buffer, made where its name is 0. */
 void draw_make_neutral(scene_renderer *r);
 void draw_upload_vertices(scene_renderer *r);

@@ -40,7 +40,7 @@ static void swap(unsigned *a, unsigned *b)
 static void upload_pose(scene_renderer *r, const draw_instance *instances)
 {
     const scene *s = r->scene;
-    swap(&r->vertex_buffer, &r->last_vertex_buffer);
+    swap(&r->vertex_buffers[0], &r->last_positions);
     swap(&r->instance_buffer, &r->last_instance_buffer);
     gl.BindVertexArray(r->vertex_array);
     draw_upload_buffer(&r->instance_buffer, GL_ARRAY_BUFFER, instances, s->instance_count * sizeof *instances);
@@ -82,8 +82,8 @@ static void bind_motion_array(scene_renderer *r)
         gl.GenVertexArrays(1, &r->motion_vertex_array);
     gl.BindVertexArray(r->motion_vertex_array);
     draw_point_vertices(r);
-    gl.BindBuffer(GL_ARRAY_BUFFER, r->last_vertex_buffer ? r->last_vertex_buffer : r->vertex_buffer);
-    gl.VertexAttribPointer(ATTRIBUTE_NORMAL, 3, GL_FLOAT, GL_FALSE, (GLsizei)r->layout.stride, NULL);
+    gl.BindBuffer(GL_ARRAY_BUFFER, r->last_positions ? r->last_positions : r->vertex_buffers[0]);
+    gl.VertexAttribPointer(ATTRIBUTE_NORMAL, 3, GL_FLOAT, GL_FALSE, 0, NULL);
     gl.EnableVertexAttribArray(ATTRIBUTE_NORMAL);
     if (!first)
         return;

@@ -18,59 +18,72 @@ void draw_upload_buffer(unsigned *name, GLenum target, const void *data, size_t 
     gl.BufferData(target, (GLsizeiptr)size, data, GL_STATIC_DRAW);
 }
 
-static void lay_out_vertices(scene_renderer *r)
+/* The parts of a scene_vertex, in buffers of their own: drivers count the bytes to a vertex in 31 bits, and so have
+ * room for more vertices than of whole ones. */
+static const struct {
+    unsigned location;
+    size_t components, offset;
+} parts[DRAW_VERTEX_PARTS] = {
+    {ATTRIBUTE_POSITION, 3, offsetof(scene_vertex, position)},
+    {ATTRIBUTE_NORMAL, 3, offsetof(scene_vertex, normal)},
+    {ATTRIBUTE_UVS, 4, offsetof(scene_vertex, uv)},
+    {ATTRIBUTE_COLOR, 4, offsetof(scene_vertex, color)},
+};
+
+/* Which parts some draw call reads. */
+static void find_parts(const scene_renderer *r, bool out[DRAW_VERTEX_PARTS])
 {
-    bool normals = false, uvs = false, colors = false;
+    out[0] = true;
+    out[1] = out[2] = out[3] = false;
     for (uint32_t i = 0; i < r->item_count; i++) {
-        normals = normals || !r->items[i].flat;
-        uvs = uvs || r->items[i].variant & VARIANT_TEXTURED;
-        colors = colors || r->items[i].colored;
+        out[1] = out[1] || !r->items[i].flat;
+        out[2] = out[2] || r->items[i].variant & VARIANT_TEXTURED;
+        out[3] = out[3] || r->items[i].colored;
     }
-    const struct {
-        bool read;
-        draw_vertex_part part;
-    } parts[] = {
-        {true, {ATTRIBUTE_POSITION, 3, offsetof(scene_vertex, position), 0}},
-        {normals, {ATTRIBUTE_NORMAL, 3, offsetof(scene_vertex, normal), 0}},
-        {uvs, {ATTRIBUTE_UVS, 4, offsetof(scene_vertex, uv), 0}},
-        {colors, {ATTRIBUTE_COLOR, 4, offsetof(scene_vertex, color), 0}},
-    };
-    draw_vertex_layout *to = &r->layout;
-    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
-        if (parts[i].read) {
-            to->parts[to->count] = parts[i].part;
-            to->parts[to->count++].offset = to->stride;
-            to->stride += parts[i].part.components * sizeof(float);
-        }
+}
+
+static bool vertices_fit(const scene_renderer *r, char *error, size_t error_size)
+{
+    bool read[DRAW_VERTEX_PARTS];
+    find_parts(r, read);
+    const bool wide = read[2] || read[3] || r->scene->tangents || r->scene->more_uvs;
+    const size_t largest = (wide ? 4 : 3) * sizeof(float);
+    if (r->scene->vertex_count <= INT32_MAX / largest)
+        return true;
+    snprintf(error, error_size, "%u vertices: a vertex buffer takes up to %zu of them", r->scene->vertex_count,
+             INT32_MAX / largest);
+    return false;
 }
 
 void draw_upload_vertices(scene_renderer *r)
 {
-    enum { BLOCK = 1024 }; /* vertices packed at a time, so that a large scene needs no packed copy */
+    enum { BLOCK = 4096 }; /* vertices packed at a time, so that a large scene needs no packed copy */
     const scene *s = r->scene;
-    const draw_vertex_layout *layout = &r->layout;
-    char block[BLOCK * sizeof(scene_vertex)];
-    draw_upload_buffer(&r->vertex_buffer, GL_ARRAY_BUFFER, NULL, s->vertex_count * layout->stride);
-    for (size_t first = 0; first < s->vertex_count; first += BLOCK) {
-        const size_t count = s->vertex_count - first < BLOCK ? s->vertex_count - first : BLOCK;
-        for (size_t i = 0; i < count; i++)
-            for (size_t k = 0; k < layout->count; k++)
-                memcpy(block + i * layout->stride + layout->parts[k].offset,
-                       (const char *)&s->vertices[first + i] + layout->parts[k].from,
-                       layout->parts[k].components * sizeof(float));
-        gl.BufferSubData(GL_ARRAY_BUFFER, (GLintptr)(first * layout->stride), (GLsizeiptr)(count * layout->stride),
-                         block);
+    bool read[DRAW_VERTEX_PARTS];
+    float block[BLOCK * 4];
+    find_parts(r, read);
+    for (size_t k = 0; k < DRAW_VERTEX_PARTS; k++) {
+        const size_t size = parts[k].components * sizeof(float);
+        if (!read[k])
+            continue;
+        draw_upload_buffer(&r->vertex_buffers[k], GL_ARRAY_BUFFER, NULL, s->vertex_count * size);
+        for (size_t first = 0; first < s->vertex_count; first += BLOCK) {
+            const size_t count = s->vertex_count - first < BLOCK ? s->vertex_count - first : BLOCK;
+            for (size_t i = 0; i < count; i++)
+                memcpy(block + i * parts[k].components, (const char *)&s->vertices[first + i] + parts[k].offset, size);
+            gl.BufferSubData(GL_ARRAY_BUFFER, (GLintptr)(first * size), (GLsizeiptr)(count * size), block);
+        }
     }
 }
 
 void draw_point_vertices(const scene_renderer *r)
 {
-    gl.BindBuffer(GL_ARRAY_BUFFER, r->vertex_buffer);
-    for (size_t k = 0; k < r->layout.count; k++) {
-        const draw_vertex_part *part = &r->layout.parts[k];
-        gl.VertexAttribPointer(part->location, (GLint)part->components, GL_FLOAT, GL_FALSE, (GLsizei)r->layout.stride,
-                               (const void *)part->offset);
-        gl.EnableVertexAttribArray(part->location);
+    for (size_t k = 0; k < DRAW_VERTEX_PARTS; k++) {
+        if (!r->vertex_buffers[k])
+            continue;
+        gl.BindBuffer(GL_ARRAY_BUFFER, r->vertex_buffers[k]);
+        gl.VertexAttribPointer(parts[k].location, (GLint)parts[k].components, GL_FLOAT, GL_FALSE, 0, NULL);
+        gl.EnableVertexAttribArray(parts[k].location);
     }
 }
 
@@ -83,7 +96,6 @@ static void upload_geometry(scene_renderer *r, const draw_instance *instances)
     /* Which instances is set before each draw call: 3.3 has no base instance. */
     draw_upload_buffer(&r->instance_buffer, GL_ARRAY_BUFFER, instances, s->instance_count * sizeof *instances);
     draw_upload_buffer(&r->index_buffer, GL_ELEMENT_ARRAY_BUFFER, s->indices, s->index_count * sizeof *s->indices);
-    lay_out_vertices(r);
     draw_upload_vertices(r);
     draw_point_vertices(r);
     if (s->tangents) {
@@ -264,9 +276,11 @@ static scene_renderer *create(const scene *s, scene *spent, const scene_renderer
         /* An error from before is not ours; a lost context may report without end. */
         for (int i = 0; i < 16 && gl.GetError() != GL_NO_ERROR; i++)
             continue;
-        upload_geometry(r, instances);
+        done = vertices_fit(r, error, error_size);
+        if (done)
+            upload_geometry(r, instances);
         make_screen_maps(r);
-        done = upload_textures(r, spent, error, error_size) && draw_pool_join(r, like, error, error_size);
+        done = done && upload_textures(r, spent, error, error_size) && draw_pool_join(r, like, error, error_size);
         GLenum code = gl.GetError();
         if (done && code != GL_NO_ERROR) {
             snprintf(error, error_size, "uploading the scene failed: %s (GL error 0x%04x)",
@@ -297,11 +311,12 @@ void scene_renderer_destroy(scene_renderer *r)
     if (!r)
         return;
     /* GL ignores the name 0, which stands for an object that was not created. */
-    unsigned buffers[] = {r->vertex_buffer,   r->tangent_buffer,     r->more_uv_buffer,      r->index_buffer,
-                          r->instance_buffer, r->last_vertex_buffer, r->last_instance_buffer};
+    unsigned buffers[] = {r->tangent_buffer,  r->more_uv_buffer, r->index_buffer,
+                          r->instance_buffer, r->last_positions, r->last_instance_buffer};
     unsigned vertex_arrays[] = {r->vertex_array, r->empty_vertex_array, r->motion_vertex_array};
     unsigned samplers[] = {r->linear_sampler, r->nearest_sampler};
-    gl.DeleteBuffers(7, buffers);
+    gl.DeleteBuffers(6, buffers);
+    gl.DeleteBuffers(DRAW_VERTEX_PARTS, r->vertex_buffers);
     gl.DeleteVertexArrays(3, vertex_arrays);
     gl.DeleteSamplers(2, samplers);
     gl.DeleteTextures(1, &r->white_texture);

@@ -30,6 +30,14 @@ def read_ppm(path):
 
 
 class Examples(Case):
+    def test_readme(self):
+        with open(os.path.join(FOLDER, "../../README.md"), encoding="utf-8") as file:
+            code = file.read().split("```python\n")[1].split("```")[0]
+        names = {}
+        exec(code, names)
+        self.assertEqual(names["accessibility"].shape, (360, 640))
+        self.assertLess(names["accessibility"].min(), 0.5)
+
     def test_occlude_depth(self):
         accessibility = run("occlude_depth.py", ".npy")
         self.assertEqual(accessibility.shape, (360, 640))

@@ -109,6 +109,9 @@ done
 want 0 "" "${small[@]}" --frames 3 -o open.png
 "${small[@]}" --frames 3 -o closed.png <&- >&- 2>&- || fail "closed streams: exit $?"
 for i in 1 2 3; do cmp open-000$i.png closed-000$i.png || fail "closed streams change picture $i"; done
+(ulimit -f 1 && "$render" -s 640x360 -o limited.png 2>err)
+[ $? = 1 ] && grep -q '^glssao-render: limited.png: File too large' err || fail "a limit on the size of files is not told"
+[ -z "$(ls limited.png* 2>/dev/null)" ] || fail "a limit on the size of files leaves a part"
 chmod 444 over.png
 if [ ! -w over.png ]; then # root may write
     want 1 "Permission denied" "${small[@]}" -o over.png scene.gltf

@@ -198,14 +198,30 @@ TEST(vertices_are_uploaded_without_what_no_draw_call_reads)
         }
         scene_renderer *r = scene_renderer_create(&s->scene, error, sizeof error);
         assert_non_null(r);
-        GLint size = 0;
-        gl.BindBuffer(GL_ARRAY_BUFFER, r->vertex_buffer);
-        gl.GetBufferParameteriv(GL_ARRAY_BUFFER, GL_BUFFER_SIZE, &size);
+        GLint all = 0;
+        for (int k = 0; k < DRAW_VERTEX_PARTS; k++) {
+            GLint size = 0;
+            gl.BindBuffer(GL_ARRAY_BUFFER, r->vertex_buffers[k]);
+            if (r->vertex_buffers[k])
+                gl.GetBufferParameteriv(GL_ARRAY_BUFFER, GL_BUFFER_SIZE, &size);
+            all += size;
+        }
         gl.BindBuffer(GL_ARRAY_BUFFER, 0);
-        assert_int_equal(size, (int)s->scene.vertex_count * cases[i].floats * 4);
+        assert_int_equal(all, (int)s->scene.vertex_count * cases[i].floats * 4);
         scene_renderer_destroy(r);
         free(s);
     }
+}
+
+/* Drivers crash where the bytes to a vertex need more than 31 bits. */
+TEST(more_vertices_than_a_buffer_takes_are_refused)
+{
+    char error[512];
+    small_scene *s = frame_one_quad(small_scene_material(), NULL);
+    s->scene.vertex_count = 178956971; /* 2^31 / 12, rounded up */
+    assert_null(scene_renderer_create(&s->scene, error, sizeof error));
+    assert_string_equal(error, "178956971 vertices: a vertex buffer takes up to 178956970 of them");
+    free(s);
 }
 
 int main(void)
