@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * Draws a scene the way the D3D12 demo does: a shadow map, a pre-pass that writes view-space normals and depth, then
- * a main pass with depth EQUAL and no depth write that scales ambient light by accessibility and adds direct light,
- * then the sky. All passes compute positions by one shared expression marked invariant. Blended materials come last,
- * over the opaque picture, and get no occlusion of their own. Unlit materials show their base colour: no light, no
- * occlusion. Each of these exists only where the scene, the lighting and the options call for it, and what lies
- * outside the view is not drawn.
+ * Draws a scene as the D3D12 demo does. First comes a shadow map, then a pre-pass that writes view-space normals and
+ * depth. The main pass tests depth with EQUAL and does not write it. It scales ambient light by accessibility, adds
+ * direct light, and draws the sky. Blended materials come last and get no occlusion. Unlit materials show their base
+ * colour. All passes compute positions by one expression marked invariant. A pass that the scene, the lighting or the
+ * options do not need is skipped, and objects outside the view are not drawn.
  *
  * GL state: each draw function sets what it needs (viewport, program, vertex array, texture units 0 to 7, depth,
- * culling, blending, masks, sRGB, polygon offset) and leaves GL's defaults behind, the viewport aside. Scissor,
- * stencil and polygon mode it leaves alone; they are expected off.
+ * culling, blending, masks, sRGB, polygon offset) and restores GL's defaults, except for the viewport. It does not
+ * touch scissor, stencil and polygon mode, which must be off.
  */
 #ifndef GLSSAO_EXAMPLES_DRAW_H
 #define GLSSAO_EXAMPLES_DRAW_H
@@ -45,24 +44,23 @@ typedef struct scene_lighting {
 /* A small environment and a sun. */
 scene_lighting scene_default_lighting(void);
 
-/* The same environment with the scene's own lights where it has any. The first directional one takes the sun's place.
- * A file says nothing of exposure: where its strongest light would give the middle of the scene more irradiance than
- * pi, which makes a white surface that faces it white, all are dimmed alike. `out_rest` holds the further lights: room
- * for s->light_count. */
+/* The same environment with the scene's own lights, if it has any. The first directional one replaces the sun. A file has
+ * no exposure. If its strongest light gives the middle of the scene more irradiance than pi, which makes a white surface
+ * that faces it white, all lights are dimmed alike. `out_rest` takes the other lights: room for s->light_count. */
 scene_lighting scene_lighting_of(const scene *s, scene_light *out_rest);
 
-/* A picture of the surroundings, environment.h says of which kinds: ambient light on matte surfaces by irradiance, on
- * shiny ones by what mirrors of their roughness would show, and the sky. NULL, with one line in `error` that names the
- * file and the fault, on failure. */
+/* Loads a picture of the surroundings, of a kind that environment.h lists. It lights matte surfaces by its irradiance
+ * and shiny ones by reflections blurred for their roughness, and it is the sky. On failure NULL, and one line in `error`
+ * that names the file and the fault. */
 scene_environment *scene_environment_load(const char *path, char *error, size_t error_size);
 void scene_environment_destroy(scene_environment *e);
 
-/* Puts an environment (NULL: none), which must outlive the lighting, in the place of the built-in one, and of its sun;
- * the scene's own lights stay. */
+/* Replaces the built-in environment and its sun by this one (NULL: none), which must outlive the lighting. The scene's own
+ * lights stay. */
 void scene_lighting_surround(scene_lighting *lighting, const scene *s, const scene_environment *e);
 /* Turns sky and environment, and the built-in sun where the scene has no lights, so that `up` is up. */
 void scene_lighting_turn(scene_lighting *lighting, const scene *s, const float up[3]);
-/* False where no ambient light comes from anywhere. */
+/* Whether there is any ambient light. */
 bool scene_lighting_has_ambient(const scene_lighting *lighting);
 
 typedef struct scene_draw_options { /* zero is the plainest */
@@ -74,31 +72,31 @@ typedef struct scene_draw_options { /* zero is the plainest */
     bool motion;             /* scene_draw_motion will be called */
     bool no_picture;         /* the main pass is not drawn: neither its programs nor a shadow map are made */
     bool no_prepass; /* scene_draw_normals will not be called: the main pass finds the nearest surfaces itself */
-    /* For measuring what leaving out spares: every part of the shaders on every surface, whatever the scene holds,
-     * nothing culled, and shadow map and sky drawn in each frame. Matte and unlit materials then look otherwise. */
+    /* To measure what skipping saves: runs every part of the shaders on every surface, culls nothing, and draws shadow
+     * map and sky in each frame. Matte and unlit materials then look different. */
     bool everything;
     bool multi_bounce; /* occluded ambient light takes on the surface's colour */
     bool bent;         /* the ambient map is that of bent normals: ambient light comes from where surfaces are open */
     float left_out;    /* the share of occlusion, 0 to 1, that the picture does not show */
 } scene_draw_options;
 
-/* Uploads the scene through the table in gl.h, which must be loaded. Shaders and textures only for what the scene
- * holds (alpha test, instancing, texture, vertex colour ...). The scene must outlive the renderer. NULL on
- * failure, with one line in `error`. */
+/* Uploads the scene through the table in gl.h, which must be loaded. Makes only the shaders and textures that the scene
+ * needs (alpha test, instancing, texture, vertex colour ...). The scene must outlive the renderer. On failure NULL, and
+ * one line in `error`. */
 scene_renderer *scene_renderer_create(const scene *s, char *error, size_t error_size);
 /* The same, and frees the texels of each opaque image once they are uploaded: the ray tracer needs only the others.
  * Shares the programs of `like`, another renderer of this context or NULL; they last as long as one of the two does. */
 scene_renderer *scene_renderer_create_spending(scene *s, const scene_renderer *like, char *error, size_t error_size);
 void scene_renderer_destroy(scene_renderer *r);
 
-/* Chooses what the passes do from now on, and makes the programs and the shadow map that this calls for. Lighting may
- * change from frame to frame, but whether it has a directional light, further ones and an environment is decided here.
- * Without this call the first drawing chooses the plainest, and draws nothing where that fails. False, with one line in
- * `error`, on failure; the renderer then still draws. */
+/* Chooses what the passes do from now on, and makes the programs and the shadow map for it. Lighting may change from frame
+ * to frame, but this call decides whether it has a directional light, other lights and an environment. Without it the
+ * first drawing chooses the simplest options, and draws nothing if they fail. On failure false, and one line in
+ * `error`; the renderer then still draws. */
 bool scene_renderer_configure(scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options,
                               char *error, size_t error_size);
 
-/* What the scene, the lighting and the options call for, in words; out[SCENE_EFFECT_COUNT]. */
+/* Which effects the scene, the lighting and the options need, and why; out[SCENE_EFFECT_COUNT]. */
 enum { SCENE_EFFECT_COUNT = 9 };
 typedef struct scene_effect {
     const char *name, *reason; /* static */
@@ -106,22 +104,21 @@ typedef struct scene_effect {
 } scene_effect;
 void scene_renderer_effects(const scene_renderer *r, const scene_lighting *lighting, scene_effect *out);
 
-/* Draw calls of the last pass of each kind; `culled` is how many the normals and main passes left out because they
- * are outside the view. The shadow map's are those of its last drawing. */
+/* Draw calls of the last pass of each kind. `culled` counts those that the normals and main passes skipped because they
+ * are outside the view. */
 typedef struct scene_draw_counts {
     unsigned shadow, normals, main, blended, sky, culled;
 } scene_draw_counts;
 scene_draw_counts scene_renderer_counts(const scene_renderer *r);
 
-/* Draw calls of the scene, and those that lie within the view; the rest is not issued. */
+/* Draw calls of the scene, and those within the view. The rest are skipped. */
 typedef struct scene_seen {
     unsigned opaque, opaque_total, blended, blended_total;
     unsigned lit; /* of the opaque ones within the view, those that light falls on */
 } scene_seen;
 scene_seen scene_find_seen(const scene_renderer *r, const scene_view *view);
 
-/* Draws the shadow map where one is called for and the light has another direction than last time. Leaves framebuffer
- * 0 bound where it did. */
+/* Draws the shadow map if one is needed and the light's direction has changed. It then leaves framebuffer 0 bound. */
 void scene_draw_shadow(scene_renderer *r, const scene_lighting *lighting);
 /* The shadow map, a depth texture; 0 where there is none. */
 unsigned scene_shadow_map(const scene_renderer *r, int *out_size);
@@ -130,9 +127,9 @@ unsigned scene_shadow_map(const scene_renderer *r, int *out_size);
  * on double-sided materials, to output 0 (alpha 0), and depth (LESS, written). Does not clear. */
 void scene_draw_normals(scene_renderer *r, const scene_view *view);
 
-/* Draws a layer behind the pre-pass's `depth_texture` into the bound framebuffer's depth buffer, which is cleared: the
- * nearest back face at or behind the surface seen, where double-sided materials count as back faces whichever way they
- * face; or the nearest front face behind it. Needs options.layers. */
+/* Clears the bound framebuffer's depth buffer and draws a layer behind the pre-pass's `depth_texture` into it: the nearest
+ * back face at or behind the visible surface, or the nearest front face behind it. Double-sided materials count as back
+ * faces. Needs options.layers. */
 typedef enum scene_layer { SCENE_LAYER_BACK, SCENE_LAYER_SECOND } scene_layer;
 void scene_draw_layer(scene_renderer *r, const scene_view *view, unsigned depth_texture, scene_layer layer);
 

@@ -84,6 +84,43 @@ bool gltf_warn_of_omissions(gltf_loader *l)
            (!empty || scene_warn(l->document->warnings, l->fault, "the scene has nothing to draw"));
 }
 
+/* Whether a triangle's normals and its winding agree on which side of it is outside; 0: not known. */
+static int agreement(const scene *s, const uint32_t *corners)
+{
+    const scene_vertex *v[3] = {&s->vertices[corners[0]], &s->vertices[corners[1]], &s->vertices[corners[2]]};
+    double sides[2][3], dot = 0.0;
+    for (int k = 0; k < 2; ++k)
+        for (int axis = 0; axis < 3; ++axis)
+            sides[k][axis] = (double)v[k + 1]->position[axis] - (double)v[0]->position[axis];
+    for (int axis = 0; axis < 3; ++axis) {
+        const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+        const double face = sides[0][next] * sides[1][last] - sides[0][last] * sides[1][next];
+        for (int k = 0; k < 3; ++k)
+            dot += face * (double)v[k]->normal[axis];
+    }
+    return dot > 0.0 ? 1 : dot < 0.0 ? -1 : 0;
+}
+
+/* Files are made whose normals point inwards. Some thousand triangles of each primitive tell. */
+static bool warn_of_normals(gltf_loader *l)
+{
+    enum { TRIANGLES = 4096 };
+    const scene *s = l->builder->made;
+    uint64_t against = 0, seen = 0;
+    for (uint32_t i = 0; i < s->primitive_count; ++i) {
+        const scene_primitive *p = &s->primitives[i];
+        const uint32_t triangles = p->topology == SCENE_TRIANGLES && !p->flat ? p->index_count / 3 : 0;
+        const uint32_t stride = 1 + triangles / TRIANGLES;
+        for (uint32_t k = 0; k < triangles; k += stride) {
+            const int side = agreement(s, &s->indices[p->first_index + 3 * k]);
+            against += side < 0 ? stride : 0;
+            seen += side != 0 ? stride : 0;
+        }
+    }
+    return against <= seen / 2 ||
+           scene_warn(l->document->warnings, l->fault, "most normals point against the winding of their triangles");
+}
+
 /* The warnings become the scene's. */
 static void hand_over(scene *made, scene_warnings *warnings)
 {
@@ -109,7 +146,7 @@ scene *scene_load_with(const char *path, const scene_load_options *options, char
             const bool timed = options && options->timed;
             if (gltf_loader_begin(&loader) && (!timed || gltf_animate(&loader, &document, options->time_s, &pose)) &&
                 gltf_place_nodes(&loader) && gltf_decoding_begin(&loader) && gltf_add_scene(&loader) &&
-                gltf_warn_of_omissions(&loader))
+                gltf_warn_of_omissions(&loader) && warn_of_normals(&loader))
                 made = scene_builder_finish(&builder);
             else
                 scene_builder_abandon(&builder);

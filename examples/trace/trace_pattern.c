@@ -36,8 +36,10 @@ static void find_point(int x, int y, int number, int room, uint32_t block_seed, 
                        uint32_t out[2])
 {
     const int place = place_in_block(x % BLOCK, y % BLOCK);
-    /* A pixel that traces some of its points only leaves out others than its neighbours do. */
-    const int turned = number ^ ((place >> 3 | (place & 4) >> 1 | (place & 2) << 1 | (place & 1) << 3) & (room - 1));
+    /* A pixel that traces some of its points only leaves out others than its neighbours do, and than the pixel of that
+     * place in the next blocks: so the first rays of 16 x 16 pixels reach every cell of the grid. */
+    const int swapped = place >> 3 | (place & 4) >> 1 | (place & 2) << 1 | (place & 1) << 3;
+    const int turned = number ^ ((swapped ^ place_in_block(x / BLOCK, y / BLOCK)) & (room - 1));
     const uint32_t index = (uint32_t)(place * room + turned);
     for (int i = 0; i < 2; i++) {
         const uint32_t point = trace_sobol(index, i), upper = ~0u << (32 - grid[i]);

@@ -136,7 +136,7 @@ static bool make_shot(motion *m, const bench_scene *b, scene *s, bench_path path
     if (moves && !draw_motion(m, s, k, frame > 0 ? &m->shots[frame - 1] : NULL))
         return false;
     char name[128];
-    snprintf(name, sizeof name, "%s-%s-%d", b->name, path_name(path), frame);
+    snprintf(name, sizeof name, "%.64s-%s-%d", b->name, path_name(path), frame);
     const bool wanted =
         (frame >= WARM && frame % TRUTH_EVERY == TRUTH_EVERY - 1) || (path == PATH_BOX && frame >= PATH_EVENT);
     return !wanted || make_truth(m, s, k, name);

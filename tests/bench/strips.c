@@ -4,6 +4,7 @@
  */
 #include "strips.h"
 
+#include "error_color.h"
 #include "errors.h"
 #include "picture.h"
 
@@ -34,14 +35,6 @@ static void put(canvas *c, int x, int y, const double rgb[3])
         c->rgb[3 * ((size_t)y * (size_t)c->width + (size_t)x) + (size_t)k] = to_byte(rgb[k]);
 }
 
-static void error_color(double error, double rgb[3])
-{
-    static const double dark[3] = {0.02, 0.19, 0.50}, bright[3] = {0.80, 0.20, 0.00}, none[3] = {0.97, 0.97, 0.97};
-    const double t = fmin(fabs(error) / error_range, 1), shape = sqrt(t); /* makes small errors visible */
-    for (int k = 0; k < 3; k++)
-        rgb[k] = none[k] + shape * ((error < 0 ? dark[k] : bright[k]) - none[k]);
-}
-
 /* 3 x 5 cells, the top row first, its left cell the highest bit. */
 static void draw_text(canvas *c, int x, int y, const char *text)
 {
@@ -68,7 +61,7 @@ static void draw_scale(canvas *c, int left, int width)
 {
     for (int x = 0; x < width; x++) {
         double rgb[3];
-        error_color((2.0 * x / (width - 1) - 1) * error_range, rgb);
+        error_color((2.0 * x / (width - 1) - 1) * error_range, error_range, rgb);
         for (int y = 0; y < BAR_HEIGHT; y++)
             put(c, left + x, FOOT - GAP - 2 - y, rgb);
     }
@@ -99,7 +92,7 @@ static void pixel_color(const bench_view *v, const panel *p, size_t i, double rg
     for (int k = 0; k < 3; k++)
         rgb[k] = value;
     if (p->error)
-        error_color(value - (double)v->truth.accessibility[i], rgb);
+        error_color(value - (double)v->truth.accessibility[i], error_range, rgb);
 }
 
 /* Each pixel of the panel is the mean of 2 x 2. */

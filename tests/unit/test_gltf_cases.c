@@ -607,6 +607,24 @@ static void cameras_and_lights_move_with_the_scene(void **state)
     scene_destroy(s);
 }
 
+static void normals_that_point_inwards_are_named(void **state)
+{
+    (void)state;
+    static const float outwards[9] = {0, 0, 1, 0, 0, 1, 0, 0, 1}, inwards[9] = {0, 0, -1, 0, 0, -1, 0, 0, -1};
+    const float *const normals[] = {outwards, inwards, inwards};
+    for (int i = 0; i < 3; ++i) {
+        gltf_writer w = {0};
+        gltf_put_floats(&w, "VEC3", 3, triangle);
+        gltf_put_floats(&w, "VEC3", 3, normals[i]);
+        scene *s = load_path(gltf_write(&w, "inwards.gltf",
+                                        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":"
+                                        "1}}]}]," ONE_NODE),
+                             &(scene_load_options){.flat_normals = i == 2});
+        assert_warning(s, i == 1 ? "most normals point against the winding of their triangles" : NULL);
+        scene_destroy(s);
+    }
+}
+
 static void normals_of_the_file_can_be_ignored(void **state)
 {
     (void)state;
@@ -651,6 +669,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(joints_far_away_keep_a_skin_s_shape),
         cmocka_unit_test(cameras_and_lights_move_with_the_scene),
         cmocka_unit_test(normals_of_the_file_can_be_ignored),
+        cmocka_unit_test(normals_that_point_inwards_are_named),
     };
     if (argc != 2)
         return 2;

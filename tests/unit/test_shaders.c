@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_PROGRAMS = 8192, BATCH = 64, COMMAND_SIZE = 96 * 1024 };
+enum { MOST_PROGRAMS = 8192, BATCH = 512, COMMAND_SIZE = 96 * 1024 };
 
 static struct program {
     enum glssao__shader shader;

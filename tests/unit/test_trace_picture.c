@@ -3,6 +3,8 @@
  * A few rays from depth and normals: they agree with the tracer that casts primary rays, whatever the projection; no
  * surface blocks its own rays; neither threads nor strips change a bit.
  */
+#include "trace_internal.h" /* first: its parameters have names of types that the others declare */
+
 #include "camera.h"
 #include "gbuffer.h"
 #include "rays.h"
@@ -319,6 +321,34 @@ TEST_GL(adaptive_counts_pay)
     }
     assert_true(t.rays.stats.rays < 5 * (uint64_t)surfaces); /* 3 where 16 x 16 agree */
     tear_down(&t);
+}
+
+/* Where a direction lies in the square that the concentric map (Shirley and Chiu 1997) comes from. */
+static void find_in_square(const float d[3], double out[2])
+{
+    const double pi = 3.14159265358979, size = hypot((double)d[0], (double)d[1]);
+    double angle = atan2((double)d[1], (double)d[0]) + (atan2((double)d[1], (double)d[0]) < -pi / 4 ? 2 * pi : 0);
+    const int side = (int)floor((angle + pi / 4) / (pi / 2));
+    const double sign = side < 2 ? 1 : -1, along = (angle - side * pi / 2) / (pi / 4) * size;
+    out[0] = side % 2 ? -sign * along : sign * size;
+    out[1] = side % 2 ? sign * size : sign * along;
+}
+
+/* The first of 4 rays of 16 x 16 pixels: as many in each of the 64 cells of the square, so that what they all say holds
+ * for the whole hemisphere. */
+TEST(first_rays_reach_everywhere)
+{
+    trace_pattern p;
+    int cells[64] = {0};
+    assert_true(trace_pattern_open(&p, 4, 7));
+    for (int i = 0; i < 256; i++) {
+        double at[2];
+        find_in_square(p.directions[(i / 16 * p.side + i % 16) * 4], at);
+        cells[(int)(4 * (at[0] + 1)) + 8 * (int)(4 * (at[1] + 1))]++;
+    }
+    for (int i = 0; i < 64; i++)
+        assert_int_equal(cells[i], 4);
+    trace_pattern_close(&p);
 }
 
 TEST_GL(wrong_arguments_are_named)
