@@ -44,19 +44,20 @@ typedef struct scene_lighting {
 /* A small environment and a sun. */
 scene_lighting scene_default_lighting(void);
 
-/* The same environment with the scene's own lights, if it has any. The first directional one replaces the sun. A file has
- * no exposure. If its strongest light gives the middle of the scene more irradiance than pi, which makes a white surface
- * that faces it white, all lights are dimmed alike. `out_rest` takes the other lights: room for s->light_count. */
+/* The same environment with the scene's own lights, if it has any. The first directional one replaces the sun. A file
+ * has no exposure. If its strongest light gives the middle of the scene more irradiance than pi, which makes a white
+ * surface that faces it white, all lights are dimmed alike. `out_rest` takes the other lights: room for s->light_count.
+ */
 scene_lighting scene_lighting_of(const scene *s, scene_light *out_rest);
 
 /* Loads a picture of the surroundings, of a kind that environment.h lists. It lights matte surfaces by its irradiance
- * and shiny ones by reflections blurred for their roughness, and it is the sky. On failure NULL, and one line in `error`
- * that names the file and the fault. */
+ * and shiny ones by reflections blurred for their roughness, and it is the sky. On failure NULL, and one line in
+ * `error` that names the file and the fault. */
 scene_environment *scene_environment_load(const char *path, char *error, size_t error_size);
 void scene_environment_destroy(scene_environment *e);
 
-/* Replaces the built-in environment and its sun by this one (NULL: none), which must outlive the lighting. The scene's own
- * lights stay. */
+/* Replaces the built-in environment and its sun by this one (NULL: none), which must outlive the lighting. The scene's
+ * own lights stay. */
 void scene_lighting_surround(scene_lighting *lighting, const scene *s, const scene_environment *e);
 /* Turns sky and environment, and the built-in sun where the scene has no lights, so that `up` is up. */
 void scene_lighting_turn(scene_lighting *lighting, const scene *s, const float up[3]);
@@ -89,9 +90,9 @@ scene_renderer *scene_renderer_create(const scene *s, char *error, size_t error_
 scene_renderer *scene_renderer_create_spending(scene *s, const scene_renderer *like, char *error, size_t error_size);
 void scene_renderer_destroy(scene_renderer *r);
 
-/* Chooses what the passes do from now on, and makes the programs and the shadow map for it. Lighting may change from frame
- * to frame, but this call decides whether it has a directional light, other lights and an environment. Without it the
- * first drawing chooses the simplest options, and draws nothing if they fail. On failure false, and one line in
+/* Chooses what the passes do from now on, and makes the programs and the shadow map for it. Lighting may change from
+ * frame to frame, but this call decides whether it has a directional light, other lights and an environment. Without it
+ * the first drawing chooses the simplest options, and draws nothing if they fail. On failure false, and one line in
  * `error`; the renderer then still draws. */
 bool scene_renderer_configure(scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options,
                               char *error, size_t error_size);
@@ -127,9 +128,9 @@ unsigned scene_shadow_map(const scene_renderer *r, int *out_size);
  * on double-sided materials, to output 0 (alpha 0), and depth (LESS, written). Does not clear. */
 void scene_draw_normals(scene_renderer *r, const scene_view *view);
 
-/* Clears the bound framebuffer's depth buffer and draws a layer behind the pre-pass's `depth_texture` into it: the nearest
- * back face at or behind the visible surface, or the nearest front face behind it. Double-sided materials count as back
- * faces. Needs options.layers. */
+/* Clears the bound framebuffer's depth buffer and draws a layer behind the pre-pass's `depth_texture` into it: the
+ * nearest back face at or behind the visible surface, or the nearest front face behind it. Double-sided materials count
+ * as back faces. Needs options.layers. */
 typedef enum scene_layer { SCENE_LAYER_BACK, SCENE_LAYER_SECOND } scene_layer;
 void scene_draw_layer(scene_renderer *r, const scene_view *view, unsigned depth_texture, scene_layer layer);
 
