@@ -14,7 +14,8 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$folder"
 levels="classic-high horizon-low horizon-medium horizon-high horizon-ultra"
-alone="horizon-low-depth horizon-medium-depth horizon-high-depth horizon-ultra-depth" # on a software rasteriser glssao-cost times these
+# On a software rasteriser glssao-cost times these.
+alone="horizon-low-depth horizon-medium-depth horizon-high-depth horizon-ultra-depth"
 
 "$bench/glssao-bandwidth" egl >"$work/bandwidth"
 renderer=$(head -n 1 "$work/bandwidth")
@@ -27,13 +28,14 @@ head() { # the columns' names
 # On a GPU: frames without timers about their passes, which delay them; passes from timers.
 measured() { # path, size
     "$bench/glssao-bench" --context egl --pick steps --size 160x90 --rays 16 --most-rays 0 --sequence-frames 0 --split-seeds 0 \
-        --frames "$frames" --time-size "$2" --only "${levels// /,},${alone// /,}" --path "$1" --cache "$work/cache" --out "$work/out" 2>/dev/null
+        --frames "$frames" --time-size "$2" --only "${levels// /,},${alone// /,}" \
+        --path "$1" --cache "$work/cache" --out "$work/out" 2>/dev/null
     awk -F '\t' -v levels="$levels $alone" -v way="$1" -v size="$2" '
         BEGIN { split(levels, list, " "); for (i in list) wanted[list[i]] = 1 }
         !/^#/ && !("median_ms" in column) { for (i = 1; i <= NF; i++) column[$i] = i; next }
         $1 in wanted && $column["median_ms"] != "" {
-            print $1 "\t" way "\t" size "\t" $column["median_ms"] "\t" $column["normals_ms"] "\t" $column["distance_ms"] "\t" $column["estimate_ms"] "\t" \
-                $column["blur_ms"] "\t" $column["upsample_ms"]
+            print $1 "\t" way "\t" size "\t" $column["median_ms"] "\t" $column["normals_ms"] "\t" \
+                $column["distance_ms"] "\t" $column["estimate_ms"] "\t" $column["blur_ms"] "\t" $column["upsample_ms"]
         }' "$work/out/accuracy.tsv"
 }
 

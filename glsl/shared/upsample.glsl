@@ -52,11 +52,13 @@ vec4 upsample_weights(PAIRED a, PAIRED b, PAIRED c, PAIRED d, vec2 odd, vec2 ful
     vec4 off = abs(apart);
     float tolerance = max(UPSAMPLE_TOLERANCE * radius_in_linear(own), 0.5 * linear_step(own));
     uvec4 codes = uvec4(normal_code(a), normal_code(b), normal_code(c), normal_code(d));
-#if BENT && NORMALS != NORMALS_REBUILT
-    vec3 stored = textureLod(u_normal_map, full_uv, 0.0).xyz;
+    // Most pixels have neighbours that all face the same way, which spares a GPU what follows, and a software rasteriser the
+    // memory of its normals: all of them read one, which is in the cache.
+    bool differs = any(notEqual(codes.xxx, codes.yzw));
+#if NORMALS != NORMALS_REBUILT && (BENT || !BRANCHES)
+    vec3 stored = textureLod(u_normal_map, BENT != 0 || differs ? full_uv : vec2(0.0), 0.0).xyz;
 #endif
-    // Most pixels have neighbours that all face the same way, which spares a GPU this.
-    if (any(notEqual(codes.xxx, codes.yzw))) {
+    if (differs) {
 #if NORMALS == NORMALS_REBUILT
         vec4 falls = vec4(fall(own, a, full_uv, -odd), fall(own, b, full_uv, vec2(odd.x, -odd.y)),
                           fall(own, c, full_uv, vec2(-odd.x, odd.y)), fall(own, d, full_uv, odd));
@@ -64,7 +66,7 @@ vec4 upsample_weights(PAIRED a, PAIRED b, PAIRED c, PAIRED d, vec2 odd, vec2 ful
         float least = min(min(size.x, size.y), min(size.z, size.w));
         bvec4 turned = greaterThan(falls, vec4(UPSAMPLE_FALL * least + tolerance));
 #else
-#if !BENT
+#if BRANCHES && !BENT
         vec3 stored = textureLod(u_normal_map, full_uv, 0.0).xyz;
 #endif
         vec2 projected = projected_normal(decoded_normal(stored));

@@ -7,16 +7,6 @@ render=$1
 # shellcheck source=tests/render/fail.sh
 . "$(dirname "$(realpath "${BASH_SOURCE[0]}")")/fail.sh"
 
-# want CODE WORDS ARGUMENTS...: this exit code, and WORDS (fixed text) in the last line on stderr.
-want() {
-    local code=$1 words=$2
-    shift 2
-    "$render" "$@" >out 2>err
-    local got=$?
-    [ "$got" = "$code" ] || fail "$*: exit $got instead of $code"
-    [ -z "$words" ] || tail -n 1 err | grep -qF -- "$words" || fail "$*: the last line does not say \"$words\""
-}
-
 # Width and height stand in a PNG's bytes 16 to 23, most significant first; the colour type in byte 25.
 png_is() { # file, width, height, colour type (0 grey, 2 RGB)
     local bytes

@@ -6,14 +6,6 @@ render=$(realpath "$1")
 # shellcheck source=tests/render/fail.sh
 . "$(dirname "$(realpath "${BASH_SOURCE[0]}")")/fail.sh"
 
-want() { # code, words on the last line of stderr, arguments
-    local code=$1 words=$2
-    shift 2
-    "$render" "$@" >out 2>err
-    local got=$?
-    [ "$got" = "$code" ] || fail "$*: exit $got instead of $code"
-    [ -z "$words" ] || tail -n 1 err | grep -qF -- "$words" || fail "$*: the last line does not say \"$words\""
-}
 bytes() { od -An -tx1 "-j$2" "-N$3" "$1" | tr -d ' \n'; }
 starts() { # file, offset, hexadecimal bytes
     [ "$(bytes "$1" "$2" $((${#3} / 2)))" = "$3" ] || fail "$1 has $(bytes "$1" "$2" $((${#3} / 2))) at $2 instead of $3"

@@ -3,32 +3,9 @@
 # raytrace.sh GLSSAO_RENDER: -t raytrace on the command line: files, statistics, same bits, and what it refuses.
 set -uo pipefail
 render=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-
-# want CODE WORDS ARGUMENTS...: this exit code, and WORDS (fixed text) in the last line on stderr.
-want() {
-    local code=$1 words=$2
-    shift 2
-    "$render" -t raytrace -s 65x37 "$@" >out 2>err
-    local got=$?
-    if [ "$got" != "$code" ] || { [ -n "$words" ] && ! tail -n 1 err | grep -qF -- "$words"; }; then
-        echo "FAILED: $*: exit $got instead of $code, \"$words\""
-        sed 's/^/    /' err
-        failures=$((failures + 1))
-    fi
-}
-
-check() { # words, then a command
-    local words=$1
-    shift
-    "$@" || {
-        echo "FAILED: $words"
-        failures=$((failures + 1))
-    }
-}
+# shellcheck source=tests/render/fail.sh
+. "$(dirname "$(realpath "${BASH_SOURCE[0]}")")/fail.sh"
+always=(-t raytrace -s 65x37)
 
 want 2 "--samples" --samples 65537 --ao a.pfm
 want 2 "--samples" --samples 0 --ao a.pfm

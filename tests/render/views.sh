@@ -125,14 +125,6 @@ read -r b _ < <(margins by-hand-ortho)
 [ $((a - b)) -ge -6 ] && [ $((a - b)) -le 6 ] || fail "--ortho changes the size: $a and $b"
 
 # Wrong usage.
-want() { # code, words, arguments
-    local code=$1 words=$2
-    shift 2
-    "$render" "$@" >out 2>err
-    local got=$?
-    [ "$got" = "$code" ] || fail "$*: exit $got instead of $code"
-    tail -n 1 err | grep -qF -- "$words" || fail "$*: the last line does not say \"$words\""
-}
 for bad in "" 1 1,2,3 0,91 0,-91 x,0 side 1,nan; do
     want 2 "--view \"$bad\"" --view "$bad" -o a.png y-up.gltf
 done
