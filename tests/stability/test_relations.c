@@ -222,15 +222,19 @@ TEST_GL(greater_radius_never_brightens_the_mean)
     for_each_configuration(state, check_radius);
 }
 
+/* Later rounds of the planar blur weigh neighbours by likeness, which a power changes: by less than a quarter of the
+ * share of a sample. */
 static void check_power(fixture *f, const configuration *c, const picture *first)
 {
     picture before = *first, after;
+    const bool weighs = c->settings.blur == GLSSAO_BLUR_PLANAR && c->settings.blur_rounds > 1;
+    const float most = weighs ? 0.25f / (float)c->settings.sample_count : 1.01f / 65535.0f;
     for (float power = 2.0f; power <= 64.0f; power *= 4.0f) {
         glssao_settings s = c->settings;
         s.power = power;
         after = plain(f, &s);
         for (int i = 0; i < W * H; ++i)
-            if (after.values[i] > before.values[i] + 1.01f / 65535.0f)
+            if (after.values[i] > before.values[i] + most)
                 fail_msg("%s: power %g brightens pixel %d from %g to %g", c->name, (double)power, i,
                          (double)before.values[i], (double)after.values[i]);
         if (before.values != first->values)
