@@ -228,7 +228,7 @@ static void check_power(fixture *f, const configuration *c, const picture *first
 {
     picture before = *first, after;
     const bool weighs = c->settings.blur == GLSSAO_BLUR_PLANAR && c->settings.blur_rounds > 1;
-    const float most = weighs ? 0.25f / (float)c->settings.sample_count : 1.01f / 65535.0f;
+    const float most = weighs ? 0.5f / (float)c->settings.sample_count : 1.01f / 65535.0f;
     for (float power = 2.0f; power <= 64.0f; power *= 4.0f) {
         glssao_settings s = c->settings;
         s.power = power;
