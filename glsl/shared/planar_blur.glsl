@@ -121,7 +121,7 @@ CONTENTS blurred_wide(PAIRED left, PAIRED below, PAIRED center, PAIRED above, PA
     float own = accessibility_of(center);
     vec4 taps = vec4(accessibility_of(left), accessibility_of(below), accessibility_of(above), accessibility_of(right));
 #if !RAYS
-    vec4 apart = (taps - own) * (float(gSampleCount) / (BLUR_ALIKE * max(gPower, 0.01))); // a power stretches noise
+    vec4 apart = (taps - own) * (float(gSampleCount) / BLUR_ALIKE);
     weights *= max(vec4(0.0), 1.0 - apart * apart);
 #endif
     float mean = weighted_mean(own, 0.25, taps, weights);
