@@ -17,7 +17,6 @@ uniform sampler2D u_motion_map;
 #endif
 #define RESULT vec4
 
-
 #if RAYS && UPSAMPLE
 // The mean of what is not missing.
 float known_mean(vec4 weights, vec4 values)

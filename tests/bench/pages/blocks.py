@@ -104,12 +104,16 @@ def traced(folder, use="tuning"):
     if not few:
         return None
     base = a.time("horizon-high", "cpu_ms") if a.has("horizon-high") else None
+    order = sorted(few + beside + plain_rays(a), key=lambda c: (a.time(c, "cpu_ms") or 0, -a.figure(c, "rmse")))
+    timed = any(a.time(c, "cpu_ms") for c in order)
     rows = []
-    for c in sorted(few + beside + plain_rays(a), key=lambda c: (a.time(c, "cpu_ms") or 0, -a.figure(c, "rmse"))):
+    for c in order:
         time = a.time(c, "cpu_ms")
-        rows.append([f"`{c}`", ms(time), number(time / base if time and base else None, 2), number(a.figure(c, "rmse")),
-                     number(a.figure(c, "rmse", "mean")), number(a.figure(c, "ssim"), 3), number(a.figure(c, "grain"))])
-    return table(["configuration", "CPU ms", "of `horizon-high`'s", "RMSE", "mean of the scenes' RMSE", "SSIM", "grain"], rows)
+        times = [ms(time), number(time / base if time and base else None, 2)] if timed else []
+        rows.append([f"`{c}`", *times, number(a.figure(c, "rmse")), number(a.figure(c, "rmse", "mean")),
+                     number(a.figure(c, "ssim"), 3), number(a.figure(c, "grain"))])
+    times = ["CPU ms", "of `horizon-high`'s"] if timed else []
+    return table(["configuration", *times, "RMSE", "mean of the scenes' RMSE", "SSIM", "grain"], rows)
 
 
 def bent(folder, use="tuning"):
