@@ -3,8 +3,7 @@
  * Tables of tab-separated values, one row a line. The first line is the command that made them, the second the machine
  * and what all rows share, the third the names of the columns. A cell that was not measured is empty.
  */
-#ifndef GLSSAO_BENCH_TABLE_H
-#define GLSSAO_BENCH_TABLE_H
+#pragma once
 
 #include "context.h"
 #include "options.h"
@@ -27,5 +26,3 @@ void table_number(table *t, double value); /* not finite: an empty cell */
 void table_end_row(table *t);
 /* Closes it; false, with one line in `error`, where it could not be written in full. */
 bool table_end(table *t, char *error, size_t error_size);
-
-#endif

@@ -132,7 +132,4 @@ TEST_GL(wrong_recordings_are_named)
     replayer_destroy(r);
 }
 
-int main(void)
-{
-    return test_run(NULL, make_folder_of_files, remove_folder);
-}
+TEST_MAIN(NULL, make_folder_of_files, remove_folder)

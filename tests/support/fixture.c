@@ -3,11 +3,6 @@
 
 #include "functions_of_3_3.h" /* generated from GL/glcorearb.h */
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 int fixture_setup(void **state)
 {
     fixture *f = calloc(1, sizeof *f);

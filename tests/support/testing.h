@@ -7,15 +7,11 @@
  *         assert_int_equal(2 * 3 % 2, 0);
  *     }
  *
- *     int main(void)
- *     {
- *         return test_run(NULL, NULL, NULL);
- *     }
+ *     TEST_MAIN(NULL, NULL, NULL)
  *
  * Inside a test, `state` is cmocka's.
  */
-#ifndef GLSSAO_TESTS_TESTING_H
-#define GLSSAO_TESTS_TESTING_H
+#pragma once
 
 #include <math.h>
 #include <setjmp.h>
@@ -44,5 +40,9 @@ void test_register(const char *name, CMUnitTestFunction test, CMFixtureFunction 
 /* Runs the tests of the program in the order of their definition, between the group's setup and teardown, and returns
  * the number of those that failed. `group` is a name for the output, or NULL. */
 int test_run(const char *group, CMFixtureFunction setup, CMFixtureFunction teardown);
-
-#endif
+/* The program's main function, which does that alone. */
+#define TEST_MAIN(group, setup, teardown)                                                                              \
+    int main(void)                                                                                                     \
+    {                                                                                                                  \
+        return test_run(group, setup, teardown);                                                                       \
+    }

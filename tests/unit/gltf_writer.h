@@ -2,8 +2,7 @@
  *
  * Writes small glTF files for tests into a temporary folder, which is removed at the end.
  */
-#ifndef GLSSAO_TESTS_GLTF_WRITER_H
-#define GLSSAO_TESTS_GLTF_WRITER_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -38,5 +37,3 @@ const char *gltf_write_glb(const gltf_writer *w, const char *name, const char *r
 
 /* Writes any bytes and returns the path. */
 const char *gltf_write_bytes(const char *name, const void *data, size_t size);
-
-#endif

@@ -219,7 +219,4 @@ TEST(other_animations_and_extensions_are_left_out)
     assert_goes_to(&w, more, 2, along_x, 3, 0, 0);
 }
 
-int main(void)
-{
-    return test_run(NULL, gltf_writer_setup, gltf_writer_teardown);
-}
+TEST_MAIN(NULL, gltf_writer_setup, gltf_writer_teardown)

@@ -174,7 +174,4 @@ TEST(errors_have_their_colours)
     assert_true(rgb[0] == rgb[1] && rgb[1] == rgb[2] && rgb[0] > 0.9);
 }
 
-int main(void)
-{
-    return test_run("common", NULL, NULL);
-}
+TEST_MAIN("common", NULL, NULL)

@@ -5,16 +5,9 @@
  */
 #include "gltf_writer.h"
 #include "scene_validity.h"
+#include "testing.h"
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
-
-#include <cmocka.h>
 
 static const char *folder;
 static const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
@@ -65,16 +58,14 @@ static const scene_material *material_of(const scene *s, uint32_t primitive)
 
 /* ---- Extensions ---- */
 
-static void implemented_extensions_may_be_required(void **state)
+TEST(implemented_extensions_may_be_required)
 {
-    (void)state;
     assert_loads("lights-required.glb", 1, NULL);
     assert_loads("emissive-strength-required.glb", 1, NULL);
 }
 
-static void extensions_of_a_usable_core_material_warn(void **state)
+TEST(extensions_of_a_usable_core_material_warn)
 {
-    (void)state;
     static const char *const names[] = {"clearcoat", "ior", "sheen", "specular", "transmission", "volume"};
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
         char file[64], extension[64];
@@ -85,9 +76,8 @@ static void extensions_of_a_usable_core_material_warn(void **state)
 }
 
 /* Whatever may come, a material has a core. */
-static void an_unknown_material_extension_warns(void **state)
+TEST(an_unknown_material_extension_warns)
 {
-    (void)state;
     gltf_writer w = {0};
     char error[1024];
     gltf_put_floats(&w, "VEC3", 3, triangle);
@@ -100,9 +90,8 @@ static void an_unknown_material_extension_warns(void **state)
     assert_non_null(strstr(error, "the extension KHR_newer is required but not supported"));
 }
 
-static void transmission_blends(void **state)
+TEST(transmission_blends)
 {
-    (void)state;
     scene *s = load("KHR_materials_transmission-required.glb");
     int blended = 0;
     for (uint32_t i = 0; i < s->primitive_count; ++i)
@@ -114,9 +103,8 @@ static void transmission_blends(void **state)
     scene_destroy(s);
 }
 
-static void specular_glossiness_keeps_its_diffuse_part(void **state)
+TEST(specular_glossiness_keeps_its_diffuse_part)
 {
-    (void)state;
     gltf_writer w = {0};
     gltf_put_floats(&w, "VEC3", 3, triangle);
     scene *s = load_path(
@@ -133,18 +121,16 @@ static void specular_glossiness_keeps_its_diffuse_part(void **state)
     scene_destroy(s);
 }
 
-static void hidden_nodes_are_not_drawn(void **state)
+TEST(hidden_nodes_are_not_drawn)
 {
-    (void)state;
     scene *s = load("visibility.glb");
     assert_int_equal(s->instance_count, 1);
     assert_warning(s, NULL);
     scene_destroy(s);
 }
 
-static void a_variant_is_chosen_by_name_or_number(void **state)
+TEST(a_variant_is_chosen_by_name_or_number)
 {
-    (void)state;
     gltf_writer w = {0};
     char error[1024];
     gltf_put_floats(&w, "VEC3", 3, triangle);
@@ -168,9 +154,8 @@ static void a_variant_is_chosen_by_name_or_number(void **state)
     assert_non_null(strstr(error, "it has no variant 'green'; there are 2: red, blue"));
 }
 
-static void a_scene_and_an_animation_are_chosen_by_number(void **state)
+TEST(a_scene_and_an_animation_are_chosen_by_number)
 {
-    (void)state;
     gltf_writer w = {0};
     char error[1024];
     gltf_put_floats(&w, "VEC3", 3, triangle);
@@ -198,9 +183,8 @@ static void a_scene_and_an_animation_are_chosen_by_number(void **state)
 
 /* ---- What other programs forgive ---- */
 
-static void nodes_below_the_root_may_be_listed(void **state)
+TEST(nodes_below_the_root_may_be_listed)
 {
-    (void)state;
     assert_loads("unigltf-nonroot.glb", 1, "names nodes that are children of others; each is drawn once");
     gltf_writer w = {0};
     gltf_put_floats(&w, "VEC3", 3, triangle);
@@ -218,24 +202,21 @@ static void nodes_below_the_root_may_be_listed(void **state)
     scene_destroy(s);
 }
 
-static void chunks_may_be_unaligned(void **state)
+TEST(chunks_may_be_unaligned)
 {
-    (void)state;
     assert_loads("chunk-unaligned.glb", 1, "the length of a GLB chunk is no multiple of 4");
 }
 
-static void factors_may_be_out_of_range_by_rounding(void **state)
+TEST(factors_may_be_out_of_range_by_rounding)
 {
-    (void)state;
     scene *s = load("basecolor-1.0000001.glb");
     assert_warning(s, NULL);
     assert_float_equal(s->materials[0].base_color[0], 1, 0);
     scene_destroy(s);
 }
 
-static void data_uris_may_have_any_type(void **state)
+TEST(data_uris_may_have_any_type)
 {
-    (void)state;
     static const char *const names[] = {"data-jpgmime.gltf", "data-nomime.gltf", "data-charset.gltf"};
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
         scene *s = load(names[i]);
@@ -259,9 +240,8 @@ static const char *write_external(const char *uri)
     return gltf_write(NULL, "external.gltf", text);
 }
 
-static void file_names_are_found_as_they_are_meant(void **state)
+TEST(file_names_are_found_as_they_are_meant)
 {
-    (void)state;
     static const char *const names[][2] = {{"a b.bin", "a%20b.bin"},     {"50% grey.bin", "50% grey.bin"},
                                            {"100%25.bin", "100%25.bin"}, {"a.bin", "sub/../a.bin"},
                                            {"dot.bin", "./dot.bin"},     {"win.bin", "none\\\\..\\\\win.bin"}};
@@ -275,9 +255,8 @@ static void file_names_are_found_as_they_are_meant(void **state)
     }
 }
 
-static void a_root_allows_files_beside_the_folder(void **state)
+TEST(a_root_allows_files_beside_the_folder)
 {
-    (void)state;
     char root[512], inner[600], error[1024], text[1024], file[700];
     snprintf(root, sizeof root, "%s", gltf_writer_path("root"));
     snprintf(inner, sizeof inner, "%s/inner", root);
@@ -301,9 +280,8 @@ static void a_root_allows_files_beside_the_folder(void **state)
 
 /* ---- Surfaces ---- */
 
-static void blending_with_an_alpha_of_1_is_opaque(void **state)
+TEST(blending_with_an_alpha_of_1_is_opaque)
 {
-    (void)state;
     scene *s = load("all-blend-alpha-1.glb");
     for (uint32_t i = 0; i < s->primitive_count; ++i)
         assert_int_equal(material_of(s, i)->alpha, SCENE_ALPHA_OPAQUE);
@@ -322,9 +300,8 @@ static void blending_with_an_alpha_of_1_is_opaque(void **state)
     scene_destroy(s);
 }
 
-static void four_uv_sets_are_kept_apart(void **state)
+TEST(four_uv_sets_are_kept_apart)
 {
-    (void)state;
     gltf_writer w = {0};
     gltf_put_floats(&w, "VEC3", 3, triangle);
     for (int set = 0; set < 5; ++set)
@@ -360,9 +337,8 @@ static void four_uv_sets_are_kept_apart(void **state)
     scene_destroy(s);
 }
 
-static void points_and_lines_arrive(void **state)
+TEST(points_and_lines_arrive)
 {
-    (void)state;
     scene *s = load("points.glb");
     assert_int_equal(s->primitives[0].topology, SCENE_POINTS);
     assert_true(s->bounds_max[0] == 1 && s->bounds_max[1] == 1);
@@ -373,9 +349,8 @@ static void points_and_lines_arrive(void **state)
     scene_destroy(s);
 }
 
-static void what_is_left_out_is_named(void **state)
+TEST(what_is_left_out_is_named)
 {
-    (void)state;
     gltf_writer w = {0};
     gltf_put_floats(&w, "VEC3", 2, triangle);
     scene *s = load_path(gltf_write(&w, "left-out.gltf",
@@ -426,9 +401,8 @@ static double worst_distance(const scene *s, const scene *reference)
 
 /* Both are far-from-origin-reference.glb, 80 units wide, packed by gltf-transform: 14 bits a coordinate, and an
  * octahedral filter for the normals of the second. */
-static void packed_geometry_is_unpacked(void **state)
+TEST(packed_geometry_is_unpacked)
 {
-    (void)state;
     static const struct {
         const char *name;
         bool built;
@@ -455,9 +429,8 @@ static void packed_geometry_is_unpacked(void **state)
     scene_destroy(reference);
 }
 
-static void webp_textures_are_decoded(void **state)
+TEST(webp_textures_are_decoded)
 {
-    (void)state;
     scene *s = load("texture-webp.glb");
     if (GLSSAO_HAS_WEBP) {
         assert_warning(s, NULL);
@@ -475,9 +448,8 @@ static void webp_textures_are_decoded(void **state)
     scene_destroy(s);
 }
 
-static void textures_without_a_decoder_are_left_out(void **state)
+TEST(textures_without_a_decoder_are_left_out)
 {
-    (void)state;
     gltf_writer w = {0};
     gltf_put_floats(&w, "VEC3", 3, triangle);
     scene *s = load_path(
@@ -494,9 +466,8 @@ static void textures_without_a_decoder_are_left_out(void **state)
     scene_destroy(s);
 }
 
-static void solid_pictures_fit_the_budget_by_their_decoded_size(void **state)
+TEST(solid_pictures_fit_the_budget_by_their_decoded_size)
 {
-    (void)state;
     char path[1024], error[1024];
     snprintf(path, sizeof path, "%s/flat4k-x3.glb", folder);
     scene *s = load_path(path, NULL);
@@ -538,9 +509,8 @@ static void assert_same_shape(const scene *s, const scene *reference, double mos
     assert_true(worst < most);
 }
 
-static void a_node_far_away_keeps_its_vertices(void **state)
+TEST(a_node_far_away_keeps_its_vertices)
 {
-    (void)state;
     scene *far = load("far-from-origin.glb"), *reference = load("far-from-origin-reference.glb");
     assert_float_equal(far->origin[0], 13487434.764630988, 50);
     assert_float_equal(far->origin[2], -3741689.4034150834, 50);
@@ -552,9 +522,8 @@ static void a_node_far_away_keeps_its_vertices(void **state)
 
 /* Vertices stored far away lose what floats lose, and no more: at 2^20 that is 1/16 at most, and nothing for corners
  * of whole numbers. */
-static void vertices_stored_far_away_are_centred(void **state)
+TEST(vertices_stored_far_away_are_centred)
 {
-    (void)state;
     const float at = 1 << 20;
     gltf_writer near = {0}, far = {0};
     gltf_put_floats(&near, "VEC3", 3, (float[9]){0, 0, 0, 10, 0, 0, 0, 10, 5});
@@ -569,9 +538,8 @@ static void vertices_stored_far_away_are_centred(void **state)
     scene_destroy(b);
 }
 
-static void joints_far_away_keep_a_skin_s_shape(void **state)
+TEST(joints_far_away_keep_a_skin_s_shape)
 {
-    (void)state;
 #define SKINNED(translation)                                                                                           \
     "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"JOINTS_0\":1,\"WEIGHTS_0\":2}}]}],"                \
     "\"skins\":[{\"joints\":[1]}],\"nodes\":[{\"mesh\":0,\"skin\":0},{\"translation\":" translation "}]"
@@ -587,9 +555,8 @@ static void joints_far_away_keep_a_skin_s_shape(void **state)
     scene_destroy(b);
 }
 
-static void cameras_and_lights_move_with_the_scene(void **state)
+TEST(cameras_and_lights_move_with_the_scene)
 {
-    (void)state;
     gltf_writer w = {0};
     gltf_put_floats(&w, "VEC3", 3, triangle);
     scene *s = load_path(
@@ -607,9 +574,8 @@ static void cameras_and_lights_move_with_the_scene(void **state)
     scene_destroy(s);
 }
 
-static void normals_that_point_inwards_are_named(void **state)
+TEST(normals_that_point_inwards_are_named)
 {
-    (void)state;
     static const float outwards[9] = {0, 0, 1, 0, 0, 1, 0, 0, 1}, inwards[9] = {0, 0, -1, 0, 0, -1, 0, 0, -1};
     const float *const normals[] = {outwards, inwards, inwards};
     for (int i = 0; i < 3; ++i) {
@@ -625,9 +591,8 @@ static void normals_that_point_inwards_are_named(void **state)
     }
 }
 
-static void normals_of_the_file_can_be_ignored(void **state)
+TEST(normals_of_the_file_can_be_ignored)
 {
-    (void)state;
     char path[1024];
     snprintf(path, sizeof path, "%s/aura.glb", folder);
     for (int flat = 0; flat < 2; ++flat) {
@@ -641,38 +606,8 @@ static void normals_of_the_file_can_be_ignored(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(implemented_extensions_may_be_required),
-        cmocka_unit_test(extensions_of_a_usable_core_material_warn),
-        cmocka_unit_test(an_unknown_material_extension_warns),
-        cmocka_unit_test(transmission_blends),
-        cmocka_unit_test(specular_glossiness_keeps_its_diffuse_part),
-        cmocka_unit_test(hidden_nodes_are_not_drawn),
-        cmocka_unit_test(a_variant_is_chosen_by_name_or_number),
-        cmocka_unit_test(a_scene_and_an_animation_are_chosen_by_number),
-        cmocka_unit_test(nodes_below_the_root_may_be_listed),
-        cmocka_unit_test(chunks_may_be_unaligned),
-        cmocka_unit_test(factors_may_be_out_of_range_by_rounding),
-        cmocka_unit_test(data_uris_may_have_any_type),
-        cmocka_unit_test(file_names_are_found_as_they_are_meant),
-        cmocka_unit_test(a_root_allows_files_beside_the_folder),
-        cmocka_unit_test(blending_with_an_alpha_of_1_is_opaque),
-        cmocka_unit_test(four_uv_sets_are_kept_apart),
-        cmocka_unit_test(points_and_lines_arrive),
-        cmocka_unit_test(what_is_left_out_is_named),
-        cmocka_unit_test(packed_geometry_is_unpacked),
-        cmocka_unit_test(webp_textures_are_decoded),
-        cmocka_unit_test(textures_without_a_decoder_are_left_out),
-        cmocka_unit_test(solid_pictures_fit_the_budget_by_their_decoded_size),
-        cmocka_unit_test(a_node_far_away_keeps_its_vertices),
-        cmocka_unit_test(vertices_stored_far_away_are_centred),
-        cmocka_unit_test(joints_far_away_keep_a_skin_s_shape),
-        cmocka_unit_test(cameras_and_lights_move_with_the_scene),
-        cmocka_unit_test(normals_of_the_file_can_be_ignored),
-        cmocka_unit_test(normals_that_point_inwards_are_named),
-    };
     if (argc != 2)
         return 2;
     folder = argv[1];
-    return cmocka_run_group_tests(tests, gltf_writer_setup, gltf_writer_teardown);
+    return test_run(NULL, gltf_writer_setup, gltf_writer_teardown);
 }

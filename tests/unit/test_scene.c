@@ -405,7 +405,4 @@ TEST(images_that_nothing_drawn_uses_may_be_missing)
     scene_destroy(s);
 }
 
-int main(void)
-{
-    return test_run(NULL, gltf_writer_setup, gltf_writer_teardown);
-}
+TEST_MAIN(NULL, gltf_writer_setup, gltf_writer_teardown)

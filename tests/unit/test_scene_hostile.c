@@ -380,7 +380,4 @@ TEST(a_wrong_byte_anywhere_gives_a_valid_scene_or_an_error)
     free(bytes);
 }
 
-int main(void)
-{
-    return test_run(NULL, gltf_writer_setup, gltf_writer_teardown);
-}
+TEST_MAIN(NULL, gltf_writer_setup, gltf_writer_teardown)

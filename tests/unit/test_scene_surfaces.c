@@ -165,7 +165,4 @@ TEST(wrong_ones_are_refused_by_name)
     }
 }
 
-int main(void)
-{
-    return test_run("scene surfaces", gltf_writer_setup, gltf_writer_teardown);
-}
+TEST_MAIN("scene surfaces", gltf_writer_setup, gltf_writer_teardown)
