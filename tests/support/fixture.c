@@ -35,7 +35,7 @@ static bool library_saw_gl_error;
 
 int fixture_no_gl_error(void **state)
 {
-    (void)state;
+    test_release(state);
     if (library_saw_gl_error) {
         library_saw_gl_error = false;
         return 1;

@@ -25,7 +25,12 @@
 
 #include <cmocka.h>
 
-/* A test with a teardown of its own; NULL: none. */
+/* Calls release(what) when the running test ends, passed or failed; the latest comes first. */
+void test_release_later(void (*release)(void *what), void *what);
+/* The cmocka teardown that does so. A teardown for TEST_WITH calls it. */
+int test_release(void **state);
+
+/* A test with a teardown of its own. */
 #define TEST_WITH(name, teardown)                                                                                      \
     static void name(void **state);                                                                                    \
     __attribute__((constructor)) static void name##_registers(void)                                                    \
@@ -33,7 +38,7 @@
         test_register(#name, name, teardown);                                                                          \
     }                                                                                                                  \
     static void name(__attribute__((unused)) void **state)
-#define TEST(name) TEST_WITH(name, NULL)
+#define TEST(name) TEST_WITH(name, test_release)
 
 void test_register(const char *name, CMUnitTestFunction test, CMFixtureFunction teardown);
 
