@@ -2,8 +2,7 @@
  *
  * What the files with hooks share.
  */
-#ifndef GLSSAO_INJECT_HOOKS_H
-#define GLSSAO_INJECT_HOOKS_H
+#pragma once
 
 #include "inject.h"
 
@@ -40,5 +39,3 @@ extern _Thread_local hooks_thread hooks_this_thread;
  * hooks_leave, either way. */
 bool hooks_enter(void);
 void hooks_leave(void);
-
-#endif

@@ -11,8 +11,7 @@
  *   frame.c             draws the effect, with a radius from radius.c
  *   picture.c, options.c  pictures for tests; the environment, the clock and the messages
  */
-#ifndef GLSSAO_INJECT_H
-#define GLSSAO_INJECT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -179,5 +178,3 @@ bool inject_draw_effect(inject_context *c, unsigned framebuffer, int width, int 
 void inject_end_of_frame(inject_context *c, bool has_effect);
 /* Says a line, but each one once. */
 void inject_say_once(const char *reason);
-
-#endif

@@ -3,8 +3,7 @@
  * The members of a scene_renderer. draw_upload.c, draw_items.c and draw_programs.c fill them; draw.c, draw_main.c and
  * draw_shadow.c read them every frame.
  */
-#ifndef GLSSAO_EXAMPLES_DRAW_INTERNAL_H
-#define GLSSAO_EXAMPLES_DRAW_INTERNAL_H
+#pragma once
 
 #include "draw.h"
 #include "program.h"
@@ -185,5 +184,3 @@ bool draw_is_ready(scene_renderer *r);
 /* The whole of a pass: draws opaque items as `kind`, those that are seen; returns how many, and adds those that are not
  * to *out_culled. */
 unsigned draw_opaque_items(scene_renderer *r, const scene_view *view, draw_kind kind, unsigned *out_culled);
-
-#endif

@@ -7,8 +7,7 @@
  * lower one. Its middle lies along -z of the world, to the right of it +x; for another
  * up than +y it is turned the shortest way.
  */
-#ifndef GLSSAO_EXAMPLES_ENVIRONMENT_H
-#define GLSSAO_EXAMPLES_ENVIRONMENT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -45,5 +44,3 @@ void environment_mirrored(const environment *e, int level, const float direction
 
 /* Fills mirrors and irradiance from the sky. False where memory is short. */
 bool environment_light(environment *e);
-
-#endif

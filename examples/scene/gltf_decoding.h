@@ -2,8 +2,7 @@
  *
  * Images that are decoded ahead of their use.
  */
-#ifndef GLSSAO_EXAMPLES_GLTF_DECODING_H
-#define GLSSAO_EXAMPLES_GLTF_DECODING_H
+#pragma once
 
 #include "gltf_loader.h"
 
@@ -30,5 +29,3 @@ void gltf_decoding_end(gltf_decoding *d);
 /* The image, to be asked for once, waiting for it if need be: it is the caller's. Otherwise why there is none, or the
  * fault is set. */
 const char *gltf_decoding_take(gltf_loader *l, int image, scene_image *out);
-
-#endif

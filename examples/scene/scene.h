@@ -5,8 +5,7 @@
  * y up, lengths in scene units; its zero is moved to the scene's middle where that is far away (scene.origin).
  * Matrices are column-major (cglm's mat4 as float[16]).
  */
-#ifndef GLSSAO_EXAMPLES_SCENE_H
-#define GLSSAO_EXAMPLES_SCENE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -175,5 +174,4 @@ void scene_destroy(scene *s);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -4,8 +4,7 @@
  * keeps the counts, sorts the instances by mesh, measures the bounds, and moves the world's zero to the middle of a
  * scene that is far from it. Until then places are in double precision.
  */
-#ifndef GLSSAO_EXAMPLES_SCENE_BUILDER_H
-#define GLSSAO_EXAMPLES_SCENE_BUILDER_H
+#pragma once
 
 #include "scene.h"
 #include "scene_fault.h"
@@ -78,5 +77,3 @@ scene *scene_builder_finish(scene_builder *b);
 
 /* Frees what was put together so far. */
 void scene_builder_abandon(scene_builder *b);
-
-#endif

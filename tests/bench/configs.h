@@ -3,8 +3,7 @@
  * The configurations that are measured: each technique at each quality level; the default level with one setting
  * changed; and ray tracing with few rays.
  */
-#ifndef GLSSAO_BENCH_CONFIGS_H
-#define GLSSAO_BENCH_CONFIGS_H
+#pragma once
 
 #include "options.h"
 
@@ -42,5 +41,3 @@ bool bench_has_contrast(const bench_config *c);
 
 /* The settings with every length scaled along to another radius. */
 glssao_settings bench_scale_settings(const glssao_settings *settings, float radius);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * The command line of glssao-bench, parsed and checked.
  */
-#ifndef GLSSAO_BENCH_OPTIONS_H
-#define GLSSAO_BENCH_OPTIONS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -35,5 +34,3 @@ options_result options_parse(int argc, char **argv, options *out, char *error, s
 
 /* True where one of the comma-separated words occurs in `text`, or `words` is NULL. */
 bool options_match(const char *words, const char *text);
-
-#endif

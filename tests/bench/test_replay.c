@@ -164,7 +164,4 @@ TEST(other_machines_find_recordings)
     assert_string_not_equal(name, found);
 }
 
-int main(void)
-{
-    return test_run(NULL, make_folder_of_files, remove_folder);
-}
+TEST_MAIN(NULL, make_folder_of_files, remove_folder)

@@ -388,7 +388,4 @@ TEST_GL(hidden_sky_is_not_drawn_again)
     scene_destroy(s);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -197,7 +197,4 @@ TEST_GL(test_error_ends_the_estimates)
     free_picture(&p);
 }
 
-int main(void)
-{
-    return test_run(NULL, occlude_setup, occlude_teardown);
-}
+TEST_MAIN(NULL, occlude_setup, occlude_teardown)

@@ -121,7 +121,4 @@ TEST_GL(test_callers_context_stays_as_it_is)
     free_picture(&p);
 }
 
-int main(void)
-{
-    return test_run(NULL, occlude_setup, occlude_teardown);
-}
+TEST_MAIN(NULL, occlude_setup, occlude_teardown)

@@ -475,7 +475,4 @@ TEST_GL(accumulated_directions_near_the_integral)
     analytic_free_shot(&s);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -231,7 +231,4 @@ TEST_GL(accumulation_keeps_the_margin)
     fixture_delete_frame(&frame);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

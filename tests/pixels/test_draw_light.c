@@ -420,7 +420,4 @@ TEST_GL(light_follows_up)
     scene_environment_destroy(environments[1]);
 }
 
-int main(void)
-{
-    return test_run("draw light", fixture_setup, fixture_teardown);
-}
+TEST_MAIN("draw light", fixture_setup, fixture_teardown)

@@ -265,7 +265,4 @@ TEST_GL(motion_tells_where_points_were)
     free(other);
 }
 
-int main(void)
-{
-    return test_run("draw maps", fixture_setup, fixture_teardown);
-}
+TEST_MAIN("draw maps", fixture_setup, fixture_teardown)

@@ -5,11 +5,6 @@
  */
 #include "analytic_shot.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const double PI = 3.14159265358979323846;
 static const char *const level_names[] = {"low", "medium", "high", "ultra"};
 enum { LEVELS = 4, RAYS = 1024, INDICES = 8 };
@@ -197,7 +192,4 @@ TEST_GL(roll_changes_little)
     }
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

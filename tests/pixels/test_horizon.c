@@ -384,7 +384,4 @@ TEST_GL(what_stands_out_by_less_than_epsilon_hides_nothing)
     analytic_free_shot(&s);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -516,7 +516,4 @@ TEST(measure_is_near_the_integral)
     assert_true(worst > 1e-4);   /* a polynomial approximation */
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

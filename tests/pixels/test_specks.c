@@ -134,7 +134,4 @@ TEST_GL(random_scenes_have_few_specks)
         assert_true(counts[level] <= most[level]);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -106,7 +106,4 @@ TEST_GL(transformed_instances_shade_like_baked_triangles)
     free(b);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

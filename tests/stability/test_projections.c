@@ -402,7 +402,4 @@ TEST_GL(doubts_are_told_once)
     subject_free(&s);
 }
 
-int main(void)
-{
-    return test_run(NULL, setup, teardown);
-}
+TEST_MAIN(NULL, setup, teardown)

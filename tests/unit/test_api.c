@@ -457,7 +457,4 @@ TEST_GL(texts_are_never_null)
     assert_int_equal(glssao_version(), GLSSAO_VERSION_MAJOR << 16 | GLSSAO_VERSION_MINOR << 8 | GLSSAO_VERSION_PATCH);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -307,7 +307,4 @@ TEST_GL(unusual_targets_get_the_same_picture)
     }
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

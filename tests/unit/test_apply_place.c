@@ -300,7 +300,4 @@ TEST_GL(bad_options_are_named_and_change_nothing)
     apply_close_room(&r);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

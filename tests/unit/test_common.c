@@ -202,7 +202,4 @@ TEST(freed_memory_is_kept)
 #endif
 }
 
-int main(void)
-{
-    return test_run("common", NULL, NULL);
-}
+TEST_MAIN("common", NULL, NULL)

@@ -458,7 +458,4 @@ TEST_GL(the_copy_is_timed)
     glssao_destroy(effect);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

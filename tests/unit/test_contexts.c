@@ -232,7 +232,4 @@ TEST_GL(a_map_is_read_in_a_sharing_context)
     free(alone);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

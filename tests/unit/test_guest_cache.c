@@ -283,7 +283,4 @@ TEST_GL(what_another_user_owns_is_not_used)
     close_cache(&c);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -144,7 +144,4 @@ TEST_GL(a_size_that_the_driver_refuses_leaves_no_error)
     glssao_destroy(effect);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

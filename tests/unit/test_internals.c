@@ -303,7 +303,4 @@ TEST(depth_steps_are_differences)
                 1e-3 * 0x1p-24 * (next - t) * 1e6);
 }
 
-int main(void)
-{
-    return test_run(NULL, NULL, NULL);
-}
+TEST_MAIN(NULL, NULL, NULL)

@@ -380,7 +380,4 @@ TEST(lossy_formats_refuse_what_they_cannot_hold)
     assert_false(file_exists("a.jpg") || file_exists("a.jpeg") || file_exists("a.webp"));
 }
 
-int main(void)
-{
-    return test_run("picture", NULL, NULL);
-}
+TEST_MAIN("picture", NULL, NULL)

@@ -374,7 +374,4 @@ TEST_GL(wrong_arguments_are_named)
     tear_down(&t);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)
