@@ -52,6 +52,7 @@ static const option table[] = {
     WHOLE("split-seeds", "seeds whose mean stands for convergence, 0: no split (64)", split_seeds, 0, 4096),
     TEXT("out", "DIR", "where tables and pictures are written (out/bench)", out),
     TEXT("peers", "NODE_MODULES", "also the effects of the npm packages there (docs/comparison.md)", peers),
+    FLAG("record", "only records what the peers draw, for machines without node, and measures nothing", record),
     FLAG("bent", "bent normals of every level of horizon, and nothing else", bent),
     FLAG("quick", "built-in scenes, small and rough: under 3 minutes on 2 cores", quick),
     FLAG("check", "also fails where figures are not finite or not in the right order", check),
@@ -130,6 +131,11 @@ options_result options_parse(int argc, char **argv, options *out, char *error, s
             set_quick(out);
     if (!option_parse(&set, argc, argv, out, &(failure){.text = error, .size = error_size}))
         return OPTIONS_WRONG;
+    if (out->record && !out->peers) {
+        snprintf(error, error_size, "--record: there is nothing to record without --peers");
+        return OPTIONS_WRONG;
+    }
+    out->rays = out->record ? 1 : out->rays; /* nothing is compared with the truth */
     keep_command(argc, argv, out);
     if (out->help)
         print_help();
