@@ -212,7 +212,7 @@ static void place_eye(const outline *o, const camera_framing *how, double eye[3]
     *half_height = 1e-6 * o->reach; /* a line seen from its end */
     for (int k = 0; k < 2; k++)
         *half_height = fmax(*half_height, (high[k] - low[k]) / (b[k].high - b[k].low));
-    for (int k = 0; k < 2; k++) /* the middle of the scene goes where the middle of the free part is */
+    for (int k = 0; k < 2; k++) /* the middle of the scene goes to the middle of the free part */
         eye[k] = 0.5 * (low[k] + high[k]) - 0.5 * (b[k].low + b[k].high) * *half_height;
 }
 

@@ -29,9 +29,9 @@ typedef struct environment {
     float irradiance[9][3];
 } environment;
 
-/* A PNG or JPEG (sRGB), or a Radiance picture (linear). Such a file says nothing of exposure: where it would give a
- * white surface more than 1 it is dimmed as a whole, so that this is the most that the six directions along the axes
- * get. NULL, with one line in `error` that names the file and the fault, on failure. */
+/* A PNG, JPEG or WebP (sRGB), or a Radiance picture (linear). The file does not say how bright it is to look. If it
+ * would give a white surface more than 1, the whole picture is dimmed so that the brightest of the six directions along
+ * the axes gets 1. NULL, with one line in `error` that names the file and the fault, on failure. */
 environment *environment_load(const char *path, char *error, size_t error_size);
 void environment_destroy(environment *e);
 

@@ -21,8 +21,8 @@ const char *gltf_find_image(gltf_loader *l, int image, gltf_encoded *out);
 /* False where it cannot be decoded. */
 bool gltf_decode(gltf_encoded encoded, scene_image *out);
 
-/* Starts to decode the images of what is shown. gltf_decoding_end is due in either case. False, with the fault set,
- * where the file fails. */
+/* Starts to decode the images that the shown nodes use. gltf_decoding_end is due in either case. False, with the fault
+ * set, where the file fails. */
 bool gltf_decoding_begin(gltf_loader *l);
 void gltf_decoding_end(gltf_decoding *d);
 

@@ -77,7 +77,7 @@ typedef struct scene_primitive {
     uint32_t first_index, index_count;
     int material;
     scene_topology topology;
-    bool white; /* the vertices are known to have no other colour; false: they may have */
+    bool white; /* no vertex has another colour; false: not known */
     bool flat;  /* the file has no normals: each triangle's own is its normal, and the vertices' are not to be used */
     float bounds_min[3], bounds_max[3]; /* mesh space */
 } scene_primitive;
