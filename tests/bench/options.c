@@ -34,6 +34,7 @@ static const option table[] = {
           "seeds whose mean stands for convergence, 0: no split (64)"),
     TEXT("out", "DIR", 0, out, "where tables and pictures are written (out/bench)"),
     TEXT("peers", "NODE_MODULES", 0, peers, "also the effects of the npm packages there (docs/comparison.md)"),
+    FLAG(0, "record", 0, record, "only records what the peers draw, for machines without node, and measures nothing"),
     FLAG(0, "bent", 0, bent, "bent normals of every level of horizon, and nothing else"),
     FLAG(0, "quick", 0, quick, "built-in scenes, small and rough: under 3 minutes on 2 cores"),
     FLAG(0, "check", 0, check, "also fails where figures are not finite or not in the right order"),
@@ -111,6 +112,11 @@ options_result options_parse(int argc, char **argv, options *out, char *error, s
             set_quick(out);
     if (!option_parse(&set, argc, argv, out, &(failure){.text = error, .size = error_size}))
         return OPTIONS_WRONG;
+    if (out->record && !out->peers) {
+        snprintf(error, error_size, "--record: there is nothing to record without --peers");
+        return OPTIONS_WRONG;
+    }
+    out->rays = out->record ? 1 : out->rays; /* nothing is compared with the truth */
     keep_command(argc, argv, out);
     if (out->help)
         print_help();
