@@ -406,7 +406,4 @@ TEST_GL(blur_agrees)
         }
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)
