@@ -156,7 +156,7 @@ static double rms(const float *a, const float *b, int count)
     return sqrt(sum / count);
 }
 
-/* The technique's own floor: the mean of many estimates at full size */
+/* The technique's own floor: the mean of many estimates at full size, of as many samples as a history has. */
 static float *make_floor(fixture *f, const shot *s, const glssao_settings *settings)
 {
     glssao_effect *effect = fixture_effect(f, s->width, s->height);
@@ -165,6 +165,8 @@ static float *make_floor(fixture *f, const shot *s, const glssao_settings *setti
     plain.blur = GLSSAO_BLUR_NONE;
     plain.tiles = GLSSAO_TILES_OFF;
     plain.half_resolution = false;
+    if (settings->history > 0 && settings->technique == GLSSAO_HORIZON && plain.sample_count < 24)
+        plain.sample_count = 24;
     float *sum = calloc((size_t)N, sizeof *sum);
     const glssao_frame frame = take(s);
     const int count = 32;

@@ -280,6 +280,22 @@ TEST(history_reads_upsampled_blocks)
     assert_steps(&q, "tile-rows tile-bounds tile-class tile-rings =1 =1 classic blur blur");
 }
 
+TEST(histories_take_12_steps_a_side_at_least)
+{
+    static const int without[] = {6, 8, 12, 12};
+    for (int quality = GLSSAO_LOW; quality <= GLSSAO_ULTRA; ++quality)
+        for (int reuses = 0; reuses < 2; ++reuses) {
+            glssao_frame frame;
+            glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)quality);
+            const glssao__request q = schedules_request(&frame, &s, 64, 48);
+            glssao__schedule schedule;
+            s.history = reuses;
+            glssao__schedule_make(&schedule, &q);
+            assert_int_equal(schedule.steps[1].shader, SHADER_HORIZON);
+            assert_int_equal(schedule.steps[1].variant.values[MACRO_STEPS], reuses ? 12 : without[quality]);
+        }
+}
+
 TEST(histories_know_radii_in_pixels)
 {
     glssao_frame frame;

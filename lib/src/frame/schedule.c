@@ -147,14 +147,19 @@ static void add_tiles(glssao__builder *b)
     add_open_values(b);
 }
 
+/* Steps a side with a history: a mean over frames takes noise away, not what lies between samples. */
+enum { STEPS_OF_A_MEAN = 12 };
+
 static void set_estimate(const glssao__builder *b, glssao__step *step)
 {
-    const int samples = b->settings->sample_count;
-    const int slices = samples >= 32 ? 2 : 1;
+    const int samples = b->settings->sample_count, slices = samples >= 32 ? 2 : 1;
+    int steps = samples / (2 * slices);
+    if (b->c.has_history && steps < STEPS_OF_A_MEAN)
+        steps = STEPS_OF_A_MEAN;
     glssao__build_surfaces(b, step);
     glssao__build_read(step, UNIT_RANDOM_VECTOR, MAP_RANDOM_VECTOR, SAMPLER_LINEAR_WRAP);
     glssao__build_set(step, MACRO_SLICES, slices);
-    glssao__build_set(step, MACRO_STEPS, samples / (2 * slices));
+    glssao__build_set(step, MACRO_STEPS, steps);
     glssao__build_set(step, MACRO_LAYERS, b->frame->back_texture != 0);
     glssao__build_set(step, MACRO_NO_ANGLE_WEIGHT, b->settings->no_angle_weight);
     glssao__build_finish(b, step);
