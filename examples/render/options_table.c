@@ -161,7 +161,7 @@ static const option table[] = {
      NULL, SCOPE_PICTURE},
     {0, "bent-normals", NULL,
      "horizon: take ambient light from where surfaces are open, and let their open cone darken reflections",
-     OPTION_FLAG, AT(bent_normals), 0, 0, NULL, SCOPE_RENDERED},
+     OPTION_FLAG, AT(bent_normals), 0, 0, NULL, SCOPE_PICTURE},
     {0, "environment", "FILE",
      "light the scene with an equirectangular picture (.hdr, .png, .jpg), which is also the sky", OPTION_FILE,
      AT(environment), 0, 0, ".hdr|.pic|.png|.jpg|.jpeg", SCOPE_PICTURE},
