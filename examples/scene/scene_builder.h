@@ -33,6 +33,8 @@ bool scene_builder_begin(scene_builder *b, const char *name, scene_fault *fault)
  * pointer lives until the next call for the same array. */
 scene_vertex *scene_builder_add_vertices(scene_builder *b, uint32_t count, uint32_t *out_first);
 uint32_t *scene_builder_add_indices(scene_builder *b, uint32_t count, uint32_t *out_first);
+/* The same from an array on the heap, which becomes the scene's, even on failure: a large mesh is not copied. */
+bool scene_builder_take_indices(scene_builder *b, uint32_t *indices, uint32_t count, uint32_t *out_first);
 
 /* Copies the element in and returns its index, -1 on failure. An image's pixels become the scene's, even then. */
 int scene_builder_add_material(scene_builder *b, const scene_material *material);

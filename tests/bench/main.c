@@ -177,6 +177,8 @@ static bool measure(run *r)
     if (!take_times(r))
         return false;
     end_phase("times", &phase_ms);
+    if (r->options.record)
+        return true;
     if (r->options.split_seeds > 0 && !split_measure(out, r->context, &r->reader, r->error, sizeof r->error))
         return false;
     end_phase("split", &phase_ms);

@@ -21,7 +21,7 @@ typedef struct options {
     int oracle_step, oracle_rays, split_seeds;
     int context, path; /* context_kind, glssao_path */
     uint32_t seed;
-    bool peer_grid, all_views, time_all, bent, quick, check, help;
+    bool peer_grid, all_views, time_all, record, bent, quick, check, help;
     bool flat;          /* truths about the surfaces' own normals are wanted, too */
     char command[1024]; /* as typed, without the program's folder */
 } options;
