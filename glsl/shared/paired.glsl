@@ -169,6 +169,31 @@ AMBIENT ambient(float accessibility, float linear, uint code)
 }
 #endif
 
+#if RAW
+// Estimate and blurred estimate as one number of 24 bits over 2^24, which a float holds exactly: 1 to 4095 each, 0 where the
+// value is missing. Two open ones are 1.
+float packed_pair(vec2 pair)
+{
+    vec2 codes = floor(clamp(pair, 0.0, 1.0) * 4094.0 + 1.5);
+#if RAYS
+    codes = mix(codes, vec2(0.0), lessThan(pair, vec2(0.0)));
+#endif
+    return (4096.0 * codes.x + codes.y + 1.0) * (1.0 / 16777216.0);
+}
+
+vec2 unpacked_pair(float packed_values)
+{
+    float whole = packed_values * 16777216.0 - 1.0;
+    float high = floor(whole * (1.0 / 4096.0));
+    vec2 codes = vec2(high, whole - 4096.0 * high);
+#if RAYS
+    return mix((codes - 1.0) * (1.0 / 4094.0), vec2(MISSING), equal(codes, vec2(0.0)));
+#else
+    return (codes - 1.0) * (1.0 / 4094.0);
+#endif
+}
+#endif
+
 // Whether the surface turns away from the eye between a pixel and a neighbour. `change`: of the projected normal on the way,
 // in units of NORMAL_STEP; `way`: where the neighbour lies. In a hollow both sides darken, and smoothing over it does no
 // harm.
