@@ -71,6 +71,7 @@ static void set_rays_blur(const glssao__builder *b, glssao__step *step, int i, e
     step->is_horizontal = i % 2 == 0;
     glssao__build_set(step, MACRO_STRIDE, glssao__rays_stride(i / 2));
     glssao__build_set(step, MACRO_RAYS, 1);
+    read_normals_for_bent(b, step);
     glssao__build_finish(b, step);
     set_normals_for_bent(step);
 }
@@ -162,6 +163,7 @@ void glssao__add_correction(glssao__builder *b)
             glssao__build_rays(b, step, false);
         } else {
             set_rays_blur(b, step, i - 1, (enum glssao__map)(MAP_RAYS_0 + (i - 1) % 2));
+            glssao__build_set(step, MACRO_BENT, 0); /* a difference has no direction */
         }
     }
     if (b->c.has_history) { /* what rays say without the estimate and the blur */

@@ -108,9 +108,9 @@ static void add_open_tiles(glssao__builder *b, enum glssao__map map, int factor,
 static void add_open_values(glssao__builder *b)
 {
     const glssao__choice *c = &b->c;
+    if (c->bent) /* later passes draw everything */
+        return;
     if (c->paired && !c->has_history && !c->corrects) {
-        if (c->bent) /* later passes draw everything */
-            return;
         add_open_tiles(b, MAP_PAIRED_1, 1, c->blurs ? c->tile_rings + 1 : 0);
         add_open_tiles(b, b->s->result, c->upsamples ? 2 : 1, c->tile_rings + 1);
         return;
