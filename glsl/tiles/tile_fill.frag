@@ -3,9 +3,9 @@
 // out o_open  accessibility 1; in a paired map beside a quantity of distance that no pass reads. As a difference (rays.frag) it
 //             only ever reaches pixels that are 1 already, and leaves them so
 
-out vec2 o_open;
+out vec4 o_open;
 
 void main()
 {
-    o_open = vec2(1.0);
+    o_open = vec4(1.0);
 }

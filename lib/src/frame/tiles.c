@@ -50,15 +50,17 @@ static void add_open_values(glssao__builder *b)
 {
     const glssao__choice *c = &b->c;
     const glssao_pass pass = GLSSAO_PASS_TILES;
+    if (c->bent) /* later passes draw everything */
+        return;
     if (c->paired && !c->has_history && !c->corrects) {
-        if (c->bent) /* later passes draw everything */
-            return;
         if (c->is_rays) /* there is no estimate that tells distances farther out */
             add_open_tiles(b, pass, MAP_PAIRED_0, 1, c->tile_rings + 1);
         add_open_tiles(b, pass, MAP_PAIRED_1, 1, c->blurs ? c->tile_rings + 1 : 0);
         add_open_tiles(b, pass, b->s->result, c->upsamples ? 2 : 1, c->tile_rings + 1);
         return;
     }
+    if (c->has_history && c->upsamples && !c->corrects)
+        add_open_tiles(b, pass, MAP_BLOCKS, 1, c->tile_rings + 1);
     if (c->has_history)
         glssao__build_clear(b, pass, MAP_RAW, STEP_CLEAR_TO_OPEN);
     for (int i = 0; i < 2; ++i)
