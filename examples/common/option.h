@@ -57,7 +57,7 @@ typedef struct option {
     option_kind kind;
     size_t offset; /* of the member that it sets */
     double min, max;
-    const char *wanted; /* completes "must be ..." */
+    const char *wanted; /* completes "must be ..."; NULL: the kind's own words with min and max */
     int scope;          /* index into option_set.refused */
 } option;
 

@@ -281,3 +281,13 @@ float *fixture_compute(glssao_effect *effect, const glssao_frame *frame, const g
     assert_int_equal(glssao_compute(effect, frame, settings), GLSSAO_OK);
     return fixture_read_ambient(effect, out_width, out_height);
 }
+
+void test_end_effect(glssao_effect **effect)
+{
+    glssao_destroy(*effect);
+}
+
+void test_end_texture(const GLuint *texture)
+{
+    gl.DeleteTextures(1, texture);
+}

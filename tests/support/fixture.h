@@ -84,3 +84,9 @@ float *fixture_read_ambient(const glssao_effect *effect, int *out_width, int *ou
 /* Runs glssao_compute and reads the ambient map back; asserts success. The caller frees. */
 float *fixture_compute(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
                        int *out_width, int *out_height);
+
+/* For SCOPED, which runs them in the reverse order of the variables. */
+void test_end_effect(glssao_effect **effect);
+void test_end_texture(const GLuint *texture);
+#define test_end_frame fixture_delete_frame
+#define test_end_target fixture_delete_target

@@ -27,6 +27,13 @@ int test_release(void **state)
     return 0;
 }
 
+void test_end_memory(const void *at)
+{
+    void *memory;
+    memcpy(&memory, at, sizeof memory);
+    free(memory);
+}
+
 void test_register(const char *name, CMUnitTestFunction test, CMFixtureFunction teardown)
 {
     if (count == MOST_TESTS) {

@@ -30,6 +30,11 @@ void test_release_later(void (*release)(void *what), void *what);
 /* The cmocka teardown that does so. A teardown for TEST_WITH calls it. */
 int test_release(void **state);
 
+/* Ends the variable with its block, for kinds of which there is a test_end_KIND: SCOPED(memory) float *a = ...; */
+#define SCOPED(kind) __attribute__((cleanup(test_end_##kind)))
+/* `at` points to a pointer. */
+void test_end_memory(const void *at);
+
 /* A test with a teardown of its own. */
 #define TEST_WITH(name, teardown)                                                                                      \
     static void name(void **state);                                                                                    \

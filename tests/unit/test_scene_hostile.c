@@ -319,17 +319,16 @@ static uint8_t *make_glb(size_t *out_size)
 TEST(a_file_cut_short_anywhere_is_refused)
 {
     size_t size = 0;
-    uint8_t *whole = make_glb(&size);
+    SCOPED(memory) uint8_t *whole = make_glb(&size);
     (void)gltf_scene(gltf_write_bytes("cut.glb", whole, size), NULL);
     for (size_t cut = 0; cut < size; ++cut)
         assert_refused(gltf_write_bytes("cut.glb", whole, cut), "");
-    free(whole);
 }
 
 TEST(a_wrong_byte_anywhere_gives_a_valid_scene_or_an_error)
 {
     size_t size = 0;
-    uint8_t *bytes = make_glb(&size);
+    SCOPED(memory) uint8_t *bytes = make_glb(&size);
     uint32_t random = 12345;
     int loaded = 0;
     print_message("seed %u\n", random);
@@ -347,7 +346,6 @@ TEST(a_wrong_byte_anywhere_gives_a_valid_scene_or_an_error)
         }
     }
     print_message("%d of %zu damaged files load\n", loaded, 3 * size);
-    free(bytes);
 }
 
 TEST_MAIN(NULL, gltf_writer_setup, gltf_writer_teardown)
