@@ -50,7 +50,7 @@ static void set_up(setup *s, fixture *f, analytic_projection projection, int bit
     s->settings.blur_rounds = 1;
     s->settings.radius = 0.8f;
     horizon_read_pass_constants(&s->blur, &s->upsample);
-    s->blur.wide_alike /= s->settings.sample_count;
+    s->blur.wide_alike /= sqrt(s->settings.sample_count);
     pass_constants *in_radius[] = {&s->blur, &s->upsample};
     for (int i = 0; i < 2; ++i) {
         in_radius[i]->tolerance *= (double)s->settings.radius;
