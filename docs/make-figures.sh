@@ -8,9 +8,10 @@
 # glssao-economy and glssao-cost come from OPTIONS in the environment, for instance a smaller size. Needs gnuplot and python3;
 # with MEASURE_ONLY=1 neither, and the pages are filled later, by
 #     python3 tests/bench/pages/make.py docs/data docs
-# A machine without node takes the recordings in out/bench-cache/peers-* of another one as NODE_MODULES.
+# A machine without node takes the recordings in out/bench-cache/peers-* of another one as NODE_MODULES. They are for one --size and
+# --time-size; glssao-bench --record with these, --scenes and --peers makes them without measuring.
 set -euo pipefail
-[ $# -ge 3 ] || { sed -n 3,11p "$0"; exit 2; }
+[ $# -ge 3 ] || { sed -n 3,12p "$0"; exit 2; }
 name=$1 build=$(realpath "$2") scenes=$3
 docs=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
 root=$(dirname "$docs")

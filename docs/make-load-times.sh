@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # make-load-times.sh GLSSAO_RENDER WORK_FOLDER: times glssao-render and F3D on files of 10 million triangles, with and without
 # normals, and of two 8192 x 8192 textures, as PNG and as JPEG, side by side, and writes docs/data/load-times.tsv. Needs f3d, xvfb,
-# python3, ImageMagick and GNU time. Seconds are the least of three runs. F3D loads alone with --no-render.
+# python3, ImageMagick and GNU time. Seconds are the least of three runs, in turns. F3D loads alone with --no-render.
 set -euo pipefail
 render=$(realpath "$1") work=$2
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -85,27 +85,45 @@ with open(sys.argv[2], 'wb') as file:
 PYTHON
 done
 
-# Least seconds, processor seconds and largest MiB of three runs of a command.
-measure() {
-    for _ in 1 2 3; do
-        /usr/bin/time -a -o times -f '%e %U %S %M' "$@" >/dev/null 2>&1
-    done
-    awk '{ c = $2 + $3; if (NR == 1 || $1 < s) s = $1; if (NR == 1 || c < p) p = c; if ($4 > m) m = $4 }
-        END { printf "%.2f\t%.2f\t%.0f", s, p, m / 1024 }' times
-    rm times
+# run NUMBER COMMAND...: adds seconds, processor seconds of both kinds and KiB to times-NUMBER.
+run() {
+    local number=$1
+    shift
+    /usr/bin/time -a -o "times-$number" -f '%e %U %S %M' "$@" >/dev/null 2>&1
 }
+
+# row FILE PROGRAM NUMBER: the least seconds and processor seconds, and the largest MiB.
+row() {
+    awk -v file="$1" -v program="$2" '{ c = $2 + $3; if (NR == 1 || $1 < s) s = $1; if (NR == 1 || c < p) p = c; if ($4 > m) m = $4 }
+        END { printf "%s\t%s\t%.2f\t%.2f\t%.0f\n", file, program, s, p, m / 1024 }' "times-$3"
+}
+
+loads() {
+    awk -F'[:,]' '/"load"/ { for (i = 1; i < NF; i++) if ($i ~ /"load"/) printf "%.2f\n", $(i + 1) / 1000 }' stats.json
+}
+
 {
     printf '# docs/make-load-times.sh build/examples/render/glssao-render /tmp/load-times\n'
     printf 'file\tprogram\tseconds\tprocessor_seconds\tmib\n'
     for file in grid-1.glb grid-0.glb textures-png.glb textures-jpg.glb; do
-        printf '%s\tf3d --no-render\t%s\n' $file "$(measure f3d --no-render $file)"
-        printf '%s\tf3d\t%s\n' $file "$(measure xvfb-run -a f3d $file --output=f3d.png --resolution=640,360)"
-        printf '%s\tf3d --ssao\t%s\n' $file "$(measure xvfb-run -a f3d --ssao $file --output=f3d.png --resolution=640,360)"
-        printf '%s\tglssao-render --no-ao --no-shadows\t%s\n' $file \
-            "$(measure "$render" -s 640x360 --no-ao --no-shadows -o a.png --stats stats.json $file)"
-        printf '%s\tglssao-render, loading\t%s\t\t\n' $file "$(awk -F'[:,]' '/"load"/ { for (i = 1; i < NF; i++) if ($i ~ /"load"/) printf "%.2f", $(i + 1) / 1000 }' stats.json)"
-        printf '%s\tglssao-render --no-shadows\t%s\n' $file "$(measure "$render" -s 640x360 --no-shadows -o a.png $file)"
-        printf '%s\tglssao-render\t%s\n' $file "$(measure "$render" -s 640x360 -o a.png $file)"
+        rm -f times-* loads
+        # In turns, so that what else the machine does meets all alike.
+        for _ in 1 2 3; do
+            run 0 f3d --no-render $file
+            run 1 xvfb-run -a f3d $file --output=f3d.png --resolution=640,360
+            run 2 "$render" -s 640x360 --no-ao --no-shadows -o a.png --stats stats.json $file
+            loads >>loads
+            run 3 xvfb-run -a f3d --ssao $file --output=f3d.png --resolution=640,360
+            run 4 "$render" -s 640x360 --no-shadows -o a.png $file
+            run 5 "$render" -s 640x360 -o a.png $file
+        done
+        row $file 'f3d --no-render' 0
+        row $file f3d 1
+        row $file 'f3d --ssao' 3
+        row $file 'glssao-render --no-ao --no-shadows' 2
+        printf '%s\tglssao-render, loading\t%s\t\t\n' $file "$(sort -g loads | head -1)"
+        row $file 'glssao-render --no-shadows' 4
+        row $file glssao-render 5
     done
 } >"$table.part"
 mv "$table.part" "$table"

@@ -2,8 +2,7 @@
  *
  * The parts of glssao-bake: reading the file's vertices, casting rays, computing values at vertices, writing the file.
  */
-#ifndef GLSSAO_EXAMPLES_BAKE_H
-#define GLSSAO_EXAMPLES_BAKE_H
+#pragma once
 
 #include "gltf_document.h"
 #include "scene_fault.h"
@@ -105,5 +104,4 @@ bool bake_write(const bake_model *m, const bake_options *o, scene_fault *fault);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

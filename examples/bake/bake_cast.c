@@ -21,7 +21,7 @@ typedef struct caster {
     const double *origin;
     progress bar;
     double triangles_per_area;
-    size_t steps, steps_done; /* an instance of a triangle each */
+    size_t steps, steps_done; /* one for each instance of a triangle */
     size_t step;              /* of the part being cast */
     float offset;
     uint32_t calls;
@@ -37,7 +37,8 @@ static void report(double done, void *user)
 static bool cast_points(caster *c, const bake_points *p, float *out)
 {
     char error[ERROR_LENGTH];
-    /* Every call numbers its points from 0: another seed each, or they would repeat each other's directions. */
+    /* Each call numbers its points from 0, so it needs a seed of its own. With one seed, calls would repeat each
+     * other's directions. */
     const trace_options options = {.radius = c->options->distance,
                                    .samples = c->options->rays,
                                    .seed = c->options->seed + 0x9e3779b9u * c->calls++,
@@ -112,8 +113,8 @@ static bool cast_part(caster *c, bake_part *part)
     return ok;
 }
 
-/* Single precision at the scene's largest coordinate, with a factor of 64: as the tracer's own offset, which knows the
- * triangle, but for every point alike. */
+/* 64 times the precision of a float at the scene's largest coordinate, for every point alike. The tracer's own offset
+ * is computed likewise for each triangle. */
 static float choose_offset(const scene *s)
 {
     float largest = 0;

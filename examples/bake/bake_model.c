@@ -16,7 +16,7 @@ typedef struct reader {
     size_t room; /* allocated parts */
 } reader;
 
-/* A part before this primitive's whose vertices are the same: same accessors in the same node. */
+/* An earlier part with the same vertices: the same accessors in the same node. */
 static bake_part *find_part(bake_model *m, const gltf_mesh *mesh, size_t node, const gltf_primitive *p)
 {
     for (size_t i = m->part_count; i-- > 0 && m->parts[i].node == node;) {

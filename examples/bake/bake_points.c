@@ -156,8 +156,8 @@ static bool make_vertices(bake_points *p, const bake_part *part, const double m[
     return true;
 }
 
-/* 3 points, and more on triangles larger than the mean. By the size in the first instance, so that points of all
- * instances correspond. */
+/* 3 points, and more on triangles larger than the mean. The size in the first instance counts, so that the points of
+ * all instances correspond. */
 static uint32_t count_points(double area, double triangles_per_area)
 {
     return (uint32_t)fmin(3 + 6 * area * triangles_per_area, 4096);

@@ -7,9 +7,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* How much a difference along a triangle's edges counts against an error of the same size all over it. It holds
- * vertices that few points see. Tuned on the floor of test_bake and on a furnished room: from 0 to 0.05 the error
- * changes by a tenth, and no picture visibly. */
+/* The weight of a difference along a triangle's edges, relative to an error of the same size all over the triangle. It
+ * steadies vertices that few points see. Tuned on the floor of test_bake and on a furnished room: from 0 to 0.05 the
+ * error changes by a tenth, and no picture visibly. */
 static const double smoothness = 0.02;
 
 /* Every vertex gets the mean of its triangles' values; 1 without triangles. */
@@ -118,7 +118,7 @@ static void solve(const equations *e, double *x, double *residual, const double 
 }
 
 /* Minimises the squared error of what interpolation makes of the vertices over the surface (as Kavan, Bargteil and
- * Sloan, "Least squares vertex baking", EGSR 2011, with an edge term to hold vertices that few points see). */
+ * Sloan, "Least squares vertex baking", EGSR 2011, with an edge term that steadies vertices that few points see). */
 static bool spread_fit(bake_part *part, const bake_points *points, const float *values, scene_fault *fault)
 {
     const size_t n = part->vertex_count;

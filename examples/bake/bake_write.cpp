@@ -47,7 +47,7 @@ size_t append(output *out, const void *data, size_t size, int target)
     return views.size() - 1;
 }
 
-// All buffers become one; of a file that was packed, the unpacked ones.
+// Joins all buffers into one. For a packed file, these are the unpacked buffers.
 void merge_buffers(const gltf_document &document, output *out)
 {
     std::vector<bool> used(document.buffer_count, false);
@@ -96,8 +96,8 @@ void erase_name(json *root, const char *list, const char *name)
         root->erase(list);
 }
 
-// Nothing of the file is packed any more: a viewer that knows the extension would take vertices in another order, or
-// bytes that are gone.
+// The written file is unpacked. A viewer that knows the extension would read vertices in another order, or bytes that
+// no longer exist.
 void erase_packing(const gltf_document &document, json *root)
 {
     static const char *const packings[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
@@ -184,8 +184,8 @@ void set_color(json *primitive, size_t accessor)
     (*primitive)["attributes"]["COLOR_0"] = accessor;
 }
 
-// The mesh that a node is to have: the one it had, for the first of the nodes, or a copy. A node that is not shown
-// keeps the mesh as it was.
+// The mesh for a node: the first node keeps its own, each further one gets a copy. A node that is not shown keeps its
+// mesh unchanged.
 class mesh_copies
 {
   public:

@@ -3,7 +3,7 @@
  * The command line of glssao-bake.
  */
 #include "bake.h"
-#include "option.h"
+#include "option_rows.h"
 #include "words.h"
 
 #include <glssao/glssao.h>
@@ -15,42 +15,33 @@
 
 #define AT(member) offsetof(bake_options, member)
 static const option table[] = {
-    {'o', "output", "FILE.glb", "write the scene with COLOR_0 multiplied by accessibility", OPTION_FILE, AT(output), 0,
-     0, ".glb", 0},
-    {0, "in-place", NULL,
-     "replace the scene, a .glb file, by the result; without this option the scene is never overwritten", OPTION_FLAG,
-     AT(in_place), 0, 0, NULL, 0},
-    {0, "rays", "N", "rays for each triangle, vertex or point, 1 to 65536 (default 32)", OPTION_INT, AT(rays), 1, 65536,
-     "a whole number from 1 to 65536", 0},
-    {0, "distance", "R", "ignore hits farther away, in scene units (default: no limit)", OPTION_FLOAT, AT(distance), 0,
-     FLT_MAX, "a number, 0 or more", 0},
-    {0, "cosine", NULL, "distribute rays by the cosine to the normal (default: uniformly over the hemisphere)",
-     OPTION_FLAG, AT(cosine), 0, 0, NULL, 0},
-    {0, "vertices", NULL, "cast rays from the vertices (default: from each triangle's centroid)", OPTION_FLAG,
-     AT(vertices), 0, 0, NULL, 0},
-    {0, "fit", NULL, "cast rays from points all over the triangles and fit the vertices' values to them", OPTION_FLAG,
-     AT(fit), 0, 0, NULL, 0},
-    {0, "offset", "D", "start rays this far off the surface, in scene units (default: suits the scene)", OPTION_FLOAT,
-     AT(offset), 0, FLT_MAX, "a number, 0 or more", 0},
-    {0, "floor", "V", "raise lower accessibility to V, 0 to 1 (default 0)", OPTION_FLOAT, AT(floor_value), 0, 1,
-     "a number from 0 to 1", 0},
-    {0, "accessibility-only", NULL, "ignore the colours that the vertices have", OPTION_FLAG, AT(accessibility_only), 0,
-     0, NULL, 0},
-    {0, "seed", "N", "seed of all random inputs (default 0)", OPTION_SEED, AT(seed), 0, 4294967295.0,
-     "a whole number from 0 to 4294967295", 0},
-    {0, "threads", "N", "number of threads, 1 to 256 (default: one for each core)", OPTION_INT, AT(threads), 1, 256,
-     "a whole number from 1 to 256", 0},
-    {0, "gltf-scene", "N", "bake the file's N-th scene (default: the scene that the file names)", OPTION_INT,
-     AT(file.scene), 1, 1e9, "a whole number from 1", 0},
-    {0, "root", "DIR", "allow the scene to refer to files below DIR (default: only below the scene's own folder)",
-     OPTION_FILE, AT(file.root), 0, 0, "", 0},
-    {0, "strict", NULL, "refuse a scene that would cause a warning", OPTION_FLAG, AT(file.strict), 0, 0, NULL, 0},
-    {0, "flat-normals", NULL, "ignore the file's normals: every triangle has its own", OPTION_FLAG,
-     AT(file.flat_normals), 0, 0, NULL, 0},
-    {0, "memory", "MIB", "memory limit for loading the scene (default: half of the machine's memory)", OPTION_INT,
-     AT(memory_mib), 1, 1e9, "a whole number from 1", 0},
-    {'h', "help", NULL, "print this help", OPTION_FLAG, AT(help), 0, 0, NULL, 0},
-    {0, "version", NULL, "print the version", OPTION_FLAG, AT(version), 0, 0, NULL, 0},
+    ROW('o', "output", "FILE.glb", FILE, 0, output, 0, 0, ".glb",
+        "write the scene with COLOR_0 multiplied by accessibility"),
+    FLAG(0, "in-place", 0, in_place,
+         "replace the scene, a .glb file, by the result; without this option the scene is never overwritten"),
+    RANGE(INT, "rays", "N", 0, rays, 1, 65536, "rays for each triangle, vertex or point, 1 to 65536 (default 32)"),
+    RANGE(FLOAT, "distance", "R", 0, distance, 0, FLT_MAX,
+          "ignore hits farther away, in scene units (default: no limit)"),
+    FLAG(0, "cosine", 0, cosine,
+         "distribute rays by the cosine to the normal (default: uniformly over the hemisphere)"),
+    FLAG(0, "vertices", 0, vertices, "cast rays from the vertices (default: from each triangle's centroid)"),
+    FLAG(0, "fit", 0, fit, "cast rays from points all over the triangles and fit the vertices' values to them"),
+    RANGE(FLOAT, "offset", "D", 0, offset, 0, FLT_MAX,
+          "start rays this far off the surface, in scene units (default: suits the scene)"),
+    RANGE(FLOAT, "floor", "V", 0, floor_value, 0, 1, "raise lower accessibility to V, 0 to 1 (default 0)"),
+    FLAG(0, "accessibility-only", 0, accessibility_only, "ignore the colours that the vertices have"),
+    RANGE(SEED, "seed", "N", 0, seed, 0, 4294967295.0, "seed of all random inputs (default 0)"),
+    RANGE(INT, "threads", "N", 0, threads, 1, 256, "number of threads, 1 to 256 (default: one for each core)"),
+    RANGE(INT, "gltf-scene", "N", 0, file.scene, 1, 1e9,
+          "bake the file's N-th scene (default: the scene that the file names)"),
+    FILE_NAME("root", "DIR", 0, file.root, "",
+              "allow the scene to refer to files below DIR (default: only below the scene's own folder)"),
+    FLAG(0, "strict", 0, file.strict, "refuse a scene that would cause a warning"),
+    FLAG(0, "flat-normals", 0, file.flat_normals, "ignore the file's normals: every triangle has its own"),
+    RANGE(INT, "memory", "MIB", 0, memory_mib, 1, 1e9,
+          "memory limit for loading the scene (default: half of the machine's memory)"),
+    FLAG('h', "help", 0, help, "print this help"),
+    FLAG(0, "version", 0, version, "print the version"),
 };
 
 bake_result bake_parse_options(int argc, char **argv, bake_options *out, char *error, size_t error_size)

@@ -2,10 +2,7 @@
  *
  * Times in milliseconds.
  */
-#ifndef GLSSAO_EXAMPLES_CLOCK_H
-#define GLSSAO_EXAMPLES_CLOCK_H
+#pragma once
 
 double clock_wall_ms(void); /* since a fixed moment; never goes backwards */
 double clock_cpu_ms(void);  /* processor time of all threads of the process */
-
-#endif

@@ -3,8 +3,7 @@
  * One line of error text that names the file and the fault. Text from a file may hold anything, so line breaks and
  * control characters are removed here, once, for every message.
  */
-#ifndef GLSSAO_EXAMPLES_FAULT_H
-#define GLSSAO_EXAMPLES_FAULT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -34,5 +33,4 @@ bool fault_set_memory(failure *f);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

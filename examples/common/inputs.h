@@ -3,8 +3,7 @@
  * The files that a program read, so that it overwrites none of them. Files are told by device and number, not by name:
  * links and other spellings of a path are the same file.
  */
-#ifndef GLSSAO_EXAMPLES_INPUTS_H
-#define GLSSAO_EXAMPLES_INPUTS_H
+#pragma once
 
 #include "fault.h"
 
@@ -36,5 +35,4 @@ bool inputs_spare(const inputs *in, const char *also, const char *path, failure 
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#ifndef GLSSAO_EXAMPLES_MATRIX_H
-#define GLSSAO_EXAMPLES_MATRIX_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -8,5 +7,3 @@
  * three, scaled so that its largest element is 1. It exists for flat transforms too. Returns whether the transform
  * mirrors. */
 bool matrix_for_normals(const float affine[16], double out[9]);
-
-#endif

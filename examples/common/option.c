@@ -152,6 +152,39 @@ static const option *find(const option_set *set, const char *argument, const cha
     return NULL;
 }
 
+/* What a value must be, to complete "must be ...". */
+static void describe(const option *o, char out[256])
+{
+    const bool above_0 = o->min > 0 && o->min<1e-30, endless = o->max> 1e30;
+    if (o->wanted)
+        snprintf(out, 256, "%s%s",
+                 o->kind == OPTION_WORD                    ? "one of "
+                 : o->kind == OPTION_FILE && !o->wanted[0] ? "a file name"
+                 : o->kind == OPTION_FILE                  ? "a file name ending in "
+                                                           : "",
+                 o->wanted);
+    else if (o->kind == OPTION_INT && o->max >= 1e9)
+        snprintf(out, 256, "a whole number from %.0f", o->min);
+    else if (o->kind == OPTION_INT || o->kind == OPTION_SEED)
+        snprintf(out, 256, "a whole number from %.0f to %.0f", o->min, o->max);
+    else if (o->kind == OPTION_INT_OR_NONE)
+        snprintf(out, 256, "a whole number from %.0f, or none", o->min);
+    else if (o->kind == OPTION_VECTOR)
+        snprintf(out, 256, "three numbers %s", o->value);
+    else if (o->kind == OPTION_MATRIX)
+        snprintf(out, 256, "16 numbers with commas between them");
+    else if (o->kind == OPTION_PAIR)
+        snprintf(out, 256, "two numbers %s from %g to %g", o->value, o->min, o->max);
+    else if (o->kind == OPTION_SIZE)
+        snprintf(out, 256, "%s with sides from %.0f to %.0f", o->value, o->min, o->max);
+    else if (o->kind == OPTION_SHARD)
+        snprintf(out, 256, "I/N with I from 0 to N-1");
+    else if (endless)
+        snprintf(out, 256, above_0 ? "a number above 0" : "a number, %g or more", o->min);
+    else
+        snprintf(out, 256, "a number from %g to %g", o->min, o->max);
+}
+
 /* Parses an option and its value, which may be the next argument. *at moves behind them. */
 static bool parse_option(const option_set *set, int argc, char **argv, int *at, void *out, failure *why)
 {
@@ -170,11 +203,9 @@ static bool parse_option(const option_set *set, int argc, char **argv, int *at, 
         value = value || o->kind == OPTION_FLAG ? value : argv[(*at)++];
         if (take(o, value, out))
             return true;
-        const char *form = o->kind == OPTION_FILE && o->wanted[0] ? "a file name ending in "
-                           : o->kind == OPTION_FILE               ? "a file name"
-                           : o->kind == OPTION_WORD               ? "one of "
-                                                                  : "";
-        fault_set(why, "--%s \"%s\": must be %s%s", o->name, value, form, o->wanted);
+        char wanted[256];
+        describe(o, wanted);
+        fault_set(why, "--%s \"%s\": must be %s", o->name, value, wanted);
     }
     return false;
 }

@@ -3,8 +3,7 @@
  * Parses command lines with tables. A row says which member of a structure an option sets and what its value may be.
  * Long options are "--name value" or "--name=value", short ones "-n value" or "-nvalue". "--" ends the options.
  */
-#ifndef GLSSAO_EXAMPLES_OPTION_H
-#define GLSSAO_EXAMPLES_OPTION_H
+#pragma once
 
 #include "fault.h"
 
@@ -58,7 +57,7 @@ typedef struct option {
     option_kind kind;
     size_t offset; /* of the member that it sets */
     double min, max;
-    const char *wanted; /* completes "must be ..." */
+    const char *wanted; /* completes "must be ..."; NULL: the kind's own words with min and max */
     int scope;          /* index into option_set.refused */
 } option;
 
@@ -81,5 +80,3 @@ bool option_differs(const option *o, const void *a, const void *b);
 void option_print(const option_set *set);
 /* Prints a name and its help in the same columns, in lines of at most 100 characters. */
 void option_print_line(const char *left, const char *help);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * How far a long run is, on stderr: one line that a terminal shows in place; elsewhere a new line every five seconds.
  */
-#ifndef GLSSAO_EXAMPLES_PROGRESS_H
-#define GLSSAO_EXAMPLES_PROGRESS_H
+#pragma once
 
 typedef struct progress {
     const char *what; /* begins the line: "frame"; must outlive it */
@@ -23,5 +22,3 @@ __attribute__((format(printf, 1, 2)))
 void progress_show(const char *format, ...);
 /* Erases the line in place, so that something else can be printed. */
 void progress_clear(void);
-
-#endif

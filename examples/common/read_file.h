@@ -2,8 +2,7 @@
  *
  * Reads whole files. The caller frees what is returned; a byte of 0, not counted in the size, follows the last one.
  */
-#ifndef GLSSAO_EXAMPLES_READ_FILE_H
-#define GLSSAO_EXAMPLES_READ_FILE_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -29,5 +28,4 @@ const char *read_file_find_mistake(const void *data, size_t size);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-#ifndef GLSSAO_EXAMPLES_STATISTICS_H
-#define GLSSAO_EXAMPLES_STATISTICS_H
+#pragma once
 
 /* Sorts the values, of which there is at least one. Returns the smallest value that at least `percent` percent of them
  * do not exceed (nearest rank): 50 is the median. */
 double statistics_percentile(double *values, int count, int percent);
-
-#endif

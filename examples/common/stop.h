@@ -3,8 +3,7 @@
  * Ends a program in good order: on SIGINT and SIGTERM, and when its time is up. Files that are half written
  * (whole_file.h) are removed in any case.
  */
-#ifndef GLSSAO_EXAMPLES_STOP_H
-#define GLSSAO_EXAMPLES_STOP_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -19,5 +18,3 @@ int stop_signal(void);
 /* After so many seconds, removes half-written files, prints `message` and a line break to stderr, and exits with
  * `code`. `message` must live until then. 0 takes it back. */
 void stop_after(double seconds, const char *message, int code);
-
-#endif

@@ -3,8 +3,7 @@
  * Files that appear whole or not at all: they are written under another name in the same folder and renamed at the end.
  * Devices and pipes are written directly, and so is a file if its folder is read-only. The path "-" is standard output.
  */
-#ifndef GLSSAO_EXAMPLES_WHOLE_FILE_H
-#define GLSSAO_EXAMPLES_WHOLE_FILE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -35,5 +34,4 @@ bool whole_file_close(whole_file *f, bool written, char *error, size_t error_siz
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -2,8 +2,7 @@
  *
  * Lists of words in one string, separated by '|', and the lists that several programs need.
  */
-#ifndef GLSSAO_EXAMPLES_WORDS_H
-#define GLSSAO_EXAMPLES_WORDS_H
+#pragma once
 
 #include <stddef.h>
 
@@ -32,5 +31,3 @@ typedef struct word {
 
 /* The word at that index, which must exist: printf("%s", words_at(QUALITY_WORDS, GLSSAO_LOW).text). */
 word words_at(const char *words, int index);
-
-#endif

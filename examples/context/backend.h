@@ -2,8 +2,7 @@
  *
  * Shared by context.c and the two backends, egl.c and osmesa.c.
  */
-#ifndef GLSSAO_EXAMPLES_CONTEXT_BACKEND_H
-#define GLSSAO_EXAMPLES_CONTEXT_BACKEND_H
+#pragma once
 
 #include "context.h"
 
@@ -29,5 +28,3 @@ bool context__describe(context *c, const char *way, const context_options *optio
 /* Copies the address of a symbol: ISO C has no cast from an object pointer to a function pointer, but POSIX guarantees
  * the same representation. False, and *out_function is NULL, if the library has no such symbol. */
 bool context__symbol(void *library, const char *name, void *out_function);
-
-#endif

@@ -4,8 +4,7 @@
  * behind one interface. No window system is involved. Libraries are opened at run time, so that a machine can lack some
  * of them.
  */
-#ifndef GLSSAO_EXAMPLES_CONTEXT_H
-#define GLSSAO_EXAMPLES_CONTEXT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -44,5 +43,3 @@ bool context_is_software(const context *c);
 
 /* A glssao_load_fn; `user` is the context. */
 void *context_load(const char *name, void *user);
-
-#endif

@@ -13,7 +13,7 @@ bool gl_load(void *(*load)(const char *name, void *user), void *user, char *erro
 {
     void *address;
 /* ISO C has no cast from an object pointer to a function pointer; POSIX guarantees the same representation. */
-#define GL_LOAD(type, name)                                                                                            \
+#define GL_LOAD(name)                                                                                                  \
     address = load("gl" #name, user);                                                                                  \
     if (!address) {                                                                                                    \
         snprintf(error, error_size, "the context has no function gl" #name);                                           \

@@ -1,155 +1,47 @@
 /* SPDX-License-Identifier: MIT
  *
  * The OpenGL 3.3 functions that examples and tests call, loaded by name from the current context: gl.BindTexture(...)
- * and so on. Add a line for each function that you need, from 3.3 core only. The library has its own table.
+ * and so on. Add the name of each function that you need, from 3.3 core only. The library has its own table.
  */
-#ifndef GLSSAO_EXAMPLES_GL_H
-#define GLSSAO_EXAMPLES_GL_H
+#pragma once
 
+/* The prototypes give the types of the functions; nothing calls them. */
+#ifndef GL_GLEXT_PROTOTYPES
+#define GL_GLEXT_PROTOTYPES
+#endif
 #include <GL/glcorearb.h>
 #include <stdbool.h>
 #include <stddef.h>
 
-/* X(type suffix of PFNGL...PROC, name without gl) */
-#define GL_FUNCTIONS(X)                                                                                                \
-    X(ACTIVETEXTURE, ActiveTexture)                                                                                    \
-    X(ATTACHSHADER, AttachShader)                                                                                      \
-    X(BINDATTRIBLOCATION, BindAttribLocation)                                                                          \
-    X(BEGINQUERY, BeginQuery)                                                                                          \
-    X(BINDBUFFER, BindBuffer)                                                                                          \
-    X(BINDBUFFERBASE, BindBufferBase)                                                                                  \
-    X(BINDBUFFERRANGE, BindBufferRange)                                                                                \
-    X(BINDFRAMEBUFFER, BindFramebuffer)                                                                                \
-    X(BINDRENDERBUFFER, BindRenderbuffer)                                                                              \
-    X(BINDSAMPLER, BindSampler)                                                                                        \
-    X(BINDTEXTURE, BindTexture)                                                                                        \
-    X(BINDVERTEXARRAY, BindVertexArray)                                                                                \
-    X(BLENDEQUATION, BlendEquation)                                                                                    \
-    X(BLENDEQUATIONSEPARATE, BlendEquationSeparate)                                                                    \
-    X(BLENDFUNC, BlendFunc)                                                                                            \
-    X(BLENDFUNCSEPARATE, BlendFuncSeparate)                                                                            \
-    X(BLITFRAMEBUFFER, BlitFramebuffer)                                                                                \
-    X(BUFFERDATA, BufferData)                                                                                          \
-    X(BUFFERSUBDATA, BufferSubData)                                                                                    \
-    X(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus)                                                                  \
-    X(CLEAR, Clear)                                                                                                    \
-    X(CLEARBUFFERFV, ClearBufferfv)                                                                                    \
-    X(CLEARCOLOR, ClearColor)                                                                                          \
-    X(CLEARDEPTH, ClearDepth)                                                                                          \
-    X(CLIENTWAITSYNC, ClientWaitSync)                                                                                  \
-    X(COLORMASK, ColorMask)                                                                                            \
-    X(COLORMASKI, ColorMaski)                                                                                          \
-    X(COMPILESHADER, CompileShader)                                                                                    \
-    X(CREATEPROGRAM, CreateProgram)                                                                                    \
-    X(CREATESHADER, CreateShader)                                                                                      \
-    X(CULLFACE, CullFace)                                                                                              \
-    X(DELETEBUFFERS, DeleteBuffers)                                                                                    \
-    X(DELETEFRAMEBUFFERS, DeleteFramebuffers)                                                                          \
-    X(DELETEPROGRAM, DeleteProgram)                                                                                    \
-    X(DELETEQUERIES, DeleteQueries)                                                                                    \
-    X(DELETERENDERBUFFERS, DeleteRenderbuffers)                                                                        \
-    X(DELETESAMPLERS, DeleteSamplers)                                                                                  \
-    X(DELETESHADER, DeleteShader)                                                                                      \
-    X(DELETESYNC, DeleteSync)                                                                                          \
-    X(DELETETEXTURES, DeleteTextures)                                                                                  \
-    X(DELETEVERTEXARRAYS, DeleteVertexArrays)                                                                          \
-    X(DEPTHFUNC, DepthFunc)                                                                                            \
-    X(DEPTHMASK, DepthMask)                                                                                            \
-    X(DISABLE, Disable)                                                                                                \
-    X(DISABLEI, Disablei)                                                                                              \
-    X(DRAWARRAYS, DrawArrays)                                                                                          \
-    X(DRAWBUFFER, DrawBuffer)                                                                                          \
-    X(DRAWBUFFERS, DrawBuffers)                                                                                        \
-    X(DRAWELEMENTS, DrawElements)                                                                                      \
-    X(DRAWELEMENTSINSTANCED, DrawElementsInstanced)                                                                    \
-    X(DRAWELEMENTSBASEVERTEX, DrawElementsBaseVertex)                                                                  \
-    X(DRAWELEMENTSINSTANCEDBASEVERTEX, DrawElementsInstancedBaseVertex)                                                \
-    X(ENABLE, Enable)                                                                                                  \
-    X(ENABLEI, Enablei)                                                                                                \
-    X(ENABLEVERTEXATTRIBARRAY, EnableVertexAttribArray)                                                                \
-    X(ENDQUERY, EndQuery)                                                                                              \
-    X(FENCESYNC, FenceSync)                                                                                            \
-    X(FINISH, Finish)                                                                                                  \
-    X(FRAMEBUFFERRENDERBUFFER, FramebufferRenderbuffer)                                                                \
-    X(FRAMEBUFFERTEXTURE2D, FramebufferTexture2D)                                                                      \
-    X(FRONTFACE, FrontFace)                                                                                            \
-    X(GENBUFFERS, GenBuffers)                                                                                          \
-    X(GENERATEMIPMAP, GenerateMipmap)                                                                                  \
-    X(GENFRAMEBUFFERS, GenFramebuffers)                                                                                \
-    X(GENQUERIES, GenQueries)                                                                                          \
-    X(GENRENDERBUFFERS, GenRenderbuffers)                                                                              \
-    X(GENSAMPLERS, GenSamplers)                                                                                        \
-    X(GENTEXTURES, GenTextures)                                                                                        \
-    X(GENVERTEXARRAYS, GenVertexArrays)                                                                                \
-    X(GETBOOLEANI_V, GetBooleani_v)                                                                                    \
-    X(GETBOOLEANV, GetBooleanv)                                                                                        \
-    X(GETBUFFERPARAMETERIV, GetBufferParameteriv)                                                                      \
-    X(GETDOUBLEV, GetDoublev)                                                                                          \
-    X(GETERROR, GetError)                                                                                              \
-    X(GETFLOATV, GetFloatv)                                                                                            \
-    X(GETINTEGER64I_V, GetInteger64i_v)                                                                                \
-    X(GETINTEGERI_V, GetIntegeri_v)                                                                                    \
-    X(GETINTEGERV, GetIntegerv)                                                                                        \
-    X(GETPROGRAMINFOLOG, GetProgramInfoLog)                                                                            \
-    X(GETPROGRAMIV, GetProgramiv)                                                                                      \
-    X(GETQUERYOBJECTUIV, GetQueryObjectuiv)                                                                            \
-    X(GETQUERYOBJECTUI64V, GetQueryObjectui64v)                                                                        \
-    X(GETSHADERINFOLOG, GetShaderInfoLog)                                                                              \
-    X(GETSHADERIV, GetShaderiv)                                                                                        \
-    X(GETSTRING, GetString)                                                                                            \
-    X(GETSTRINGI, GetStringi)                                                                                          \
-    X(GETTEXIMAGE, GetTexImage)                                                                                        \
-    X(GETTEXLEVELPARAMETERIV, GetTexLevelParameteriv)                                                                  \
-    X(GETUNIFORMBLOCKINDEX, GetUniformBlockIndex)                                                                      \
-    X(GETUNIFORMLOCATION, GetUniformLocation)                                                                          \
-    X(ISENABLED, IsEnabled)                                                                                            \
-    X(ISENABLEDI, IsEnabledi)                                                                                          \
-    X(ISTEXTURE, IsTexture)                                                                                            \
-    X(LINKPROGRAM, LinkProgram)                                                                                        \
-    X(LOGICOP, LogicOp)                                                                                                \
-    X(MAPBUFFERRANGE, MapBufferRange)                                                                                  \
-    X(PIXELSTOREI, PixelStorei)                                                                                        \
-    X(POLYGONMODE, PolygonMode)                                                                                        \
-    X(POLYGONOFFSET, PolygonOffset)                                                                                    \
-    X(PRIMITIVERESTARTINDEX, PrimitiveRestartIndex)                                                                    \
-    X(QUERYCOUNTER, QueryCounter)                                                                                      \
-    X(READBUFFER, ReadBuffer)                                                                                          \
-    X(READPIXELS, ReadPixels)                                                                                          \
-    X(RENDERBUFFERSTORAGE, RenderbufferStorage)                                                                        \
-    X(RENDERBUFFERSTORAGEMULTISAMPLE, RenderbufferStorageMultisample)                                                  \
-    X(SAMPLECOVERAGE, SampleCoverage)                                                                                  \
-    X(SAMPLEMASKI, SampleMaski)                                                                                        \
-    X(SAMPLERPARAMETERF, SamplerParameterf)                                                                            \
-    X(SAMPLERPARAMETERFV, SamplerParameterfv)                                                                          \
-    X(SAMPLERPARAMETERI, SamplerParameteri)                                                                            \
-    X(SCISSOR, Scissor)                                                                                                \
-    X(SHADERSOURCE, ShaderSource)                                                                                      \
-    X(STENCILFUNC, StencilFunc)                                                                                        \
-    X(TEXIMAGE2D, TexImage2D)                                                                                          \
-    X(TEXIMAGE2DMULTISAMPLE, TexImage2DMultisample)                                                                    \
-    X(TEXIMAGE3D, TexImage3D)                                                                                          \
-    X(TEXPARAMETERI, TexParameteri)                                                                                    \
-    X(TEXSUBIMAGE2D, TexSubImage2D)                                                                                    \
-    X(UNIFORM1F, Uniform1f)                                                                                            \
-    X(UNIFORM1I, Uniform1i)                                                                                            \
-    X(UNIFORM2F, Uniform2f)                                                                                            \
-    X(UNIFORM3F, Uniform3f)                                                                                            \
-    X(UNIFORM3FV, Uniform3fv)                                                                                          \
-    X(UNIFORM2FV, Uniform2fv)                                                                                          \
-    X(UNIFORM4F, Uniform4f)                                                                                            \
-    X(UNIFORM4FV, Uniform4fv)                                                                                          \
-    X(UNIFORMBLOCKBINDING, UniformBlockBinding)                                                                        \
-    X(UNIFORMMATRIX3FV, UniformMatrix3fv)                                                                              \
-    X(UNIFORMMATRIX4FV, UniformMatrix4fv)                                                                              \
-    X(UNMAPBUFFER, UnmapBuffer)                                                                                        \
-    X(USEPROGRAM, UseProgram)                                                                                          \
-    X(VERTEXATTRIB4F, VertexAttrib4f)                                                                                  \
-    X(VERTEXATTRIBDIVISOR, VertexAttribDivisor)                                                                        \
-    X(VERTEXATTRIBPOINTER, VertexAttribPointer)                                                                        \
-    X(VIEWPORT, Viewport)
+/* X(name without gl) */
+/* clang-format off */
+#define GL_FUNCTIONS(X) \
+    X(ActiveTexture) X(AttachShader) X(BeginQuery) X(BindAttribLocation) X(BindBuffer) X(BindBufferBase) \
+    X(BindBufferRange) X(BindFramebuffer) X(BindRenderbuffer) X(BindSampler) X(BindTexture) X(BindVertexArray) \
+    X(BlendEquation) X(BlendEquationSeparate) X(BlendFunc) X(BlendFuncSeparate) X(BlitFramebuffer) X(BufferData) \
+    X(BufferSubData) X(CheckFramebufferStatus) X(Clear) X(ClearBufferfv) X(ClearColor) X(ClearDepth) \
+    X(ClientWaitSync) X(ColorMask) X(ColorMaski) X(CompileShader) X(CreateProgram) X(CreateShader) X(CullFace) \
+    X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram) X(DeleteQueries) X(DeleteRenderbuffers) X(DeleteSamplers) \
+    X(DeleteShader) X(DeleteSync) X(DeleteTextures) X(DeleteVertexArrays) X(DepthFunc) X(DepthMask) X(Disable) \
+    X(Disablei) X(DrawArrays) X(DrawBuffer) X(DrawBuffers) X(DrawElements) X(DrawElementsBaseVertex) \
+    X(DrawElementsInstanced) X(DrawElementsInstancedBaseVertex) X(Enable) X(EnableVertexAttribArray) X(Enablei) \
+    X(EndQuery) X(FenceSync) X(Finish) X(FramebufferRenderbuffer) X(FramebufferTexture2D) X(FrontFace) X(GenBuffers) \
+    X(GenFramebuffers) X(GenQueries) X(GenRenderbuffers) X(GenSamplers) X(GenTextures) X(GenVertexArrays) \
+    X(GenerateMipmap) X(GetBooleani_v) X(GetBooleanv) X(GetBufferParameteriv) X(GetDoublev) X(GetError) X(GetFloatv) \
+    X(GetInteger64i_v) X(GetIntegeri_v) X(GetIntegerv) X(GetProgramInfoLog) X(GetProgramiv) X(GetQueryObjectui64v) \
+    X(GetQueryObjectuiv) X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetStringi) X(GetTexImage) \
+    X(GetTexLevelParameteriv) X(GetUniformBlockIndex) X(GetUniformLocation) X(IsEnabled) X(IsEnabledi) X(IsTexture) \
+    X(LinkProgram) X(LogicOp) X(MapBufferRange) X(PixelStorei) X(PolygonMode) X(PolygonOffset) \
+    X(PrimitiveRestartIndex) X(QueryCounter) X(ReadBuffer) X(ReadPixels) X(RenderbufferStorage) \
+    X(RenderbufferStorageMultisample) X(SampleCoverage) X(SampleMaski) X(SamplerParameterf) X(SamplerParameterfv) \
+    X(SamplerParameteri) X(Scissor) X(ShaderSource) X(StencilFunc) X(TexImage2D) X(TexImage2DMultisample) \
+    X(TexImage3D) X(TexParameteri) X(TexSubImage2D) X(Uniform1f) X(Uniform1i) X(Uniform2f) X(Uniform2fv) X(Uniform3f) \
+    X(Uniform3fv) X(Uniform4f) X(Uniform4fv) X(UniformBlockBinding) X(UniformMatrix3fv) X(UniformMatrix4fv) \
+    X(UnmapBuffer) X(UseProgram) X(VertexAttrib4f) X(VertexAttribDivisor) X(VertexAttribPointer) X(Viewport)
+/* clang-format on */
 
 struct gl_functions {
-#define GL_MEMBER(type, name) PFNGL##type##PROC name;
+#define GL_MEMBER(name) __typeof__(gl##name) *name;
     GL_FUNCTIONS(GL_MEMBER)
 #undef GL_MEMBER
 };
@@ -163,5 +55,3 @@ bool gl_load(void *(*load)(const char *name, void *user), void *user, char *erro
 GLuint gl_make_texture(GLenum internal_format, GLenum format, GLenum type, int width, int height, const void *data);
 /* A framebuffer of these textures, either of which may be 0; leaves it bound. False if it is not complete. */
 bool gl_make_framebuffer(GLuint color, GLuint depth, GLuint *out);
-
-#endif

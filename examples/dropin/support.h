@@ -3,8 +3,7 @@
  * Shared by the dropin programs; your own program does not need it. It chooses where the OpenGL functions come from
  * (libGL's prototypes, libepoxy or GLEW), reads the command line, and writes the last frame to a file for the test.
  */
-#ifndef DROPIN_SUPPORT_H
-#define DROPIN_SUPPORT_H
+#pragma once
 
 #if defined(DROPIN_EPOXY)
 #include <epoxy/gl.h>
@@ -38,5 +37,3 @@ bool dropin_take_size(GLFWwindow *window, int *width, int *height);
 
 /* Swaps the buffers, handles events, counts frames, and writes the picture of the last one. */
 void dropin_show(GLFWwindow *window, dropin_options *o, int width, int height);
-
-#endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * One effect for each context of the program: a list that grows, and an end for each with its context.
+ * Keeps one effect for each context of the program, and destroys it together with its context.
  */
 #include "inject.h"
 
@@ -24,7 +24,7 @@ inject_context *inject_context_of(void *context)
         c = c->next;
     if (!c && (c = calloc(1, sizeof *c))) {
         INJECT_REAL(PFNGLGETINTEGERVPROC, GetIntegerv);
-        GLint viewport[4] = {0}; /* the window's size, when a context is new; a widget of it is smaller */
+        GLint viewport[4] = {0}; /* the window's size in a new context; its widgets are smaller */
         GetIntegerv(GL_VIEWPORT, viewport);
         *c = (inject_context){.next = contexts,
                               .context = context,
@@ -78,7 +78,7 @@ bool inject_prepare_context(inject_context *c, int width, int height)
         return true;
     c->width = width;
     c->height = height;
-    c->radius = 0.0f; /* of another picture */
+    c->radius = 0.0f; /* it belonged to another picture */
     return true;
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Draws the effect: depth is copied, accessibility computed and multiplied into the picture. Where that can't work the
- * reason is said once and the program goes on as if nothing were there.
+ * Draws the effect: copies depth, computes accessibility and multiplies it into the picture. If that fails, it logs the
+ * reason once, and the program runs on unchanged.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "inject.h"
@@ -27,7 +27,7 @@ static void toggle(int signal_number)
     is_on = !is_on;
 }
 
-/* SIGUSR1 switches the effect, unless the program has a use for it. */
+/* SIGUSR1 switches the effect on and off, unless the program uses that signal itself. */
 static void set_up(void)
 {
     is_on = !inject_get_options()->off;
@@ -66,7 +66,7 @@ static bool get_projection(const inject_context *c, unsigned framebuffer, int wi
     return true;
 }
 
-/* glDepthRange(1, 0) turns depth about after the projection. */
+/* glDepthRange(1, 0) reverses depth after the projection. */
 static void follow_depth_range(inject_projection *p)
 {
     INJECT_REAL(PFNGLGETFLOATVPROC, GetFloatv);
@@ -94,8 +94,8 @@ static void describe(const inject_context *c, const inject_projection *projectio
              far_plane > 0.0f ? (double)far_plane : HUGE_VAL, (double)c->radius, is_reversed ? ", reversed" : "");
 }
 
-/* How far two "on:" lines agree that tell of the same picture: size, kind, and field of view or the word
- * "orthographic". Planes and radius change all the time in programs that fit them to the view. */
+/* The length up to which two "on:" lines agree if they describe the same picture: size, kind, and field of view or the
+ * word "orthographic". Planes and radius change all the time in programs that fit them to the view. */
 static size_t length_of_kind(const char *line)
 {
     const char *const near_plane = strstr(line, ", near "), *const high = strstr(line, ", orthographic");
@@ -118,7 +118,7 @@ static void say_on(inject_context *c, const inject_projection *projection)
     inject_say("%s", line);
 }
 
-/* Reading depth back is slow, so it is done now and then; more often while nothing was found. */
+/* Reading depth back is slow, so it happens only now and then, and more often until a radius is found. */
 static bool is_radius_due(const inject_context *c)
 {
     const bool known = c->radius > 0.0f;
@@ -151,7 +151,8 @@ static bool find_radius(inject_context *c, unsigned depth, const inject_projecti
     return c->radius > 0.0f;
 }
 
-/* A radius of 0, which computes nothing, copies depth; the radius for this frame or the next follows from it. */
+/* With a radius of 0 the call copies depth and computes nothing. The radius of this frame or the next follows from the
+ * copy. */
 static bool compute(inject_context *c, unsigned framebuffer, int width, int height, const inject_projection *projection)
 {
     const inject_options *o = inject_get_options();
@@ -204,7 +205,7 @@ void inject_end_of_frame(inject_context *c, bool has_effect)
         inject_say("off: no scene for %.0f seconds", SECONDS_WITHOUT);
     }
     inject_projection unused;
-    /* A program may draw its scene in one context and show it by another. */
+    /* A program may draw its scene in one context and show it in another. */
     if (!has_drawn && is_long_enough(c) && !get_projection(c, 0, 1, 1, &unused))
         inject_say_once("no projection was seen; GLSSAO_INJECT_FOV, _NEAR and _FAR can tell a perspective one");
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * The functions that a program calls here instead of in libGL, libEGL and, to look those up, in libc: lookups and
- * swaps. Each reports its event and does what was asked. lookup.c lists the names of all hooks.
+ * swaps. Each reports its event and calls the real function. lookup.c lists the names of all hooks.
  */
 #include "hooks.h"
 

@@ -2,8 +2,7 @@
  *
  * What the files with hooks share.
  */
-#ifndef GLSSAO_INJECT_HOOKS_H
-#define GLSSAO_INJECT_HOOKS_H
+#pragma once
 
 #include "inject.h"
 
@@ -32,13 +31,11 @@ inject_place hooks_place(GLenum binding);
 /* Drivers and loaders call each other, so only the outermost call of a hook counts. */
 typedef struct hooks_thread {
     int calls;
-    bool in_primitive, in_list; /* between glBegin and glEnd, between glNewList and glEndList: GL can't be asked */
+    bool in_primitive, in_list; /* between glBegin and glEnd, between glNewList and glEndList: GL may not be queried */
 } hooks_thread;
 extern _Thread_local hooks_thread hooks_this_thread;
 
-/* Enters a hook; true where the event counts: in the outermost hook, with a context, while GL can be asked. Ends with
- * hooks_leave, either way. */
+/* Enters a hook. True if the event counts: in the outermost hook, with a context, while GL may be queried. Call
+ * hooks_leave in either case. */
 bool hooks_enter(void);
 void hooks_leave(void);
-
-#endif

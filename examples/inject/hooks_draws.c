@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The functions that draw. Each reports how many vertices, and does what was asked.
+ * The functions that draw. Each reports the number of vertices and calls the real function.
  */
 #include "hooks.h"
 
@@ -65,7 +65,7 @@ HOOK_DRAW(glMultiDrawElementsIndirect, (unsigned mode, unsigned type, const void
 HOOK_DRAW(glCallList, (unsigned list), (list), 0)
 HOOK_DRAW(glCallLists, (int count, unsigned type, const void *lists), (count, type, lists), 0)
 
-/* ---- between these, GL can't be asked ---- */
+/* ---- between these, GL may not be queried ---- */
 
 HOOK void glBegin(unsigned mode);
 HOOK void glEnd(void);

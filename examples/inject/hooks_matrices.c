@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * The functions by which a program sets matrices: uniforms, uniform buffers, the fixed-function stack. Each does what
- * was asked, and notes the matrix.
+ * The functions that set matrices: uniforms, uniform buffers, the fixed-function stack. Each calls the real function
+ * and notes the matrix.
  */
 #include "hooks.h"
 

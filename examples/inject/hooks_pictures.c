@@ -23,7 +23,7 @@ HOOK unsigned eglDestroyContext(void *display, void *context);
 
 /* ---- clears ---- */
 
-/* A clear that the scissor keeps to less than half of the viewport is an icon's. */
+/* A clear that the scissor limits to less than half of the viewport belongs to an icon. */
 static bool is_whole(void)
 {
     REAL(PFNGLISENABLEDPROC, glIsEnabled);
@@ -115,7 +115,7 @@ BIND_HOOK(glBindFramebufferEXT)
 BLIT_HOOK(glBlitFramebuffer)
 BLIT_HOOK(glBlitFramebufferEXT)
 
-/* Programs read single depths to find what is under the pointer; that changes nothing. */
+/* Programs read single depths to find the object under the pointer. Such reads change nothing. */
 void glReadPixels(int x, int y, int width, int height, unsigned format, unsigned type, void *pixels)
 {
     REAL(PFNGLREADPIXELSPROC, glReadPixels);

@@ -11,8 +11,7 @@
  *   frame.c             draws the effect, with a radius from radius.c
  *   picture.c, options.c  pictures for tests; the environment, the clock and the messages
  */
-#ifndef GLSSAO_INJECT_H
-#define GLSSAO_INJECT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -94,7 +93,7 @@ void inject_forget_projections(void *context);
 void *inject_real(const char *name, void *user);
 /* libc's, never the hook. */
 void *inject_real_dlsym(void *handle, const char *name);
-/* What the program is given for a name whose real function is at `real`: the hook, if there is one. */
+/* The function that the program gets for a name: the hook if there is one, else `real`. */
 void *inject_hooked(const char *name, void *real);
 
 /* A local pointer to a function of OpenGL's, without "gl"; looked up once, for looking up takes microseconds. */
@@ -109,12 +108,12 @@ void *inject_hooked(const char *name, void *real);
 
 /* ---- radius.c ---- */
 
-/* A twelfth of the height in view at the median distance of what is seen; 0 where nothing is. */
+/* A twelfth of the height in view at the median distance of the visible surfaces; 0 if there are none. */
 float inject_fitting_radius(unsigned depth_texture, int width, int height, const inject_projection *projection);
 
 /* ---- picture.c ---- */
 
-/* The window's back buffer as a PPM. What it sets stays set: the program ends after it. */
+/* The window's back buffer as a PPM. Does not restore state: the program ends afterwards. */
 bool inject_write_picture(const char *path, int width, int height);
 
 /* ---- scenes.c: events, in the context that is current ---- */
@@ -152,11 +151,11 @@ typedef struct inject_context {
     bool is_drawn;     /* the effect, in this frame, in drawn_framebuffer */
     unsigned drawn_framebuffer;
     double largest; /* viewport, in pixels, that was drawn with lately */
-    /* When the radius was looked for last, as a frame and as a time; and what was found, 0: nothing yet. */
+    /* The frame and the time of the last search for a radius, and its result; 0: nothing found yet. */
     int radius_frame;
     double radius_time;
     float radius;
-    /* The "on:" line that was said last, empty: none or no longer true; when, and when the effect was drawn last. */
+    /* The last "on:" line (empty: none, or no longer true), its time, and when the effect was drawn last. */
     char said[160];
     double said_time, drawn_time;
     int drawn_frame;
@@ -166,7 +165,7 @@ typedef struct inject_context {
 inject_context *inject_context_of(void *context);
 /* The next one after `c`, the first after NULL; NULL at the end. */
 inject_context *inject_next_context(inject_context *c);
-/* Makes an effect; false where that can't be. */
+/* Makes an effect; false on failure. */
 bool inject_prepare_context(inject_context *c, int width, int height);
 /* The context is about to be destroyed; `is_current`: on this thread, so that its objects can be deleted. */
 void inject_forget_context(void *context, bool is_current);
@@ -179,5 +178,3 @@ bool inject_draw_effect(inject_context *c, unsigned framebuffer, int width, int 
 void inject_end_of_frame(inject_context *c, bool has_effect);
 /* Says a line, but each one once. */
 void inject_say_once(const char *reason);
-
-#endif

@@ -32,7 +32,7 @@ static bool read_rows(const float m[16], rows out)
     return true;
 }
 
-/* The view distance of this depth in clip space; infinite where there is none but for rounding. */
+/* The view distance of this depth in clip space. Where only rounding keeps it from being infinite, it is infinite. */
 static double distance_at(double ndc, double p10, double p14)
 {
     return fabs(ndc + p10) < 1e-6 ? (double)INFINITY : p14 / (ndc + p10);
@@ -87,7 +87,8 @@ bool inject_orthographic_of(const float m[16], bool zero_to_one, float out_matri
     if (!(x > 0.0 && y > 0.0 && z > 0.0) || fabs(dot3(r[0], r[1])) > tolerance * x * y ||
         fabs(dot3(r[0], r[2])) > tolerance * x * z || fabs(dot3(r[1], r[2])) > tolerance * y * z)
         return false;
-    /* With x to the right and y upwards, z points at the viewer: depth runs away from that, or towards it, reversed. */
+    /* With x to the right and y upwards, z points at the viewer. Depth grows away from the viewer, or towards it if
+     * reversed. */
     const double across[4] = {r[0][1] * r[1][2] - r[0][2] * r[1][1], r[0][2] * r[1][0] - r[0][0] * r[1][2],
                               r[0][0] * r[1][1] - r[0][1] * r[1][0], 0.0};
     const bool is_turned = dot3(across, r[2]) > 0.0;

@@ -93,7 +93,7 @@ static bool has_history(const scene *s)
     return s->last_moment >= 0;
 }
 
-/* An icon or a picture by which to pick is much smaller than what the context draws besides. */
+/* An icon or a picking picture is much smaller than the context's other pictures. */
 static bool is_large(const inject_context *c, double width, double height)
 {
     return width >= LEAST_SIZE && height >= LEAST_SIZE && 3.0 * width * height >= c->largest;
@@ -113,7 +113,7 @@ static void draw(inject_context *c, const scene *s)
         draw_in(c, s->place.framebuffer, s->width, s->height);
 }
 
-/* A moment has come. `is_last`: there is none after it. */
+/* Handles a moment. `is_last`: the frame has no later one. */
 static void at_moment(inject_context *c, scene *s, bool is_last)
 {
     if (is_main(s) && (is_last || s->moment == s->last_moment))
@@ -186,7 +186,7 @@ void inject_before_clear(inject_place place, bool color, bool depth)
     if (!c)
         return;
     scene *const s = find(place);
-    if (s && color) { /* what was drawn so far is not shown: to find what is under the pointer, for example */
+    if (s && color) { /* this drawing is not shown: it may serve to find the object under the pointer */
         s->weight = depth ? 0.0f : s->weight;
         s->best_weight = 0.0f;
         s->best_moment = s->moment = 0;
@@ -218,13 +218,13 @@ void inject_before_blit(inject_place place, int width, int height)
     inject_context *const c = enter(place.context);
     if (!c)
         return;
-    inject_projection unused; /* a framebuffer that was not drawn anew must not be darkened once more */
+    inject_projection unused; /* a framebuffer that was not redrawn must not be darkened twice */
     if (!c->is_drawn && is_large(c, width, height) && inject_get_projection(place, &unused))
         draw_in(c, place.framebuffer, width, height);
     leave();
 }
 
-/* A picture that the program reads back is not for the eye: objects by number, for example. */
+/* A picture that the program reads back is not meant to be seen. It may hold the numbers of objects. */
 void inject_before_read(inject_place place)
 {
     if (place.framebuffer == 0 || !enter(place.context))
@@ -237,7 +237,7 @@ void inject_before_read(inject_place place)
     leave();
 }
 
-/* What is bound now will be shown by another context; what was left before was drawn from already. */
+/* Another context will show the framebuffer that is bound now. Those left before it were drawn from already. */
 void inject_before_switch(void *context)
 {
     INJECT_REAL(PFNGLGETINTEGERVPROC, GetIntegerv);

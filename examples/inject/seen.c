@@ -190,6 +190,6 @@ void inject_forget_projections(void *context)
         }
     for (int i = 0; i < CANDIDATES; ++i)
         if (seen[i].place.context == context)
-            seen[i].weight = 0.0f; /* what is left is forgotten with the frame */
+            seen[i].weight = 0.0f; /* the rest is forgotten with the frame */
     pthread_mutex_unlock(&lock);
 }

@@ -2,8 +2,7 @@
  *
  * The part of occlude.c that talks to OpenGL. One thread makes an engine, uses it and destroys it.
  */
-#ifndef GLSSAO_EXAMPLES_OCCLUDE_ENGINE_H
-#define GLSSAO_EXAMPLES_OCCLUDE_ENGINE_H
+#pragma once
 
 #include "occlude.h"
 
@@ -14,5 +13,3 @@ void engine_destroy(engine *e);
 const char *engine_description(const engine *e);
 bool engine_compute(engine *e, const occlude_input *input, const glssao_settings *settings, float *out_accessibility,
                     char *error, size_t error_size);
-
-#endif

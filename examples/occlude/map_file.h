@@ -4,8 +4,7 @@
  * time, OpenEXR. The first bytes of a file tell which it is; its name does not matter. No call crashes on a hostile
  * file: each fails with one line that names the file and the fault.
  */
-#ifndef GLSSAO_EXAMPLES_MAP_FILE_H
-#define GLSSAO_EXAMPLES_MAP_FILE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -28,5 +27,3 @@ bool map_file_read_normals(const char *path, map_file *out_map, char *error, siz
 
 /* A map of zero is fine. */
 void map_file_free(map_file *map);
-
-#endif

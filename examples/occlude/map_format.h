@@ -2,8 +2,7 @@
  *
  * What map_file.c and the readers of the formats share; nobody else includes it.
  */
-#ifndef GLSSAO_EXAMPLES_MAP_FORMAT_H
-#define GLSSAO_EXAMPLES_MAP_FORMAT_H
+#pragma once
 
 #include "map_file.h"
 
@@ -50,5 +49,4 @@ bool map_read_exr(const map_reader *r, map_file *out_map);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -2,8 +2,7 @@
  *
  * How far away occluders can be in a depth map, and how many pixels that is.
  */
-#ifndef GLSSAO_EXAMPLES_OCCLUDE_REACH_H
-#define GLSSAO_EXAMPLES_OCCLUDE_REACH_H
+#pragma once
 
 #include "occlude.h"
 
@@ -14,5 +13,3 @@ typedef struct reach {
 
 /* Any projection and any depth are allowed; what has no finite place is left out. */
 reach reach_measure(const occlude_input *input);
-
-#endif

@@ -4,8 +4,7 @@
  * pixel buffers, traces a few rays from each surface, and uploads the shares that got through. Tracing starts while
  * later strips of the picture are still on their way. The context is current in all calls.
  */
-#ifndef GLSSAO_EXAMPLES_RAYS_H
-#define GLSSAO_EXAMPLES_RAYS_H
+#pragma once
 
 #include "draw.h"
 #include "fault.h"
@@ -43,5 +42,3 @@ bool rays_trace(rays *r, const trace_scene *s, const rays_job *job, failure *why
 float (*rays_read_surfaces(rays *r, const rays_job *job, failure *why))[4];
 void rays_upload(const rays *r);
 void rays_close(rays *r);
-
-#endif

@@ -3,8 +3,7 @@
  * A file's animation, picture by picture. Each picture reads the file again, at its time; buffers, textures and
  * programs in the context stay where only places changed.
  */
-#ifndef GLSSAO_EXAMPLES_ANIMATION_H
-#define GLSSAO_EXAMPLES_ANIMATION_H
+#pragma once
 
 #include "stage.h"
 
@@ -18,5 +17,3 @@ typedef struct animation { /* all 0: before the first step */
  * failure. Call animation_close in either case. */
 bool animation_step(animation *a, const options *o, int frame, const stage *like, bool *out_is_known, failure *why);
 void animation_close(animation *a);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * A list of jobs as text: one job on each line, with words quoted as in a shell. Nothing is expanded.
  */
-#ifndef GLSSAO_EXAMPLES_BATCH_LIST_H
-#define GLSSAO_EXAMPLES_BATCH_LIST_H
+#pragma once
 
 #include "fault.h"
 #include "options.h"
@@ -30,5 +29,3 @@ void batch_list_free(batch_list *list);
 
 /* batch_names.c: sets the error of each job that writes a file of an earlier job. False if memory is short. */
 bool batch_find_clashes(batch_list *list);
-
-#endif

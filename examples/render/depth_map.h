@@ -2,8 +2,7 @@
  *
  * Jobs that estimate the occlusion of a depth map instead of drawing a scene.
  */
-#ifndef GLSSAO_EXAMPLES_DEPTH_MAP_H
-#define GLSSAO_EXAMPLES_DEPTH_MAP_H
+#pragma once
 
 #include "fault.h"
 #include "occlude.h"
@@ -21,5 +20,3 @@ void depth_mapper_close(depth_mapper *d);
 /* Reads the maps, estimates, and passes the pictures to the writer. The slip tells the result. False, with one line in
  * `why`, on failure. */
 bool depth_mapper_run(depth_mapper *d, const options *o, bool quiet, writer *w, writer_slip *slip, failure *why);
-
-#endif

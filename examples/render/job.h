@@ -2,8 +2,7 @@
  *
  * One picture or turntable, with a context of its own.
  */
-#ifndef GLSSAO_EXAMPLES_JOB_H
-#define GLSSAO_EXAMPLES_JOB_H
+#pragma once
 
 #include "fault.h"
 #include "options.h"
@@ -13,5 +12,3 @@
 /* Renders what the options say, which began at `start_ms` (clock.h); says on stderr how far it is and what the context
  * is unless it is `quiet`. False, with one line in `why`, where it could not. */
 bool job_run(const options *o, bool quiet, double start_ms, size_t *out_pictures, failure *why);
-
-#endif

@@ -4,6 +4,7 @@
  */
 #include "batch.h"
 #include "clock.h"
+#include "heap.h"
 #include "job.h"
 #include "stop.h"
 #include "streams.h"
@@ -19,6 +20,7 @@ int main(int argc, char **argv)
     static char error[ERROR_LENGTH], late[128];
     size_t pictures;
     streams_guard("glssao-render", EXIT_NOT_RENDERED);
+    heap_keep_freed();
     switch (options_parse(argc, argv, &o, FAULT(error))) {
     case OPTIONS_DONE:
         return EXIT_DONE;

@@ -2,8 +2,7 @@
  *
  * Shows a map of a frame in a rectangle of a framebuffer: for --debug-map, and for the maps of the viewer.
  */
-#ifndef GLSSAO_EXAMPLES_MAP_VIEW_H
-#define GLSSAO_EXAMPLES_MAP_VIEW_H
+#pragma once
 
 #include "options.h"
 #include "pipeline.h"
@@ -19,5 +18,3 @@ void map_view_draw(pipeline *p, const scene_view *view, options_map map, scene_r
 
 /* Frees the pipeline members that map_view.c owns. */
 void map_view_free(pipeline *p);
-
-#endif

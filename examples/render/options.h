@@ -2,8 +2,7 @@
  *
  * The command line of glssao-render, parsed and checked: after options_parse every value is in its range.
  */
-#ifndef GLSSAO_EXAMPLES_OPTIONS_H
-#define GLSSAO_EXAMPLES_OPTIONS_H
+#pragma once
 
 #include "context.h"
 #include "fault.h"
@@ -97,5 +96,3 @@ bool options_parse_job(const options *defaults, int argc, char **argv, options *
 
 /* The same for glssao-view, which needs no output and refuses options that only concern files. */
 options_result options_parse_for_viewer(int argc, char **argv, options *out, failure *why);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * What options.c, options_table.c and options_check.c share.
  */
-#ifndef GLSSAO_EXAMPLES_OPTIONS_INTERNAL_H
-#define GLSSAO_EXAMPLES_OPTIONS_INTERNAL_H
+#pragma once
 
 #include "fault.h"
 #include "option.h"
@@ -18,5 +17,3 @@ bool options_check(const options *o, options_program program, failure *why);
 /* options_depth.c: checks the options of a depth map; refuses those that differ from `start` and do not apply to it, or
  * only to it. False, with one line in `why`. */
 bool options_check_depth_map(const options *start, const options *o, options_program program, failure *why);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * The files that a job writes: their names, whether they can be written, and passing them to the read-back.
  */
-#ifndef GLSSAO_EXAMPLES_OUTPUTS_H
-#define GLSSAO_EXAMPLES_OUTPUTS_H
+#pragma once
 
 #include "fault.h"
 #include "inputs.h"
@@ -26,5 +25,3 @@ bool outputs_take(const options *o, pipeline *p, const scene_view *view, int num
 /* Visits the files of a job, without that of --stats. A turntable has numbered files. Stops and returns false when
  * `visit` does. */
 bool outputs_each(const options *o, bool (*visit)(const char *path, void *user), void *user);
-
-#endif

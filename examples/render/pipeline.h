@@ -3,8 +3,7 @@
  * One frame: pre-pass, occlusion, main pass and read-back. Passes whose result is not used have no targets and no
  * shaders. The context is current in all calls.
  */
-#ifndef GLSSAO_EXAMPLES_PIPELINE_H
-#define GLSSAO_EXAMPLES_PIPELINE_H
+#pragma once
 
 #include "draw.h"
 #include "fault.h"
@@ -161,5 +160,3 @@ glssao_frame pipeline_frame(const pipeline *p, const scene_view *view);
 bool pipeline_runs_occlusion(const pipeline *p, const scene_view *view);
 /* Whether any pass or output reads the normals of this view. */
 bool pipeline_reads_normals(const pipeline *p, const scene_view *view);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * The format of pixels between the context and the file.
  */
-#ifndef GLSSAO_EXAMPLES_PIXEL_KIND_H
-#define GLSSAO_EXAMPLES_PIXEL_KIND_H
+#pragma once
 
 typedef enum pixel_kind {
     PIXELS_RGBA8,          /* written as RGB, without alpha */
@@ -12,5 +11,3 @@ typedef enum pixel_kind {
     PIXELS_FLOAT,
     PIXEL_KIND_COUNT
 } pixel_kind;
-
-#endif

@@ -2,8 +2,7 @@
  *
  * --error and --budget: estimates are accumulated until the sampling error is small enough or the time is spent.
  */
-#ifndef GLSSAO_EXAMPLES_PROGRESSIVE_H
-#define GLSSAO_EXAMPLES_PROGRESSIVE_H
+#pragma once
 
 #include <glssao/glssao.h>
 #include <stdio.h>
@@ -29,5 +28,3 @@ glssao_result progressive_step(glssao_effect *effect, const glssao_frame *frame,
                                const progressive_goal *goal, progressive_report *out);
 /* Prints one line. */
 void progressive_print(FILE *out, const progressive_report *r, const progressive_goal *goal);
-
-#endif

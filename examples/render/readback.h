@@ -4,8 +4,7 @@
  * Once the fence is signalled, the pixels go to the writer, while later frames are drawn. The context is current in all
  * calls.
  */
-#ifndef GLSSAO_EXAMPLES_READBACK_H
-#define GLSSAO_EXAMPLES_READBACK_H
+#pragma once
 
 #include "fault.h"
 #include "pipeline.h"
@@ -27,5 +26,3 @@ bool readback_take(readback *r, pipeline *p, pipeline_output output, pixel_kind 
 void readback_poll(readback *r);
 /* Waits for the other frames too. */
 void readback_drain(readback *r);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * Where the time goes: the phases of a run, the times of benchmark frames, and the file of --stats.
  */
-#ifndef GLSSAO_EXAMPLES_REPORT_H
-#define GLSSAO_EXAMPLES_REPORT_H
+#pragma once
 
 #include "fault.h"
 #include "options.h"
@@ -61,5 +60,3 @@ typedef struct report {
 
 /* Writes JSON. False, with one line in `why`, if the file cannot be written. */
 bool report_write(const report *r, const char *path, failure *why);
-
-#endif

@@ -3,8 +3,7 @@
  * Several samples a pixel: the scene is drawn once for each, shifted by a part of a pixel, and the pictures are
  * averaged in linear light. Also gives straight alpha where a picture has transparent parts.
  */
-#ifndef GLSSAO_EXAMPLES_SAMPLES_H
-#define GLSSAO_EXAMPLES_SAMPLES_H
+#pragma once
 
 #include "draw.h"
 #include "fault.h"
@@ -29,5 +28,3 @@ scene_view samples_view(const scene_view *view, int index, int count);
 void samples_add(samples *s, bool first);
 /* Draws the mean of `count` samples, with straight alpha, into a framebuffer that encodes sRGB. */
 void samples_resolve(samples *s, int count, GLuint framebuffer);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * Renders jobs, one after the other, in one context. A job is a command line or a line of a batch.
  */
-#ifndef GLSSAO_EXAMPLES_SESSION_H
-#define GLSSAO_EXAMPLES_SESSION_H
+#pragma once
 
 #include "animation.h"
 #include "context.h"
@@ -53,5 +52,3 @@ bool session_finish(session *s, writer_slip *slip, failure *why);
 
 /* Writes the file of --stats, after session_finish. start_ms and start_cpu_ms: when the job began (clock.h). */
 bool session_write_stats(session *s, double start_ms, double start_cpu_ms, failure *why);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * The settings of the effect by name: one table for --set and for the sliders of the viewer.
  */
-#ifndef GLSSAO_EXAMPLES_SETTING_TABLE_H
-#define GLSSAO_EXAMPLES_SETTING_TABLE_H
+#pragma once
 
 #include "fault.h"
 
@@ -35,5 +34,3 @@ bool setting_differences(const glssao_settings *from, const glssao_settings *to,
 
 /* Sets the radius and scales the other lengths by the same factor. */
 void setting_scale_radius(glssao_settings *settings, float radius);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * A scene ready to be drawn: in memory, in the context, and, once rays are traced, in Embree.
  */
-#ifndef GLSSAO_EXAMPLES_STAGE_H
-#define GLSSAO_EXAMPLES_STAGE_H
+#pragma once
 
 #include "draw.h"
 #include "fault.h"
@@ -42,5 +41,3 @@ bool stage_pose(stage *st, const scene *next, failure *why);
 
 /* Builds Embree's acceleration structure unless it exists, or waits until it is built. */
 bool stage_trace(stage *st, failure *why);
-
-#endif

@@ -3,8 +3,7 @@
  * Keeps scenes ready for later jobs, up to a memory limit; the least recently used ones are freed first. A second
  * thread loads the scene of the next job. The context is current in all calls.
  */
-#ifndef GLSSAO_EXAMPLES_STAGE_CACHE_H
-#define GLSSAO_EXAMPLES_STAGE_CACHE_H
+#pragma once
 
 #include "fault.h"
 #include "options.h"
@@ -22,5 +21,3 @@ stage *stage_cache_get(stage_cache *c, const options *o, failure *why);
 
 /* Starts to load the options' scene unless it is there or another one is being loaded. True if it started. */
 bool stage_cache_load_ahead(stage_cache *c, const options *o);
-
-#endif

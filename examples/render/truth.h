@@ -2,8 +2,7 @@
  *
  * -t raytrace: ray-traced accessibility of a frame, as a map that replaces the one of the effect.
  */
-#ifndef GLSSAO_EXAMPLES_TRUTH_H
-#define GLSSAO_EXAMPLES_TRUTH_H
+#pragma once
 
 #include "fault.h"
 #include "gl.h"
@@ -26,5 +25,3 @@ void truth_close(truth *t);
 
 /* Traces a frame with the radius, sample count and power of `settings`. Prints progress to stderr. */
 bool truth_trace(truth *t, const scene_view *view, const glssao_settings *settings, uint32_t seed, failure *why);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * The camera of a picture: one of the file, or one that fits the scene, changed by options.
  */
-#ifndef GLSSAO_EXAMPLES_VIEWPOINT_H
-#define GLSSAO_EXAMPLES_VIEWPOINT_H
+#pragma once
 
 #include "camera.h"
 #include "fault.h"
@@ -32,5 +31,3 @@ float viewpoint_fov_deg(const viewpoint *v);
 /* The view, turned by `angle_rad` about the axis. False, with one line in `why`, if it is degenerate. */
 bool viewpoint_view(const viewpoint *v, const scene *s, float angle_rad, int width, int height, scene_view *out,
                     failure *why);
-
-#endif

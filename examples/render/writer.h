@@ -2,8 +2,7 @@
  *
  * Encodes and writes pictures on other threads, while the next ones are drawn.
  */
-#ifndef GLSSAO_EXAMPLES_WRITER_H
-#define GLSSAO_EXAMPLES_WRITER_H
+#pragma once
 
 #include "pixel_kind.h"
 
@@ -42,5 +41,3 @@ bool writer_wait(writer *w, writer_slip *slip);
 bool writer_is_done(writer *w, writer_slip *slip);
 /* True as soon as one picture has failed. */
 bool writer_has_failed(writer *w, writer_slip *slip);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * Cameras for the examples: one that fits the scene, one given by hand, and their matrices.
  */
-#ifndef GLSSAO_EXAMPLES_CAMERA_H
-#define GLSSAO_EXAMPLES_CAMERA_H
+#pragma once
 
 #include "draw.h"
 #include "scene.h"
@@ -60,5 +59,3 @@ float camera_suggest_radius(const scene *s);
 
 /* The same view with `margin` more pixels on each side. */
 scene_view camera_widened_view(const scene_view *view, int margin);
-
-#endif

@@ -49,15 +49,15 @@ static int slice_of(const outline *o, double along)
     return at < 0 ? 0 : at >= SLICES ? SLICES - 1 : (int)at;
 }
 
-/* A point relative to the middle. */
+/* A point relative to the middle. Coordinates are finite, so that nothing calls for fmin. */
 static void add_seen(outline *o, const double p[3])
 {
     const double at[2] = {dot(p, o->axes[0]), dot(p, o->axes[1])}, z = dot(p, o->axes[2]);
     slice *s = &o->slices[slice_of(o, z)];
-    s->nearest = fmax(s->nearest, z);
+    s->nearest = s->nearest > z ? s->nearest : z;
     for (int i = 0; i < 2; i++) {
-        s->low[i] = fmin(s->low[i], at[i]);
-        s->high[i] = fmax(s->high[i], at[i]);
+        s->low[i] = s->low[i] < at[i] ? s->low[i] : at[i];
+        s->high[i] = s->high[i] > at[i] ? s->high[i] : at[i];
     }
 }
 
@@ -110,7 +110,10 @@ static void add_primitive(outline *o, const scene *s, const scene_primitive *p, 
             visited[v >> 3] |= bit;
         add_vertex(o, m, s->vertices[v].position);
     }
-    for (uint32_t i = 0; visited && i < p->index_count; i++)
+    const size_t bytes = s->vertex_count / 8 + 1;
+    if (visited && p->index_count > bytes)
+        memset(visited, 0, bytes);
+    for (uint32_t i = 0; visited && p->index_count <= bytes && i < p->index_count; i++)
         visited[s->indices[p->first_index + i] >> 3] = 0;
 }
 
@@ -209,7 +212,7 @@ static void place_eye(const outline *o, const camera_framing *how, double eye[3]
     *half_height = 1e-6 * o->reach; /* a line seen from its end */
     for (int k = 0; k < 2; k++)
         *half_height = fmax(*half_height, (high[k] - low[k]) / (b[k].high - b[k].low));
-    for (int k = 0; k < 2; k++) /* the middle of the scene goes where the middle of the free part is */
+    for (int k = 0; k < 2; k++) /* the middle of the scene goes to the middle of the free part */
         eye[k] = 0.5 * (low[k] + high[k]) - 0.5 * (b[k].low + b[k].high) * *half_height;
 }
 

@@ -60,7 +60,7 @@ draw_pass draw_begin(const scene_renderer *r, const scene_view *view, draw_kind 
     gl.Viewport(0, 0, view->width, view->height);
     gl.Enable(GL_DEPTH_TEST);
     gl.BindVertexArray(r->vertex_array);
-    gl.VertexAttrib4f(ATTRIBUTE_COLOR, 1, 1, 1, 1); /* read where no vertex has a colour, with options.everything */
+    gl.VertexAttrib4f(ATTRIBUTE_COLOR, 1, 1, 1, 1); /* for options.everything without vertex colours */
     return pass;
 }
 

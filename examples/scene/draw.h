@@ -10,8 +10,7 @@
  * culling, blending, masks, sRGB, polygon offset) and restores GL's defaults, except for the viewport. It does not
  * touch scissor, stencil and polygon mode, which must be off.
  */
-#ifndef GLSSAO_EXAMPLES_DRAW_H
-#define GLSSAO_EXAMPLES_DRAW_H
+#pragma once
 
 #include "scene.h"
 
@@ -174,5 +173,3 @@ void scene_draw_distance_picture(scene_renderer *r, const scene_view *view, unsi
  * output 0 of the bound framebuffer, which is that much smaller, rounded up. For trace_seen. */
 void scene_draw_surfaces(scene_renderer *r, const scene_view *view, unsigned depth_texture, unsigned normal_texture,
                          int step);
-
-#endif

@@ -3,8 +3,7 @@
  * The members of a scene_renderer. draw_upload.c, draw_items.c and draw_programs.c fill them; draw.c, draw_main.c and
  * draw_shadow.c read them every frame.
  */
-#ifndef GLSSAO_EXAMPLES_DRAW_INTERNAL_H
-#define GLSSAO_EXAMPLES_DRAW_INTERNAL_H
+#pragma once
 
 #include "draw.h"
 #include "program.h"
@@ -168,8 +167,8 @@ void draw_shadow_free(draw_shadow *s);
 /* The polygon offset of its drawing. */
 void draw_shadow_offset(void);
 
-/* draw_pool.c: joins the pool of `like`, or makes one where that is NULL; leaves it, and frees it with its last user.
- */
+/* draw_pool.c: joins the pool of `like`, or makes one if that is NULL; leaves the pool, and frees it with its last
+ * user. */
 bool draw_pool_join(scene_renderer *r, const scene_renderer *like, char *error, size_t error_size);
 void draw_pool_leave(scene_renderer *r);
 
@@ -178,12 +177,10 @@ void draw_set_defaults(void);
 void draw_bind_texture(unsigned unit, unsigned texture, unsigned sampler);
 draw_pass draw_begin(const scene_renderer *r, const scene_view *view, draw_kind kind);
 void draw_item_now(draw_pass *pass, const draw_item *item);
-/* Opaque items that are seen; returns how many, and adds those that are not to *out_culled. */
+/* Draws the visible opaque items. Returns their number and adds the number of the others to *out_culled. */
 unsigned draw_opaque(draw_pass *pass, unsigned *out_culled);
 /* Configures a renderer with the plainest options if the host did not; false if that fails, with a line on stderr. */
 bool draw_is_ready(scene_renderer *r);
-/* The whole of a pass: draws opaque items as `kind`, those that are seen; returns how many, and adds those that are not
- * to *out_culled. */
+/* A whole pass: draws the visible opaque items as `kind`. Returns their number and adds the number of the others to
+ * *out_culled. */
 unsigned draw_opaque_items(scene_renderer *r, const scene_view *view, draw_kind kind, unsigned *out_culled);
-
-#endif

@@ -117,7 +117,7 @@ static void set_lighting(draw_pass *pass, const scene_lighting *lighting)
     for (int i = 0; i < 3; i++) {
         pass->ambient[i] = lighting->ambient[i];
         pass->ambient_tilt[i] = lighting->ambient_tilt[i];
-        /* A white matte surface sends pi-th of the irradiance towards the eye. */
+        /* A white matte surface reflects 1/pi of the irradiance towards the eye. */
         pass->directional[i] = lighting->directional[i] / GLM_PIf;
     }
     glm_vec3_copy(view_from_sky[1], pass->up_view);
@@ -147,7 +147,7 @@ static bool is_sky_hidden(scene_renderer *r, const scene_view *view)
     return samples == 0;
 }
 
-/* At the far plane, where opaque surfaces left it to be seen. */
+/* At the far plane, where no opaque surface covers it. */
 static void draw_sky(scene_renderer *r, const scene_view *view, const scene_lighting *lighting)
 {
     mat4 clip_from_sky, sky_from_clip, view_from_sky = GLM_MAT4_IDENTITY_INIT;
@@ -158,7 +158,7 @@ static void draw_sky(scene_renderer *r, const scene_view *view, const scene_ligh
     glm_mat4_mul((vec4 *)view->clip_from_view, view_from_sky, clip_from_sky);
     glm_mat4_inv(clip_from_sky, sky_from_clip);
     char error[1024];
-    const int program = draw_find_sky(r, lighting, error, sizeof error); /* as a rule there since configuring */
+    const int program = draw_find_sky(r, lighting, error, sizeof error); /* mostly built before */
     if (program < 0) {
         fprintf(stderr, "scene: %s\n", error);
         return;
@@ -174,7 +174,7 @@ static void draw_sky(scene_renderer *r, const scene_view *view, const scene_ligh
     gl.Disable(GL_CULL_FACE);
     gl.FrontFace(GL_CCW);
     gl.DepthFunc(GL_LEQUAL);
-    /* Through scissors less may pass than the next drawing shows. */
+    /* A scissor may hide pixels that the next drawing shows. */
     r->sky_seen.asked = !gl.IsEnabled(GL_SCISSOR_TEST);
     if (r->sky_seen.asked) {
         if (!r->sky_seen.query)

@@ -8,7 +8,7 @@
 
 #include <stdio.h>
 
-/* One of the pool's, built when it is first called for. */
+/* A program of the pool, built on first use. */
 static const draw_program *find(draw_program *p, const char *what, const char *fragment_source)
 {
     char error[1024];

@@ -93,7 +93,7 @@ static void upload_geometry(scene_renderer *r, const draw_instance *instances)
     gl.GenVertexArrays(1, &r->empty_vertex_array);
     gl.GenVertexArrays(1, &r->vertex_array);
     gl.BindVertexArray(r->vertex_array);
-    /* Which instances is set before each draw call: 3.3 has no base instance. */
+    /* The attributes of the instances are set before each draw call, since OpenGL 3.3 has no base instance. */
     draw_upload_buffer(&r->instance_buffer, GL_ARRAY_BUFFER, instances, s->instance_count * sizeof *instances);
     draw_upload_buffer(&r->index_buffer, GL_ELEMENT_ARRAY_BUFFER, s->indices, s->index_count * sizeof *s->indices);
     draw_upload_vertices(r);
@@ -260,7 +260,7 @@ void draw_make_neutral(scene_renderer *r)
     }
 }
 
-/* `spent`: the scene again where its texels may be freed, or NULL. */
+/* `spent`: the same scene if its texels may be freed, else NULL. */
 static scene_renderer *create(const scene *s, scene *spent, const scene_renderer *like, char *error, size_t error_size)
 {
     scene_renderer *r = calloc(1, sizeof *r);

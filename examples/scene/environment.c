@@ -19,7 +19,7 @@ enum { MOST_SIDE = 16384 };
 static const uint64_t most_bytes = UINT64_C(1) << 30;
 static const float most_radiance = 65504; /* that half floats hold */
 
-/* By how much the file's picture is made smaller. */
+/* The factor by which the file's picture is reduced. */
 static int reduction(int width)
 {
     int by = 1;

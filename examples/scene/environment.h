@@ -7,8 +7,7 @@
  * lower one. Its middle lies along -z of the world, to the right of it +x; for another
  * up than +y it is turned the shortest way.
  */
-#ifndef GLSSAO_EXAMPLES_ENVIRONMENT_H
-#define GLSSAO_EXAMPLES_ENVIRONMENT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -30,9 +29,9 @@ typedef struct environment {
     float irradiance[9][3];
 } environment;
 
-/* A PNG or JPEG (sRGB), or a Radiance picture (linear). Such a file says nothing of exposure: where it would give a
- * white surface more than 1 it is dimmed as a whole, so that this is the most that the six directions along the axes
- * get. NULL, with one line in `error` that names the file and the fault, on failure. */
+/* A PNG, JPEG or WebP (sRGB), or a Radiance picture (linear). The file does not say how bright it is to look. If it
+ * would give a white surface more than 1, the whole picture is dimmed so that the brightest of the six directions along
+ * the axes gets 1. NULL, with one line in `error` that names the file and the fault, on failure. */
 environment *environment_load(const char *path, char *error, size_t error_size);
 void environment_destroy(environment *e);
 
@@ -45,5 +44,3 @@ void environment_mirrored(const environment *e, int level, const float direction
 
 /* Fills mirrors and irradiance from the sky. False where memory is short. */
 bool environment_light(environment *e);
-
-#endif

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * What an environment gives a surface: Ramamoorthi and Hanrahan 2001, "An Efficient Representation for Irradiance
- * Environment Maps", for matte ones; for mirrors the sums of GGX lobes of Karis 2013, "Real Shading in Unreal Engine
- * 4", seen along the normal, whose samples read levels of a pyramid as large as their share of the lobe (Krivanek and
- * Colbert 2008, "Real-time Shading with Filtered Importance Sampling").
+ * The light that a surface gets from an environment: Ramamoorthi and Hanrahan 2001, "An Efficient Representation for
+ * Irradiance Environment Maps", for matte ones; for mirrors the sums of GGX lobes of Karis 2013, "Real Shading in
+ * Unreal Engine 4", seen along the normal, whose samples read levels of a pyramid as large as their share of the lobe
+ * (Krivanek and Colbert 2008, "Real-time Shading with Filtered Importance Sampling").
  */
 #include "environment.h"
 
@@ -112,7 +112,7 @@ static void basis(const float n[3], float out[9])
     memcpy(out, terms, sizeof terms);
 }
 
-/* Radiance on the harmonics, each times what a cosine lobe leaves of it over pi: 1, 2/3, 1/4. */
+/* Projects radiance onto the harmonics. Each is multiplied by its factor under a cosine lobe over pi: 1, 2/3, 1/4. */
 static void project(environment *e)
 {
     /* Squares of the harmonics' constants. */

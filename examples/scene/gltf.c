@@ -101,7 +101,7 @@ static int agreement(const scene *s, const uint32_t *corners)
     return dot > 0.0 ? 1 : dot < 0.0 ? -1 : 0;
 }
 
-/* Files are made whose normals point inwards. Some thousand triangles of each primitive tell. */
+/* Some programs write normals that point inwards. A few thousand triangles of each primitive are enough to tell. */
 static bool warn_of_normals(gltf_loader *l)
 {
     enum { TRIANGLES = 4096 };

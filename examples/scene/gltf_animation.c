@@ -121,7 +121,7 @@ static void evaluate(const track *k, path target, double time_s, double *out)
                                    : spline(from + i, from + each + i, k->width, t, seconds);
 }
 
-/* How many numbers a channel's value has; 0, with the fault set, where it may not be there. */
+/* The number of numbers in a channel's value; 0, with the fault set, if the node may not have such a channel. */
 static size_t value_width(gltf_loader *l, size_t channel, path target)
 {
     const gltf_document *d = l->document;

@@ -65,7 +65,8 @@ bool is_placeholder(const gltf_object &buffer)
 gltf_buffer read_buffer(gltf_owner *owner, gltf_source *source, const gltf_object &from, bool is_first)
 {
     if (!from.find("uri")) {
-        // Without a URI only the first is the BIN chunk; what unpacking fills needs no bytes of its own.
+        // Without a URI only the first buffer is the BIN chunk. A buffer that unpacking fills needs no bytes of its
+        // own.
         if (is_first && owner->file.bin_size && !is_placeholder(from))
             return {owner->file.data + owner->file.bin_begin, owner->file.bin_size};
         return {nullptr, 0};

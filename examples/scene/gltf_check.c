@@ -13,7 +13,7 @@
 #include "scene_fault.h"
 
 enum { MOST_NODE_DEPTH = 256 };
-static const double rounding = 1e-4; /* that a factor may be out of range by */
+static const double rounding = 1e-4; /* by which a factor may be out of range */
 
 int gltf_find_attribute(const gltf_attribute_list *list, const char *name)
 {
@@ -48,7 +48,7 @@ size_t gltf_element_size(const gltf_accessor *accessor)
     return column * (size_t)accessor->columns;
 }
 
-/* An owner's reference that it need not have. */
+/* An owner's optional reference. */
 static bool check_index(int index, size_t count, const char *owner, size_t number, const char *what, scene_fault *fault)
 {
     if (index == -1 || (index >= 0 && (size_t)index < count))
@@ -56,7 +56,7 @@ static bool check_index(int index, size_t count, const char *owner, size_t numbe
     return scene_fail(fault, "%s %zu: %s %d does not exist, there are %zu", owner, number, what, index, count);
 }
 
-/* A reference that it must have. */
+/* A required reference. */
 static bool need_index(int index, size_t count, const char *owner, size_t number, const char *what, scene_fault *fault)
 {
     if (index == -1)

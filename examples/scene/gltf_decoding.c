@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Decodes the images of what is shown on other threads, while the loader reads geometry.
+ * Decodes the images that the shown nodes use, on other threads, while the loader reads geometry.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "gltf_decoding.h"

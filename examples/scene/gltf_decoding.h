@@ -2,8 +2,7 @@
  *
  * Images that are decoded ahead of their use.
  */
-#ifndef GLSSAO_EXAMPLES_GLTF_DECODING_H
-#define GLSSAO_EXAMPLES_GLTF_DECODING_H
+#pragma once
 
 #include "gltf_loader.h"
 
@@ -22,13 +21,11 @@ const char *gltf_find_image(gltf_loader *l, int image, gltf_encoded *out);
 /* False where it cannot be decoded. */
 bool gltf_decode(gltf_encoded encoded, scene_image *out);
 
-/* Starts to decode the images of what is shown. gltf_decoding_end is due in either case. False, with the fault set,
- * where the file fails. */
+/* Starts to decode the images that the shown nodes use. gltf_decoding_end is due in either case. False, with the fault
+ * set, where the file fails. */
 bool gltf_decoding_begin(gltf_loader *l);
 void gltf_decoding_end(gltf_decoding *d);
 
 /* The image, to be asked for once, waiting for it if need be: it is the caller's. Otherwise why there is none, or the
  * fault is set. */
 const char *gltf_decoding_take(gltf_loader *l, int image, scene_image *out);
-
-#endif

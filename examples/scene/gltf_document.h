@@ -5,8 +5,7 @@
  * gltf_check() every index, range and count in the document holds, so that the rest of the loader may follow them
  * freely. Indices are -1 where the file names none.
  */
-#ifndef GLSSAO_EXAMPLES_GLTF_DOCUMENT_H
-#define GLSSAO_EXAMPLES_GLTF_DOCUMENT_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -218,5 +217,4 @@ size_t gltf_element_size(const gltf_accessor *accessor);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

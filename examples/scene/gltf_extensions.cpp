@@ -9,7 +9,7 @@
 namespace
 {
 
-// Drawn as they say, or without any influence on a picture.
+// Drawn as they say, or without influence on a picture.
 const char *const known[] = {"EXT_mesh_gpu_instancing",
                              "KHR_lights_punctual",
                              "KHR_materials_emissive_strength",
@@ -27,7 +27,7 @@ const char *const known[] = {"EXT_mesh_gpu_instancing",
                              "KHR_xmp_json_ld",
                              "CESIUM_RTC"};
 
-// Drawn with what glTF itself says of the surface or the node.
+// Drawn with glTF's own description of the surface or the node.
 const struct {
     const char *name, *instead;
 } approximated[] = {

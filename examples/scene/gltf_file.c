@@ -53,8 +53,8 @@ static bool is_bin_chunk(const gltf_file *f, size_t at)
     return at <= f->size && f->size - at >= CHUNK_HEADER && !memcmp(f->data + at + 4, "BIN", 4);
 }
 
-/* Chunks should be multiples of 4 bytes long. Of writers that forget it, some put the next chunk right behind, others
- * where it would have to be. */
+/* Chunks should be multiples of 4 bytes long. Some programs forget the padding and put the next chunk right behind;
+ * others put it where the padding would end. */
 static bool find_bin(gltf_file *f, size_t at, scene_fault *fault)
 {
     const size_t aligned = (at + 3) / 4 * 4;

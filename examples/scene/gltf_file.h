@@ -3,8 +3,7 @@
  * A glTF file's bytes: its JSON, and the BIN chunk of a GLB. Whatever is found here lies inside the file, and the JSON
  * is neither nested so deeply nor so full that parsing it would take the stack or the memory.
  */
-#ifndef GLSSAO_EXAMPLES_GLTF_FILE_H
-#define GLSSAO_EXAMPLES_GLTF_FILE_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -38,5 +37,4 @@ const char *gltf_file_name(const char *path);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

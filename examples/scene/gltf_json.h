@@ -2,8 +2,7 @@
 //
 // Reads members of JSON objects and checks their types. A wrong type throws a gltf_json_error whose text names the
 // object and the member. C++ only.
-#ifndef GLSSAO_EXAMPLES_GLTF_JSON_H
-#define GLSSAO_EXAMPLES_GLTF_JSON_H
+#pragma once
 
 #include <cmath>
 #include <cstddef>
@@ -152,5 +151,3 @@ class gltf_object
     const json &value_;
     std::string name_;
 };
-
-#endif

@@ -3,8 +3,7 @@
  * State shared by the parts of the glTF loader: the checked document, the scene under construction, and the limits on
  * time and memory.
  */
-#ifndef GLSSAO_EXAMPLES_GLTF_LOADER_H
-#define GLSSAO_EXAMPLES_GLTF_LOADER_H
+#pragma once
 
 #include "gltf_document.h"
 #include "scene_builder.h"
@@ -145,5 +144,3 @@ bool gltf_visit_shown(gltf_loader *l, bool (*visit)(gltf_loader *l, size_t node)
 bool gltf_add_scene(gltf_loader *l);
 /* gltf.c: one warning that names what gltf_add_scene left out. */
 bool gltf_warn_of_omissions(gltf_loader *l);
-
-#endif

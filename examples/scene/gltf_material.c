@@ -143,7 +143,7 @@ static bool translate_material(gltf_loader *l, int number, scene_material *out)
     out->alpha_cutoff = (float)fmax(from->alpha_cutoff, 0);
     out->double_sided = from->double_sided;
     out->unlit = from->unlit;
-    if (out->unlit) /* nothing else of it is seen */
+    if (out->unlit) /* no other property shows */
         return true;
     out->metallic = share(from->metallic);
     out->roughness = share(from->roughness);
@@ -204,7 +204,7 @@ int gltf_add_opaque(gltf_loader *l, int material)
 {
     const scene *s = l->builder->made;
     scene_material opaque = s->materials[material];
-    const float full = 254.5f / 255; /* what eight bits round to 1 */
+    const float full = 254.5f / 255; /* eight bits round it to 1 */
     const int texture = opaque.base_color_texture;
     if (opaque.alpha != SCENE_ALPHA_BLEND || opaque.base_color[3] < full ||
         (texture >= 0 && !s->images[s->textures[texture].image].opaque))

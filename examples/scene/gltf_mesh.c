@@ -139,11 +139,10 @@ static bool add_shapes(gltf_loader *l, gltf_triangles *shapes, int material, sce
         return false;
     if (normal_map->used && !gltf_add_tangents(l, shapes, normal_map->uv))
         return false;
-    uint32_t *to = scene_builder_add_indices(l->builder, shapes->count, &first);
-    if (!to)
-        return false;
-    memcpy(to, shapes->indices, shapes->count * sizeof *to);
-    if (!scene_builder_add_primitive(l->builder, first, material))
+    uint32_t *const indices = shapes->indices;
+    shapes->indices = NULL;
+    if (!scene_builder_take_indices(l->builder, indices, shapes->count, &first) ||
+        !scene_builder_add_primitive(l->builder, first, material))
         return false;
     scene_primitive *made = &l->builder->made->primitives[l->builder->made->primitive_count - 1];
     made->topology = topology;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // tinygltf's model of the document, for the files that fill a gltf_document from it. C++ only.
-#ifndef GLSSAO_EXAMPLES_GLTF_MODEL_H
-#define GLSSAO_EXAMPLES_GLTF_MODEL_H
+#pragma once
 
 #include "gltf_owner.h"
 
@@ -65,5 +64,3 @@ template <size_t N> void copy_numbers(const tinygltf::Value &object, const char 
         std::transform(from.begin(), from.end(), out,
                        [](const tinygltf::Value &value) { return value.GetNumberAsDouble(); });
 }
-
-#endif

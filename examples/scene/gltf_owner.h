@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Owns the memory behind a gltf_document's pointers, for the files that fill the document. C++ only.
-#ifndef GLSSAO_EXAMPLES_GLTF_OWNER_H
-#define GLSSAO_EXAMPLES_GLTF_OWNER_H
+#pragma once
 
 #include "gltf_document.h"
 #include "gltf_file.h"
@@ -112,5 +111,3 @@ void gltf_unpack_primitives(gltf_owner *owner, gltf_source *source, const gltf_o
 // gltf_extensions.cpp: refuses a file that requires an unknown extension, and warns of extensions that are
 // approximated.
 void gltf_check_extensions(gltf_source *source, const gltf_object &root);
-
-#endif

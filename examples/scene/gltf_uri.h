@@ -2,8 +2,7 @@
  *
  * URIs in glTF files: data URIs, and names of files beside the glTF file.
  */
-#ifndef GLSSAO_EXAMPLES_GLTF_URI_H
-#define GLSSAO_EXAMPLES_GLTF_URI_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -27,5 +26,4 @@ char *gltf_uri_find_file(const char *uri, const char *folder, const char *root);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

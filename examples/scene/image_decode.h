@@ -2,8 +2,7 @@
  *
  * Decodes PNG, JPEG and, where this was built with libwebp, WebP.
  */
-#ifndef GLSSAO_EXAMPLES_IMAGE_DECODE_H
-#define GLSSAO_EXAMPLES_IMAGE_DECODE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -12,5 +11,3 @@
 /* RGBA, 8 bits a channel, rows top to bottom, in memory for free(). Colour profiles and gamma are ignored, as glTF
  * asks. False where it cannot be decoded; the caller has looked at the size with image_measure. */
 bool image_decode(const uint8_t *data, size_t size, int *out_width, int *out_height, uint8_t **out_rgba);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * Finds an image's kind and size from its first bytes, before a decoder sees it.
  */
-#ifndef GLSSAO_EXAMPLES_IMAGE_HEADER_H
-#define GLSSAO_EXAMPLES_IMAGE_HEADER_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -24,5 +23,3 @@ image_kind image_find_kind(const uint8_t *data, size_t size);
 /* The size in pixels of a PNG, a JPEG (the largest that it names) or a WebP. False for other kinds, and where the head
  * is damaged. */
 bool image_measure(const uint8_t *data, size_t size, unsigned *out_width, unsigned *out_height);
-
-#endif

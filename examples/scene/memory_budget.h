@@ -3,8 +3,7 @@
  * Limits the memory that loading a file may take. The loader charges each allocation before making it. A small hostile
  * file therefore costs no more than the budget, and a large file fails only at the end of the budget.
  */
-#ifndef GLSSAO_EXAMPLES_MEMORY_BUDGET_H
-#define GLSSAO_EXAMPLES_MEMORY_BUDGET_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -27,5 +26,4 @@ bool memory_budget_charge(memory_budget *b, uint64_t bytes, const char *what, sc
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -3,8 +3,7 @@
  * Writes and reads pictures: PNG, JPEG, WebP, and PFM (Portable Float Map, little-endian float32) for linear data. Rows
  * go from bottom to top, as OpenGL reads them.
  */
-#ifndef GLSSAO_EXAMPLES_PICTURE_H
-#define GLSSAO_EXAMPLES_PICTURE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -41,5 +40,3 @@ float *picture_read_pfm(const char *path, int *out_width, int *out_height, int *
 /* Reads an 8-bit PNG as RGBA, rows bottom to top. The caller frees the pixels. NULL, with one line in `error`, on
  * failure. */
 uint8_t *picture_read_png(const char *path, int *out_width, int *out_height, char *error, size_t error_size);
-
-#endif

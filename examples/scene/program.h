@@ -2,8 +2,7 @@
  *
  * Programs of the scene's draw passes: compiling a variant, and the locations of every uniform any of them has.
  */
-#ifndef GLSSAO_EXAMPLES_PROGRAM_H
-#define GLSSAO_EXAMPLES_PROGRAM_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -82,5 +81,3 @@ typedef struct draw_program {
  * and the driver's log in one line of `error`. */
 bool draw_program_build(draw_program *p, const char *what, const char *vertex_source, const char *shared_source,
                         const char *fragment_source, unsigned variant, char *error, size_t error_size);
-
-#endif

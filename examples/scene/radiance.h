@@ -3,8 +3,7 @@
  * Radiance's picture format (.hdr, .pic) after Ward 1991, "Real Pixels", and the file format's own description: colours
  * of three mantissas and a common exponent, rows from the top, flat or in runs. No OpenGL.
  */
-#ifndef GLSSAO_EXAMPLES_RADIANCE_H
-#define GLSSAO_EXAMPLES_RADIANCE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -24,5 +23,3 @@ bool radiance_open(radiance *r, const uint8_t *data, size_t size);
 /* The next row: linear RGB, `width` of them; `scratch` has room for 4 bytes of each. False where the file is cut off or
  * damaged. */
 bool radiance_read_row(radiance *r, uint8_t *scratch, float *out_rgb);
-
-#endif

@@ -5,8 +5,7 @@
  * y up, lengths in scene units; its zero is moved to the scene's middle where that is far away (scene.origin).
  * Matrices are column-major (cglm's mat4 as float[16]).
  */
-#ifndef GLSSAO_EXAMPLES_SCENE_H
-#define GLSSAO_EXAMPLES_SCENE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -78,7 +77,7 @@ typedef struct scene_primitive {
     uint32_t first_index, index_count;
     int material;
     scene_topology topology;
-    bool white; /* the vertices are known to have no other colour; false: they may have */
+    bool white; /* no vertex has another colour; false: not known */
     bool flat;  /* the file has no normals: each triangle's own is its normal, and the vertices' are not to be used */
     float bounds_min[3], bounds_max[3]; /* mesh space */
 } scene_primitive;
@@ -175,5 +174,4 @@ void scene_destroy(scene *s);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -90,6 +90,22 @@ uint32_t *scene_builder_add_indices(scene_builder *b, uint32_t count, uint32_t *
     return all + *out_first;
 }
 
+bool scene_builder_take_indices(scene_builder *b, uint32_t *indices, uint32_t count, uint32_t *out_first)
+{
+    if (b->made->index_count == 0) {
+        free(b->made->indices);
+        b->made->indices = indices;
+        b->room[INDICES] = b->made->index_count = count;
+        *out_first = 0;
+        return true;
+    }
+    uint32_t *to = scene_builder_add_indices(b, count, out_first);
+    if (to)
+        memcpy(to, indices, count * sizeof *to);
+    free(indices);
+    return to;
+}
+
 int scene_builder_add_material(scene_builder *b, const scene_material *material)
 {
     scene *s = b->made;

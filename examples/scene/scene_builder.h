@@ -4,8 +4,7 @@
  * keeps the counts, sorts the instances by mesh, measures the bounds, and moves the world's zero to the middle of a
  * scene that is far from it. Until then places are in double precision.
  */
-#ifndef GLSSAO_EXAMPLES_SCENE_BUILDER_H
-#define GLSSAO_EXAMPLES_SCENE_BUILDER_H
+#pragma once
 
 #include "scene.h"
 #include "scene_fault.h"
@@ -34,6 +33,8 @@ bool scene_builder_begin(scene_builder *b, const char *name, scene_fault *fault)
  * pointer lives until the next call for the same array. */
 scene_vertex *scene_builder_add_vertices(scene_builder *b, uint32_t count, uint32_t *out_first);
 uint32_t *scene_builder_add_indices(scene_builder *b, uint32_t count, uint32_t *out_first);
+/* The same from an array on the heap, which becomes the scene's, even on failure: a large mesh is not copied. */
+bool scene_builder_take_indices(scene_builder *b, uint32_t *indices, uint32_t count, uint32_t *out_first);
 
 /* Copies the element in and returns its index, -1 on failure. An image's pixels become the scene's, even then. */
 int scene_builder_add_material(scene_builder *b, const scene_material *material);
@@ -76,5 +77,3 @@ scene *scene_builder_finish(scene_builder *b);
 
 /* Frees what was put together so far. */
 void scene_builder_abandon(scene_builder *b);
-
-#endif

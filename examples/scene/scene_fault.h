@@ -2,13 +2,10 @@
  *
  * The scene's names for fault.h.
  */
-#ifndef GLSSAO_EXAMPLES_SCENE_FAULT_H
-#define GLSSAO_EXAMPLES_SCENE_FAULT_H
+#pragma once
 
 #include "fault.h"
 
 typedef failure scene_fault;
 #define scene_fail fault_set
 #define scene_fail_memory fault_set_memory
-
-#endif

@@ -3,8 +3,7 @@
  * Warnings: one line for each thing in a file that is drawn differently from what the file asks for, or not at all.
  * With `strict`, the first warning is a fault instead.
  */
-#ifndef GLSSAO_EXAMPLES_SCENE_WARNINGS_H
-#define GLSSAO_EXAMPLES_SCENE_WARNINGS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -32,5 +31,4 @@ void scene_warnings_free(scene_warnings *w);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

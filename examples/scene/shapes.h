@@ -3,8 +3,7 @@
  * Simple solids for the built-in scenes: each adds vertices and indices to the scene under construction, front faces
  * counter-clockwise, normals outwards. The caller makes primitives of them.
  */
-#ifndef GLSSAO_EXAMPLES_SHAPES_H
-#define GLSSAO_EXAMPLES_SHAPES_H
+#pragma once
 
 #include "scene_builder.h"
 
@@ -21,5 +20,3 @@ bool shape_cylinder(scene_builder *b, float bottom_radius, float top_radius, flo
 
 /* About the origin. */
 bool shape_sphere(scene_builder *b, float radius, uint32_t slices, uint32_t stacks);
-
-#endif

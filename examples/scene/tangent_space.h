@@ -3,8 +3,7 @@
  * Tangents for normal maps by the rules of MikkTSpace (Mikkelsen 2008, "Simulation of Wrinkled Surfaces Revisited"),
  * which glTF prescribes where a file has none, so that maps baked elsewhere shade as they were meant to.
  */
-#ifndef GLSSAO_EXAMPLES_TANGENT_SPACE_H
-#define GLSSAO_EXAMPLES_TANGENT_SPACE_H
+#pragma once
 
 #include "scene.h"
 
@@ -13,5 +12,3 @@
  * vector at right angles to the normal. False where memory is short. */
 bool tangent_space_make(const scene_vertex *vertices, int uv, const uint32_t *indices, uint32_t index_count,
                         float (*out)[4]);
-
-#endif

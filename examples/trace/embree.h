@@ -3,8 +3,7 @@
  * Hides the differences between Embree 3 and 4: the header, the per-query context, and the two queries. Embree 4 takes
  * flags and context in an arguments struct. Filter functions set on a geometry work in both.
  */
-#ifndef GLSSAO_EXAMPLES_EMBREE_H
-#define GLSSAO_EXAMPLES_EMBREE_H
+#pragma once
 
 #if GLSSAO_HAS_EMBREE >= 4
 #include <embree4/rtcore.h>
@@ -64,5 +63,3 @@ static inline void embree_occluded(RTCScene scene, embree_context *context, cons
     rtcOccluded16(valid, scene, context, rays);
 #endif
 }
-
-#endif

@@ -6,8 +6,7 @@
  * Opaque and alpha-tested triangles block rays from both sides. Texels below an alpha test's cut-off let rays through.
  * Blended materials, lines and points block nothing, as they are not in the depth buffer either.
  */
-#ifndef GLSSAO_EXAMPLES_TRACE_H
-#define GLSSAO_EXAMPLES_TRACE_H
+#pragma once
 
 #include "draw.h"
 #include "scene.h"
@@ -109,5 +108,3 @@ typedef enum trace_distribution { TRACE_COSINE = 0, TRACE_UNIFORM } trace_distri
 bool trace_points(const trace_scene *t, const float (*positions)[3], const float (*normals)[3], size_t count,
                   trace_distribution distribution, float offset, const trace_options *options, float *out_accessibility,
                   trace_stats *out_stats, char *error, size_t error_size);
-
-#endif

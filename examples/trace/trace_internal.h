@@ -3,8 +3,7 @@
  * The members of a trace_scene, and the interfaces between the parts of the tracer: the scene in Embree, filters,
  * surface points, primary rays, samples, occlusion rays, threads.
  */
-#ifndef GLSSAO_EXAMPLES_TRACE_INTERNAL_H
-#define GLSSAO_EXAMPLES_TRACE_INTERNAL_H
+#pragma once
 
 #include "embree.h"
 #include "trace.h"
@@ -135,5 +134,3 @@ float trace_point_accessibility(const trace_scene *t, const trace_samples *sampl
  * many as there are cores. */
 void trace_run_jobs(int threads, size_t count, void (*work)(size_t job, void *user), void *user,
                     trace_progress_fn progress, void *progress_user);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * Dear ImGui as plain C: only the widgets that the viewer uses. gui.cpp is the only C++ of the viewer.
  */
-#ifndef GLSSAO_EXAMPLES_GUI_H
-#define GLSSAO_EXAMPLES_GUI_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -67,5 +66,4 @@ void gui_notice(const char *text, bool is_error);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -3,6 +3,7 @@
  * glssao-view: opens a window and updates it when something happens.
  */
 #include "gui.h"
+#include "heap.h"
 #include "statistics.h"
 #include "streams.h"
 #include "viewer.h"
@@ -138,6 +139,7 @@ int main(int argc, char **argv)
 {
     static viewer v; /* too large for the stack; starts as 0 */
     streams_guard("glssao-view", EXIT_NOT_SHOWN);
+    heap_keep_freed();
     switch (options_parse_for_viewer(argc, argv, &v.options, FAULT(v.error))) {
     case OPTIONS_DONE:
         return EXIT_DONE;

@@ -2,8 +2,7 @@
  *
  * Moves a camera by hand.
  */
-#ifndef GLSSAO_EXAMPLES_NAVIGATE_H
-#define GLSSAO_EXAMPLES_NAVIGATE_H
+#pragma once
 
 #include "camera.h"
 
@@ -23,5 +22,3 @@ void navigate_zoom(camera *c, float factor);
 
 /* Moves eye and target by scene units: along the line of sight, to the right, and along the axis. */
 void navigate_walk(camera *c, const float axis[3], float ahead, float right, float up);
-
-#endif

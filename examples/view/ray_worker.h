@@ -4,8 +4,7 @@
  * acceleration structure first. A new request ends the last one within moments, and no call waits for tracing but the
  * last.
  */
-#ifndef GLSSAO_EXAMPLES_RAY_WORKER_H
-#define GLSSAO_EXAMPLES_RAY_WORKER_H
+#pragma once
 
 #include "fault.h"
 #include "trace.h"
@@ -35,5 +34,3 @@ void ray_worker_forget(ray_worker *w);
 int ray_worker_read(ray_worker *w, float *out, failure *why);
 /* Waits for the thread, at most for an acceleration structure that is being built. NULL is allowed. */
 void ray_worker_stop(ray_worker *w);
-
-#endif

@@ -3,8 +3,7 @@
  * Traces accessibility in the background, in rounds of a few rays a pixel. Their mean improves with each round and can
  * be shown at any time.
  */
-#ifndef GLSSAO_EXAMPLES_TRUTH_JOB_H
-#define GLSSAO_EXAMPLES_TRUTH_JOB_H
+#pragma once
 
 #include "draw.h"
 #include "fault.h"
@@ -27,5 +26,3 @@ int truth_job_read(truth_job *j, float *out, failure *why);
 
 /* Ends the tracing within moments. NULL is allowed. */
 void truth_job_stop(truth_job *j);
-
-#endif

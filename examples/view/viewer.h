@@ -3,8 +3,7 @@
  * The state of the viewer, and the functions of its parts: scene and frame pipeline (viewer.c), the screen (display.c),
  * the mouse (input.c), keys (keys.c), the panel (panel.c, panel_settings.c), pictures and command lines (save.c).
  */
-#ifndef GLSSAO_EXAMPLES_VIEWER_H
-#define GLSSAO_EXAMPLES_VIEWER_H
+#pragma once
 
 #include "options.h"
 #include "pipeline.h"
@@ -178,5 +177,3 @@ void viewer_save_picture(viewer *v);
 /* Writes the glssao-render command line that makes this picture. False if it does not fit. */
 bool viewer_command_line(const viewer *v, char *out, size_t out_size);
 void viewer_copy_command_line(viewer *v);
-
-#endif

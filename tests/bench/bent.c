@@ -81,13 +81,10 @@ static figures compare(const subject *s, const float *got, int stride)
 
 static void add_row(table *t, const subject *s, const char *id, const char *inputs, figures f)
 {
-    const double cells[] = {f.mean, f.rms, f.median, f.p95, f.occluded};
     table_text(t, id);
     table_text(t, inputs);
     table_text(t, s->view->name);
-    for (size_t i = 0; i < sizeof cells / sizeof cells[0]; i++)
-        table_number(t, cells[i]);
-    table_end_row(t);
+    TABLE_END_ROW(t, f.mean, f.rms, f.median, f.p95, f.occluded);
 }
 
 static bool run(const subject *s, effects *e, const glssao_settings *settings, bool depth_alone, int estimates,
@@ -118,13 +115,10 @@ static bool run(const subject *s, effects *e, const glssao_settings *settings, b
 static bool measure_light(const results *r, const subject *s, const char *id, table *t, char *error, size_t error_size)
 {
     const bent_light_error e = bent_light_measure(&s->light, s->got);
-    const double cells[] = {e.matte, e.matte_bent, e.glossy, e.glossy_lobe, e.glossy_bent};
     char path[1024];
     table_text(t, id);
     table_text(t, s->view->name);
-    for (size_t i = 0; i < sizeof cells / sizeof cells[0]; i++)
-        table_number(t, cells[i]);
-    table_end_row(t);
+    TABLE_END_ROW(t, e.matte, e.matte_bent, e.glossy, e.glossy_lobe, e.glossy_bent);
     if (strcmp(id, "horizon-high") != 0)
         return true;
     snprintf(path, sizeof path, "%s/bent-%s.png", r->options->out, s->view->name);

@@ -2,8 +2,7 @@
  *
  * How far bent normals are off the traced mean open direction.
  */
-#ifndef GLSSAO_BENCH_BENT_H
-#define GLSSAO_BENCH_BENT_H
+#pragma once
 
 #include "effects.h"
 #include "results.h"
@@ -12,5 +11,3 @@
  * r->options->check it also fails where a level is no better than the normal itself. False, with one line in `error`.
  */
 bool bent_measure(const results *r, effects *e, char *error, size_t error_size);
-
-#endif

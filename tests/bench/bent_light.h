@@ -3,8 +3,7 @@
  * What bent normals are worth: a matte and a glossy surface under a sky with a lamp, lit by accessibility alone, by
  * bent normals, and by rays.
  */
-#ifndef GLSSAO_BENCH_BENT_LIGHT_H
-#define GLSSAO_BENCH_BENT_LIGHT_H
+#pragma once
 
 #include "results.h"
 
@@ -31,5 +30,3 @@ bent_light_error bent_light_measure(const bent_light *b, const float *bent);
 
 /* Writes a picture: by accessibility, by bent normals, by rays; matte above, glossy below. */
 bool bent_light_write(const bent_light *b, const float *bent, const char *path, char *error, size_t error_size);
-
-#endif

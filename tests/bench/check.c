@@ -54,6 +54,34 @@ static bool check_split(const results *r, char *error, size_t error_size)
     return true;
 }
 
+/* The mean of a configuration's squared RMSE; NAN where it is not measured. */
+static double mean_square(const results *r, bool denoised, int rays)
+{
+    double sum = NAN;
+    for (int i = 0; i < r->config_count; i++) {
+        const bench_config *c = &r->configs[i].config;
+        if (c->kind != BENCH_RAYS || c->rays != rays || c->denoised != denoised)
+            continue;
+        sum = 0;
+        for (int v = 0; v < r->view_count; v++)
+            sum += r->configs[i].views[v].error.rmse * r->configs[i].views[v].error.rmse / r->view_count;
+    }
+    return sum;
+}
+
+/* Few rays gain by denoising. */
+static bool check_denoiser(const results *r, char *error, size_t error_size)
+{
+    for (int rays = 1; rays <= 4; rays *= 2) {
+        const double plain = mean_square(r, false, rays), denoised = mean_square(r, true, rays);
+        if (denoised > plain) {
+            snprintf(error, error_size, "%d rays: rmse %g, denoised %g", rays, sqrt(plain), sqrt(denoised));
+            return false;
+        }
+    }
+    return true;
+}
+
 static double rmse(const float *a, const float *b, const uint8_t *foreground, size_t count)
 {
     double sum = 0, pixels = 0;
@@ -108,5 +136,6 @@ bool check_results(const results *r, char *error, size_t error_size)
         for (int v = 0; v < r->view_count; v++)
             if (!check_view(r, &r->configs[i], v, error, error_size))
                 return false;
-    return check_split(r, error, error_size) && check_rays(r, &r->scenes[0], error, error_size);
+    return check_split(r, error, error_size) && check_denoiser(r, error, error_size) &&
+           check_rays(r, &r->scenes[0], error, error_size);
 }

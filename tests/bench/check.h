@@ -2,8 +2,7 @@
  *
  * What must hold of any run on any machine. No bound is a number that was measured once.
  */
-#ifndef GLSSAO_BENCH_CHECK_H
-#define GLSSAO_BENCH_CHECK_H
+#pragma once
 
 #include "results.h"
 
@@ -11,5 +10,3 @@
  * rays come nearer to the converged truth, traced on the first scene. False, with one line in `error` that names the
  * first fault. */
 bool check_results(const results *r, char *error, size_t error_size);
-
-#endif

@@ -108,9 +108,13 @@ static bool taken(const glssao_effect *effect, const glssao_settings *settings)
 
 static int add_rays(const options *o, bench_config *out, int count)
 {
-    for (int rays = 1; rays <= o->most_rays && count < BENCH_CONFIGS_MAX; rays *= 2) {
-        bench_config c = {.kind = BENCH_RAYS, .level = true, .rays = rays};
-        snprintf(c.id, sizeof c.id, "rays-%d", rays);
+    for (int i = 0; 1 << i / 2 <= o->most_rays && count < BENCH_CONFIGS_MAX; i++) {
+        bench_config c = {.kind = BENCH_RAYS,
+                          .level = true,
+                          .denoised = i % 2,
+                          .settings = glssao_default_settings(GLSSAO_RAYS, GLSSAO_HIGH),
+                          .rays = 1 << i / 2};
+        snprintf(c.id, sizeof c.id, "rays-%d%s", c.rays, c.denoised ? "-denoised" : "");
         if (options_match(o->only, c.id))
             out[count++] = c;
     }
@@ -128,7 +132,6 @@ static int add_traced(const options *o, bench_config *out, int count)
     } rows[] = {{GLSSAO_RAYS, GLSSAO_LOW, 0, false},      {GLSSAO_RAYS, GLSSAO_MEDIUM, 0, false},
                 {GLSSAO_RAYS, GLSSAO_HIGH, 0, false},     {GLSSAO_RAYS, GLSSAO_ULTRA, 0, false},
                 {GLSSAO_RAYS, GLSSAO_MEDIUM, 0, true},    {GLSSAO_RAYS, GLSSAO_HIGH, 0, true},
-                {GLSSAO_RAYS, GLSSAO_HIGH, 1, false},     {GLSSAO_RAYS, GLSSAO_ULTRA, 32, false},
                 {GLSSAO_HORIZON, GLSSAO_LOW, 2, false},   {GLSSAO_HORIZON, GLSSAO_MEDIUM, 2, false},
                 {GLSSAO_HORIZON, GLSSAO_HIGH, 1, false},  {GLSSAO_HORIZON, GLSSAO_HIGH, 2, false},
                 {GLSSAO_HORIZON, GLSSAO_HIGH, 2, true},   {GLSSAO_HORIZON, GLSSAO_HIGH, 4, false},
@@ -168,6 +171,8 @@ static int add_peers(const options *o, bench_config *out, int count)
 int bench_configs_list(const options *o, const glssao_effect *effect, bench_config out[BENCH_CONFIGS_MAX])
 {
     int count = 0;
+    if (o->record)
+        return add_peers(o, out, 0);
     for (int t = 0; t < BENCH_TECHNIQUES; t++) {
         for (int level = GLSSAO_LOW; level <= GLSSAO_ULTRA; level++) {
             const glssao_settings base = glssao_default_settings((glssao_technique)t, (glssao_quality)level);

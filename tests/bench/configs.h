@@ -3,8 +3,7 @@
  * The configurations that are measured: each technique at each quality level; the default level with one setting
  * changed; and ray tracing with few rays.
  */
-#ifndef GLSSAO_BENCH_CONFIGS_H
-#define GLSSAO_BENCH_CONFIGS_H
+#pragma once
 
 #include "options.h"
 
@@ -19,15 +18,17 @@ typedef enum bench_kind { BENCH_EFFECT = 0, BENCH_RAYS, BENCH_PEER, BENCH_TRACED
 typedef enum bench_inputs { INPUTS_NORMALS = 0, INPUTS_DEPTH, INPUTS_BEYOND } bench_inputs;
 
 typedef struct bench_config {
-    char id[48]; /* stable: technique-level, or technique-level-change; rays-N; the peer's name; rays-level, or
-                    technique-level-with-N-rays, where -adaptive may follow */
+    char id[48]; /* stable: technique-level, or technique-level-change; rays-N, rays-N-denoised; the peer's name;
+                    rays-level, or technique-level-with-N-rays, where -adaptive may follow */
     bench_kind kind;
     bench_inputs inputs;
-    bool level;               /* a quality level as it comes */
-    glssao_settings settings; /* BENCH_EFFECT, BENCH_TRACED; lengths as glssao_default_settings gives them */
-    bool adaptive;            /* BENCH_TRACED: about so many rays, where they are needed */
-    int rays;                 /* BENCH_RAYS: a pixel; BENCH_TRACED: a pixel of the estimate */
-    int peer;                 /* BENCH_PEER: its number */
+    bool level; /* a quality level as it comes */
+    glssao_settings
+        settings;  /* BENCH_EFFECT, BENCH_TRACED, and of the denoiser; lengths as glssao_default_settings gives them */
+    bool adaptive; /* BENCH_TRACED: about so many rays, where they are needed */
+    bool denoised; /* BENCH_RAYS: by GLSSAO_RAYS at full size */
+    int rays;      /* BENCH_RAYS: a pixel; BENCH_TRACED: a pixel of the estimate */
+    int peer;      /* BENCH_PEER: its number */
 } bench_config;
 
 /* Fills `out` and returns how many there are. Settings that `effect` refuses are left out. */
@@ -42,5 +43,3 @@ bool bench_has_contrast(const bench_config *c);
 
 /* The settings with every length scaled along to another radius. */
 glssao_settings bench_scale_settings(const glssao_settings *settings, float radius);
-
-#endif

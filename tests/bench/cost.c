@@ -12,6 +12,7 @@
 #include "scenes.h"
 #include "statistics.h"
 #include "table.h"
+#include "tool.h"
 #include "truth.h"
 
 #include <glssao/glssao.h>
@@ -24,7 +25,6 @@
 enum { LEVELS = GLSSAO_ULTRA + 1, CASES = 2 * LEVELS, WARM_UP = 1, IN_A_ROW = 50 };
 static const int sizes[][2] = {{854, 480}, {1280, 720}, {1920, 1080}, {2560, 1440}, {3840, 2160}};
 static const double radii[] = {0.25, 0.5, 1, 2, 4};
-static const char *const inputs[2] = {"normals", "depth"};
 
 typedef struct cost {
     options options;
@@ -44,12 +44,6 @@ typedef struct stage {
     double first_ms[CASES], bytes[CASES];
     double compute_ms[CASES], apply_ms[CASES];
 } stage;
-
-static const char *level_name(int which)
-{
-    static const char *const names[LEVELS] = {"horizon-low", "horizon-medium", "horizon-high", "horizon-ultra"};
-    return names[which % LEVELS];
-}
 
 static glssao_settings settings_of(int which, double radius)
 {
@@ -145,15 +139,19 @@ static bool time_stage(cost *c, stage *s, double radius, bool apply, double out_
     return done;
 }
 
+static void add_case(table *t, int which)
+{
+    static const char *const names[LEVELS] = {"horizon-low", "horizon-medium", "horizon-high", "horizon-ultra"};
+    table_text(t, names[which % LEVELS]);
+    table_text(t, which < LEVELS ? "normals" : "depth");
+}
+
 static void add_sweep(table *t, const char *kind, double value, const double ms[CASES])
 {
     for (int i = 0; i < CASES; i++) {
         table_text(t, kind);
-        table_text(t, level_name(i));
-        table_text(t, inputs[i / LEVELS]);
-        table_number(t, value);
-        table_number(t, ms[i]);
-        table_end_row(t);
+        add_case(t, i);
+        TABLE_END_ROW(t, value, ms[i]);
     }
 }
 
@@ -164,13 +162,8 @@ static bool write_host(cost *c, const stage *s)
                      c->error, sizeof c->error))
         return false;
     for (int i = 0; i < CASES; i++) {
-        table_text(&t, level_name(i));
-        table_text(&t, inputs[i / LEVELS]);
-        table_number(&t, s->compute_ms[i]);
-        table_number(&t, s->apply_ms[i]);
-        table_number(&t, s->first_ms[i]);
-        table_number(&t, s->bytes[i] / 1048576);
-        table_end_row(&t);
+        add_case(&t, i);
+        TABLE_END_ROW(&t, s->compute_ms[i], s->apply_ms[i], s->first_ms[i], s->bytes[i] / 1048576);
     }
     return table_end(&t, c->error, sizeof c->error);
 }
@@ -222,13 +215,8 @@ static bool choose_scene(cost *c)
 static bool measure(cost *c)
 {
     table t;
-    if (!make_folder(c->options.out)) {
-        snprintf(c->error, sizeof c->error, "%s: no such folder can be made", c->options.out);
-        return false;
-    }
-    c->context =
-        context_create(&(context_options){.kind = (context_kind)c->options.context}, c->error, sizeof c->error);
-    if (!c->context || !gl_load(context_load, c->context, c->error, sizeof c->error) || !choose_scene(c))
+    c->context = tool_open(&c->options, c->error, sizeof c->error);
+    if (!c->context || !choose_scene(c))
         return false;
     c->software = context_is_software(c->context);
     if (!table_begin(&t, &c->options, c->context, "sweep", "kind configuration inputs value ms", c->error,
@@ -241,15 +229,10 @@ static bool measure(cost *c)
 int main(int argc, char **argv)
 {
     static cost c;
-    const options_result parsed = options_parse(argc, argv, &c.options, c.error, sizeof c.error);
-    if (parsed != OPTIONS_RUN) {
-        if (parsed == OPTIONS_WRONG)
-            fprintf(stderr, "glssao-cost: %s\n", c.error);
-        return parsed == OPTIONS_WRONG ? 2 : 0;
-    }
+    const int code = tool_begin("glssao-cost", argc, argv, &c.options);
+    if (code >= 0)
+        return code;
     const bool done = measure(&c);
-    if (!done)
-        fprintf(stderr, "glssao-cost: %s\n", c.error);
     context_destroy(c.context);
-    return done ? 0 : 1;
+    return tool_end("glssao-cost", done, c.error);
 }

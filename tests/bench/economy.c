@@ -13,6 +13,7 @@
 #include "measure.h"
 #include "scenes.h"
 #include "statistics.h"
+#include "tool.h"
 #include "truth.h"
 
 #include <math.h>
@@ -21,7 +22,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, WARM_UP_FRAMES = 2 };
+enum { WARM_UP_FRAMES = 2 };
 
 static const struct {
     const char *name;
@@ -228,11 +229,10 @@ static bool measure(economy *e, char *error, size_t error_size)
     setenv("MESA_SHADER_CACHE_DIR", folder, 1);
     setenv("__GL_SHADER_DISK_CACHE_PATH", folder, 1);
     const int count = bench_scenes_list(e->options, scenes);
-    e->context = context_create(&(context_options){.kind = (context_kind)e->options->context}, error, error_size);
-    if (!e->context || !gl_load(context_load, e->context, error, error_size))
+    e->context = tool_open(e->options, error, error_size);
+    if (!e->context)
         return false;
     e->software = context_is_software(e->context);
-    fprintf(stderr, "context: %s\n", context_description(e->context));
     e->rows = calloc((size_t)(count + 1) * ECONOMY_CONFIGS, sizeof *e->rows);
     e->wholes = calloc((size_t)count + 1, sizeof *e->wholes);
     if (!e->rows || !e->wholes || !measure_firsts(e, folder, error, error_size))
@@ -251,20 +251,15 @@ int main(int argc, char **argv)
 {
     static options o;
     static char error[4096];
-    const options_result parsed = options_parse(argc, argv, &o, error, sizeof error);
-    if (parsed != OPTIONS_RUN) {
-        if (parsed == OPTIONS_WRONG)
-            fprintf(stderr, "glssao-economy: %s\n", error);
-        return parsed == OPTIONS_WRONG ? EXIT_USAGE : EXIT_DONE;
-    }
+    const int code = tool_begin("glssao-economy", argc, argv, &o);
+    if (code >= 0)
+        return code;
     static economy e;
     e.options = &o;
     e.step_scene = o.time_scene;
     const bool done = measure(&e, error, sizeof error);
-    if (!done)
-        fprintf(stderr, "glssao-economy: %s\n", error);
     free(e.rows);
     free(e.wholes);
     context_destroy(e.context);
-    return done ? EXIT_DONE : EXIT_FAILED;
+    return tool_end("glssao-economy", done, error);
 }

@@ -3,8 +3,7 @@
  * What glssao-economy measures: scenes with all tiles and with tiles skipped; a frame as effects are added; pictures of
  * which a growing share needs no work; and the first frame.
  */
-#ifndef GLSSAO_BENCH_ECONOMY_H
-#define GLSSAO_BENCH_ECONOMY_H
+#pragma once
 
 #include "context.h"
 #include "gbuffer.h"
@@ -78,5 +77,3 @@ bool economy_measure_shares(economy *e, char *error, size_t error_size);
 
 /* economy_report.c: writes economy-*.tsv into the output folder. */
 bool economy_write(const economy *e, char *error, size_t error_size);
-
-#endif

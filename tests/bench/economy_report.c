@@ -13,25 +13,9 @@ static bool begin(table *t, const economy *e, const char *name, const char *colu
     return table_begin(t, e->options, e->context, name, columns, error, error_size);
 }
 
-static void add(table *t, const double *figures, size_t count)
+static double mib(int64_t bytes)
 {
-    for (size_t i = 0; i < count; i++)
-        table_number(t, figures[i]);
-    table_end_row(t);
-}
-
-static void add_row(table *t, const economy_row *r)
-{
-    const double mib = 1048576;
-    const double figures[] = {r->ms[0],
-                              r->ms[1],
-                              r->skipped,
-                              r->worst,
-                              r->programs[0],
-                              r->programs[1],
-                              (double)r->bytes[0] / mib,
-                              (double)r->bytes[1] / mib};
-    add(t, figures, sizeof figures / sizeof figures[0]);
+    return (double)bytes / 1048576;
 }
 
 static bool write_tiles(const economy *e, char *error, size_t error_size)
@@ -43,9 +27,11 @@ static bool write_tiles(const economy *e, char *error, size_t error_size)
                error, error_size))
         return false;
     for (int i = 0; i < e->row_count; i++) {
-        table_text(&t, e->rows[i].name);
-        table_text(&t, economy_config_name(e->rows[i].config));
-        add_row(&t, &e->rows[i]);
+        const economy_row *r = &e->rows[i];
+        table_text(&t, r->name);
+        table_text(&t, economy_config_name(r->config));
+        TABLE_END_ROW(&t, r->ms[0], r->ms[1], r->skipped, r->worst, r->programs[0], r->programs[1], mib(r->bytes[0]),
+                      mib(r->bytes[1]));
     }
     return table_end(&t, error, error_size);
 }
@@ -60,20 +46,9 @@ static bool write_frames(const economy *e, char *error, size_t error_size)
         return false;
     for (int i = 0; i < e->whole_count; i++) {
         const economy_whole *w = &e->wholes[i];
-        const double mib = 1048576;
-        const double figures[] = {w->ms[0],
-                                  w->ms[1],
-                                  w->skipped,
-                                  w->draws[0],
-                                  w->draws[1],
-                                  w->programs[0],
-                                  w->programs[1],
-                                  w->first_ms[0],
-                                  w->first_ms[1],
-                                  (double)w->bytes[0] / mib,
-                                  (double)w->bytes[1] / mib};
         table_text(&t, w->name);
-        add(&t, figures, sizeof figures / sizeof figures[0]);
+        TABLE_END_ROW(&t, w->ms[0], w->ms[1], w->skipped, w->draws[0], w->draws[1], w->programs[0], w->programs[1],
+                      w->first_ms[0], w->first_ms[1], mib(w->bytes[0]), mib(w->bytes[1]));
     }
     return table_end(&t, error, error_size);
 }
@@ -84,9 +59,8 @@ static bool write_steps(const economy *e, char *error, size_t error_size)
     if (!begin(&t, e, "economy-steps", "effect every_ms planned_ms occlusion_draws", error, error_size))
         return false;
     for (int i = 0; i < ECONOMY_STEPS; i++) {
-        const double figures[] = {e->steps[i].ms[0], e->steps[i].ms[1], e->steps[i].draws};
         table_text(&t, e->steps[i].what);
-        add(&t, figures, sizeof figures / sizeof figures[0]);
+        TABLE_END_ROW(&t, e->steps[i].ms[0], e->steps[i].ms[1], e->steps[i].draws);
     }
     return table_end(&t, error, error_size);
 }
@@ -99,9 +73,8 @@ static bool write_shares(const economy *e, char *error, size_t error_size)
     for (int kind = 0; kind < 2; kind++) {
         for (int i = 0; i < ECONOMY_SHARES; i++) {
             const economy_row *r = &e->shares[kind][i];
-            const double figures[] = {(double)i / (ECONOMY_SHARES - 1), r->ms[0], r->ms[1], r->skipped};
             table_text(&t, kind == 0 ? "sky" : "plane");
-            add(&t, figures, sizeof figures / sizeof figures[0]);
+            TABLE_END_ROW(&t, (double)i / (ECONOMY_SHARES - 1), r->ms[0], r->ms[1], r->skipped);
         }
     }
     return table_end(&t, error, error_size);
@@ -114,7 +87,7 @@ static bool write_firsts(const economy *e, char *error, size_t error_size)
         return false;
     for (int i = 0; i < ECONOMY_FIRSTS; i++) {
         table_text(&t, economy_first_name(i));
-        add(&t, &e->first_ms[i], 1);
+        TABLE_END_ROW(&t, e->first_ms[i]);
     }
     return table_end(&t, error, error_size);
 }

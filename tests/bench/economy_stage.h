@@ -2,8 +2,7 @@
  *
  * Frames of the example renderer, to be timed: a scene, and the objects that draw it.
  */
-#ifndef GLSSAO_BENCH_ECONOMY_STAGE_H
-#define GLSSAO_BENCH_ECONOMY_STAGE_H
+#pragma once
 
 #include "context.h"
 #include "draw.h"
@@ -48,5 +47,3 @@ typedef struct economy_frame {
 
 /* Draws the frame with the configured renderer and waits until it is done. */
 void economy_player_draw(economy_player *p, const economy_frame *frame);
-
-#endif

@@ -3,8 +3,7 @@
  * Runs the effect on stored views. There is one effect for each technique, size and margin, because an effect
  * reallocates its maps when half_resolution changes, and that must not be timed.
  */
-#ifndef GLSSAO_BENCH_EFFECTS_H
-#define GLSSAO_BENCH_EFFECTS_H
+#pragma once
 
 #include "configs.h"
 #include "context.h"
@@ -51,5 +50,3 @@ glssao_effect *effects_get(effects *e, const gbuffer *g, const glssao_settings *
 
 /* Accessibility of the view at full size into `out`. */
 bool effects_run(effects *e, map_reader *m, const effect_job *job, float *out, char *error, size_t error_size);
-
-#endif

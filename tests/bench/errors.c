@@ -46,6 +46,18 @@ static bool run_rays(const results *r, const bench_config *c, int view, float *o
     return traced;
 }
 
+/* Replaces a picture of rays by what GLSSAO_RAYS makes of it. */
+static bool denoise(const bench_config *c, const bench_view *v, effects *e, map_reader *m, float *picture, char *error,
+                    size_t error_size)
+{
+    GLuint plain = gl_make_texture(GL_R32F, GL_RED, GL_FLOAT, v->gbuffer.view.width, v->gbuffer.view.height, picture);
+    const effect_job job = {
+        .gbuffer = &v->gbuffer, .settings = &c->settings, .radius = v->radius, .rays_texture = plain};
+    const bool ran = effects_run(e, m, &job, picture, error, error_size);
+    gl.DeleteTextures(1, &plain);
+    return ran;
+}
+
 static bool run_peer(const results *r, const bench_config *c, int view, float *out, char *error, size_t error_size)
 {
     const bench_view *v = &r->views[view];
@@ -85,7 +97,8 @@ bool errors_run(const results *r, const bench_config *c, int view, bool plain, e
     const bench_view *v = &r->views[view];
     glssao_settings settings = c->settings;
     if (c->kind == BENCH_RAYS)
-        return run_rays(r, c, view, out, error, error_size);
+        return run_rays(r, c, view, out, error, error_size) &&
+               (!c->denoised || denoise(c, v, e, m, out, error, error_size));
     if (c->kind == BENCH_PEER)
         return run_peer(r, c, view, out, error, error_size);
     if (c->kind == BENCH_TRACED)
@@ -190,7 +203,7 @@ bool errors_measure(results *r, effects *e, map_reader *m, char *error, size_t e
     if (!measured)
         snprintf(error, error_size, "out of memory");
     measured = measured && (!r->peers || record_peers(r, error, error_size));
-    for (int i = 0; measured && i < r->config_count; i++) {
+    for (int i = 0; measured && !r->options->record && i < r->config_count; i++) {
         progress_show("error %d/%d: %s", i + 1, r->config_count, r->configs[i].config.id);
         measured = measure_config(r, &r->configs[i], e, m, pictures, fits, error, error_size);
     }

@@ -2,8 +2,7 @@
  *
  * The error of every configuration on every view.
  */
-#ifndef GLSSAO_BENCH_ERRORS_H
-#define GLSSAO_BENCH_ERRORS_H
+#pragma once
 
 #include "effects.h"
 #include "results.h"
@@ -14,5 +13,3 @@ bool errors_run(const results *r, const bench_config *c, int view, bool plain, e
 
 /* Fills the error figures of r->configs. False, with one line in `error`. */
 bool errors_measure(results *r, effects *e, map_reader *m, char *error, size_t error_size);
-
-#endif

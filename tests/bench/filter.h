@@ -2,8 +2,7 @@
  *
  * Separable filters of pictures, for the measures that look at neighbourhoods.
  */
-#ifndef GLSSAO_BENCH_FILTER_H
-#define GLSSAO_BENCH_FILTER_H
+#pragma once
 
 #include <stddef.h>
 
@@ -24,5 +23,3 @@ typedef enum filter_edge { FILTER_REPLICATE, FILTER_ZERO } filter_edge;
  * `out` may be `in`. */
 void filter_picture(const float *in, int width, int height, const kernel *along_x, const kernel *along_y,
                     filter_edge edge, float *scratch, float *out);
-
-#endif

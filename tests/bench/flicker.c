@@ -151,7 +151,7 @@ static bool measure_scene(results *r, int view, motion how, clip *k, effects *e,
     k->count = how == TURNS ? r->options->sequence_frames : ROLL_FRAMES;
     bool done = clip_draw(k, &r->scenes[view], how, m->width, m->height, error, error_size) &&
                 (!k->peers || peers_record_configs(r, k->views, k->count, error, error_size));
-    for (int i = 0; done && i < r->config_count; i++)
+    for (int i = 0; done && !r->options->record && i < r->config_count; i++)
         if (is_measured(&r->configs[i].config))
             done = measure_config(k, &r->configs[i], e, m,
                                   how == TURNS ? &r->configs[i].views[view].frame_change

@@ -4,13 +4,10 @@
  * about its target, and between views that are rolled by 25 degrees. One effect computes the frames in order, so that
  * whatever it keeps from frame to frame counts.
  */
-#ifndef GLSSAO_BENCH_FLICKER_H
-#define GLSSAO_BENCH_FLICKER_H
+#pragma once
 
 #include "effects.h"
 #include "results.h"
 
 /* Fills frame_change and roll_change of every level and peer. False, with one line in `error`. */
 bool flicker_measure(results *r, context *c, char *error, size_t error_size);
-
-#endif

@@ -3,8 +3,7 @@
  * Depth and view-space normals of one view, as textures: what a host hands to the effect. The scene is needed only
  * while they are drawn.
  */
-#ifndef GLSSAO_BENCH_GBUFFER_H
-#define GLSSAO_BENCH_GBUFFER_H
+#pragma once
 
 #include "draw.h"
 #include "gl.h"
@@ -35,5 +34,3 @@ void gbuffer_read(const gbuffer *g, float **out_distance, float **out_normals);
 
 /* Scene units of view distance that one step of the depth buffer stands for, at that view distance. */
 double gbuffer_depth_step(const gbuffer *g, double distance);
-
-#endif

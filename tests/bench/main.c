@@ -11,7 +11,6 @@
 #include "effects.h"
 #include "errors.h"
 #include "flicker.h"
-#include "gl.h"
 #include "options.h"
 #include "peers.h"
 #include "report.h"
@@ -19,6 +18,8 @@
 #include "split.h"
 #include "strips.h"
 #include "times.h"
+#include "tool.h"
+#include "words.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -26,7 +27,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, ERROR_LENGTH = 4096 };
+enum { ERROR_LENGTH = 4096 };
 
 typedef struct run {
     options options;
@@ -40,13 +41,11 @@ typedef struct run {
 
 static bool open_context(run *r)
 {
-    r->context =
-        context_create(&(context_options){.kind = (context_kind)r->options.context}, r->error, sizeof r->error);
-    if (!r->context || !gl_load(context_load, r->context, r->error, sizeof r->error))
+    r->context = tool_open(&r->options, r->error, sizeof r->error);
+    if (!r->context)
         return false;
     r->results.context = r->context;
     r->results.software = context_is_software(r->context);
-    fprintf(stderr, "context: %s\n", context_description(r->context));
     r->effects = (effects){.context = r->context,
                            .width = r->options.size[0],
                            .height = r->options.size[1],
@@ -153,10 +152,6 @@ static bool measure(run *r)
     const double start_ms = clock_wall_ms();
     out->options = &r->options;
     out->cores = (int)sysconf(_SC_NPROCESSORS_ONLN);
-    if (!make_folder(r->options.out)) {
-        snprintf(r->error, sizeof r->error, "%s: no such folder can be made", r->options.out);
-        return false;
-    }
     double phase_ms = start_ms;
     if (!open_context(r))
         return false;
@@ -182,6 +177,8 @@ static bool measure(run *r)
     if (!take_times(r))
         return false;
     end_phase("times", &phase_ms);
+    if (r->options.record)
+        return true;
     if (r->options.split_seeds > 0 && !split_measure(out, r->context, &r->reader, r->error, sizeof r->error))
         return false;
     end_phase("split", &phase_ms);
@@ -211,9 +208,8 @@ static void release(run *r)
 
 const config_result *results_level(const results *r, glssao_technique technique, glssao_quality level)
 {
-    static const char *const names[] = {"low", "medium", "high", "ultra"};
     char id[48];
-    snprintf(id, sizeof id, "%s-%s", bench_technique_name(technique), names[level]);
+    snprintf(id, sizeof id, "%s-%s", bench_technique_name(technique), words_at(QUALITY_WORDS, (int)level).text);
     for (int i = 0; i < r->config_count; i++)
         if (strcmp(r->configs[i].config.id, id) == 0)
             return &r->configs[i];
@@ -223,16 +219,11 @@ const config_result *results_level(const results *r, glssao_technique technique,
 int main(int argc, char **argv)
 {
     static run r;
-    const options_result parsed = options_parse(argc, argv, &r.options, r.error, sizeof r.error);
-    if (parsed != OPTIONS_RUN) {
-        if (parsed == OPTIONS_WRONG)
-            fprintf(stderr, "glssao-bench: %s\n", r.error);
-        return parsed == OPTIONS_WRONG ? EXIT_USAGE : EXIT_DONE;
-    }
+    const int code = tool_begin("glssao-bench", argc, argv, &r.options);
+    if (code >= 0)
+        return code;
     r.options.flat = !r.options.bent;
     const bool done = measure(&r);
-    if (!done)
-        fprintf(stderr, "glssao-bench: %s\n", r.error);
     release(&r);
-    return done ? EXIT_DONE : EXIT_FAILED;
+    return tool_end("glssao-bench", done, r.error);
 }

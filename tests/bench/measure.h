@@ -2,8 +2,7 @@
  *
  * Error measures between a picture of accessibility and the truth, pixel by pixel, over the pixels that show a surface.
  */
-#ifndef GLSSAO_BENCH_MEASURE_H
-#define GLSSAO_BENCH_MEASURE_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -35,5 +34,3 @@ void fit_merge(fit_sum *f, const fit_sum *from);
 double fit_rmse(const fit_sum *f, double exponent);
 /* The exponent in 0.1 to 8 with the smallest RMSE. */
 double fit_exponent(const fit_sum *f);
-
-#endif

@@ -4,7 +4,7 @@
  * truth for every fourth frame. Prints a table to standard output. With --check it also writes a film of each motion:
  * film-SCENE-MOTION-SETTING.png in the output folder. `--paths NAME,...` before other options picks motions.
  */
-#define _POSIX_C_SOURCE 200809L
+#include "clock.h"
 #include "context.h"
 #include "effects.h"
 #include "error_color.h"
@@ -14,13 +14,14 @@
 #include "picture.h"
 #include "scenes.h"
 #include "sequence.h"
+#include "tool.h"
 #include "truth.h"
+#include "words.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { ERROR_LENGTH = 4096, FRAMES_MAX = 64, CONFIGS_MAX = 32, TRUTH_EVERY = 4, WARM = 15 };
 static const double ERROR_RANGE = 0.25; /* gets the full colour */
@@ -58,13 +59,6 @@ typedef struct config {
     char name[32];
     glssao_settings settings;
 } config;
-
-static double cpu_ms(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
-}
 
 /* Where each point was in the last frame, by the demo's renderer, which keeps the pose before. */
 static bool draw_motion(motion *m, const scene *s, shot *now, const shot *before)
@@ -236,10 +230,10 @@ static bool run_config(motion *m, const config *c, bench_path path, float **resu
         frame.motion_texture = k->motion;
         frame.cut = path == PATH_CUT && i == PATH_EVENT;
         gl.Finish();
-        const double before = cpu_ms();
+        const double before = clock_cpu_ms();
         done = effect && glssao_compute(effect, &frame, &s) == GLSSAO_OK;
         gl.Finish();
-        f->cpu_ms = i > 0 ? fmin(f->cpu_ms, cpu_ms() - before) : INFINITY;
+        f->cpu_ms = i > 0 ? fmin(f->cpu_ms, clock_cpu_ms() - before) : INFINITY;
         if (done)
             map_reader_read(&m->reader, effect, results[i]);
         if (done && k->truth.accessibility && i >= WARM)
@@ -280,14 +274,13 @@ static int find_lag(const motion *m, float *const *single, float *const *result)
 
 static int list_configs(config out[CONFIGS_MAX])
 {
-    static const char *const names[] = {"low", "medium", "high", "ultra"};
     int n = 0;
     for (int q = 0; q < 4; q++)
         for (int h = 0; h < 2; h++) {
             config *c = &out[n++];
             c->settings = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)q);
             c->settings.history = h == 0 ? 0 : 16;
-            snprintf(c->name, sizeof c->name, "%s%s", names[q], h == 0 ? "" : "-16");
+            snprintf(c->name, sizeof c->name, "%.8s%s", words_at(QUALITY_WORDS, q).text, h == 0 ? "" : "-16");
         }
     return n;
 }
@@ -337,11 +330,9 @@ static bool run_motion(motion *m, const bench_scene *b, bench_path path)
 static bool run(motion *m, const char *paths)
 {
     bench_scene scenes[BENCH_SCENES_MAX];
-    m->context =
-        context_create(&(context_options){.kind = (context_kind)m->options.context}, m->error, sizeof m->error);
-    if (!m->context || !gl_load(context_load, m->context, m->error, sizeof m->error) ||
-        !map_reader_create(&m->reader, m->options.size[0], m->options.size[1], m->error, sizeof m->error) ||
-        !make_folder(m->options.out))
+    m->context = tool_open(&m->options, m->error, sizeof m->error);
+    if (!m->context ||
+        !map_reader_create(&m->reader, m->options.size[0], m->options.size[1], m->error, sizeof m->error))
         return false;
     const int count = bench_scenes_list(&m->options, scenes);
     printf("# %s\n# context=%s\tsize=%dx%d\trays=%d\n", m->options.command, context_description(m->context),
@@ -367,17 +358,13 @@ int main(int argc, char **argv)
         argv += 2;
         argc -= 2;
     }
-    const options_result parsed = options_parse(argc, argv, &m.options, m.error, sizeof m.error);
-    if (parsed != OPTIONS_RUN) {
-        fprintf(stderr, "glssao-motion: %s\n", m.error);
-        return 2;
-    }
+    const int code = tool_begin("glssao-motion", argc, argv, &m.options);
+    if (code >= 0)
+        return code;
     if (m.options.sequence_frames > FRAMES_MAX)
         m.options.sequence_frames = FRAMES_MAX;
     const bool done = run(&m, paths);
-    if (!done)
-        fprintf(stderr, "glssao-motion: %s\n", m.error);
     map_reader_destroy(&m.reader);
     context_destroy(m.context);
-    return done ? 0 : 1;
+    return tool_end("glssao-motion", done, m.error);
 }

@@ -4,64 +4,46 @@
  */
 #include "options.h"
 
-#include "option.h"
+#include "option_rows.h"
 #include "words.h"
 
 #include <stdio.h>
 #include <string.h>
 
 #define AT(member) offsetof(options, member)
-#define TEXT(name, value, help, member)                                                                                \
-    {                                                                                                                  \
-        0, name, value, help, OPTION_TEXT, AT(member), 0, 0, "", 0                                                     \
-    }
-#define WHOLE(name, help, member, min, max)                                                                            \
-    {                                                                                                                  \
-        0, name, "N", help, OPTION_INT, AT(member), min, max, "a whole number from " #min " to " #max, 0               \
-    }
-#define SIZE(name, help, member)                                                                                       \
-    {                                                                                                                  \
-        0, name, "WxH", help, OPTION_SIZE, AT(member), 16, 8192, "WxH with sides from 16 to 8192", 0                   \
-    }
-#define FLAG(name, help, member)                                                                                       \
-    {                                                                                                                  \
-        0, name, NULL, help, OPTION_FLAG, AT(member), 0, 0, NULL, 0                                                    \
-    }
-#define WORD(name, words, help, member)                                                                                \
-    {                                                                                                                  \
-        0, name, words, help, OPTION_WORD, AT(member), 0, 0, words, 0                                                  \
-    }
 static const option table[] = {
-    TEXT("scenes", "DIR", "folder of glTF scenes, measured beside the built-in ones", scenes),
-    TEXT("pick", "NAME,...", "only scenes whose name holds one of these", pick),
-    TEXT("only", "ID,...", "only configurations whose id holds one of these", only),
-    FLAG("all-views", "every view of every scene, not the first of the main ones", all_views),
-    FLAG("peer-grid", "peers with many settings, to find their best; with --only PEER", peer_grid),
-    SIZE("size", "size at which errors are measured (960x540)", size),
-    WHOLE("rays", "rays a pixel of the truth (512)", rays, 1, 1048576),
-    TEXT("cache", "DIR", "where traced truths are kept (out/bench-cache)", cache),
-    SIZE("time-size", "size at which times are taken (1920x1080)", time_size),
-    WHOLE("frames", "timed frames of each configuration, 0: no times (15)", frames, 0, 10000),
-    TEXT("time-scene", "NAME", "the scene times are taken on (steps)", time_scene),
-    FLAG("time-all", "times on every scene", time_all),
-    WHOLE("most-rays", "ray tracing as a peer with 1, 2, 4 to N rays a pixel, 0: none (512)", most_rays, 0, 65536),
-    WHOLE("sequence-frames", "frames of a moving camera for frame and roll change, 0: none (6)", sequence_frames, 0,
-          1000),
-    WHOLE("oracle-step", "the error is split on one pixel of every N x N (4)", oracle_step, 1, 64),
-    WHOLE("oracle-rays", "rays a pixel through the depth map (256)", oracle_rays, 1, 65536),
-    WHOLE("split-seeds", "seeds whose mean stands for convergence, 0: no split (64)", split_seeds, 0, 4096),
-    TEXT("out", "DIR", "where tables and pictures are written (out/bench)", out),
-    TEXT("peers", "NODE_MODULES", "also the effects of the npm packages there (docs/comparison.md)", peers),
-    FLAG("bent", "bent normals of every level of horizon, and nothing else", bent),
-    FLAG("quick", "built-in scenes, small and rough: under 3 minutes on 2 cores", quick),
-    FLAG("check", "also fails where figures are not finite or not in the right order", check),
-    WORD("context", CONTEXT_WORDS, "how to get OpenGL (auto)", context),
-    WORD("path", PATH_WORDS, "fragment or compute shaders, where both will do (auto)", path),
-    WHOLE("fold", "glssao-tune: searches on even scenes (0), on odd ones (1), or on all (2)", fold, 0, 2),
-    WHOLE("rounds", "glssao-tune: passes over its constants (12)", rounds, 0, 1000),
-    {0, "seed", "N", "of every random input (0)", OPTION_SEED, AT(seed), 0, 4294967295.0,
-     "a whole number from 0 to 4294967295", 0},
-    FLAG("help", "prints this", help),
+    TEXT("scenes", "DIR", 0, scenes, "folder of glTF scenes, measured beside the built-in ones"),
+    TEXT("pick", "NAME,...", 0, pick, "only scenes whose name holds one of these"),
+    TEXT("only", "ID,...", 0, only, "only configurations whose id holds one of these"),
+    FLAG(0, "all-views", 0, all_views, "every view of every scene, not the first of the main ones"),
+    FLAG(0, "peer-grid", 0, peer_grid, "peers with many settings, to find their best; with --only PEER"),
+    RANGE(SIZE, "size", "WxH", 0, size, 16, 8192, "size at which errors are measured (960x540)"),
+    RANGE(INT, "rays", "N", 0, rays, 1, 1048576, "rays a pixel of the truth (512)"),
+    TEXT("cache", "DIR", 0, cache, "where traced truths are kept (out/bench-cache)"),
+    RANGE(SIZE, "time-size", "WxH", 0, time_size, 16, 8192, "size at which times are taken (1920x1080)"),
+    RANGE(INT, "frames", "N", 0, frames, 0, 10000, "timed frames of each configuration, 0: no times (15)"),
+    TEXT("time-scene", "NAME", 0, time_scene, "the scene times are taken on (steps)"),
+    FLAG(0, "time-all", 0, time_all, "times on every scene"),
+    RANGE(INT, "most-rays", "N", 0, most_rays, 0, 65536,
+          "ray tracing as a peer with 1, 2, 4 to N rays a pixel, 0: none (512)"),
+    RANGE(INT, "sequence-frames", "N", 0, sequence_frames, 0, 1000,
+          "frames of a moving camera for frame and roll change, 0: none (6)"),
+    RANGE(INT, "oracle-step", "N", 0, oracle_step, 1, 64, "the error is split on one pixel of every N x N (4)"),
+    RANGE(INT, "oracle-rays", "N", 0, oracle_rays, 1, 65536, "rays a pixel through the depth map (256)"),
+    RANGE(INT, "split-seeds", "N", 0, split_seeds, 0, 4096,
+          "seeds whose mean stands for convergence, 0: no split (64)"),
+    TEXT("out", "DIR", 0, out, "where tables and pictures are written (out/bench)"),
+    TEXT("peers", "NODE_MODULES", 0, peers, "also the effects of the npm packages there (docs/comparison.md)"),
+    FLAG(0, "record", 0, record, "only records what the peers draw, for machines without node, and measures nothing"),
+    FLAG(0, "bent", 0, bent, "bent normals of every level of horizon, and nothing else"),
+    FLAG(0, "quick", 0, quick, "built-in scenes, small and rough: under 3 minutes on 2 cores"),
+    FLAG(0, "check", 0, check, "also fails where figures are not finite or not in the right order"),
+    WORD("context", CONTEXT_WORDS, 0, context, CONTEXT_WORDS, "how to get OpenGL (auto)"),
+    WORD("path", PATH_WORDS, 0, path, PATH_WORDS, "fragment or compute shaders, where both will do (auto)"),
+    RANGE(INT, "fold", "N", 0, fold, 0, 2, "glssao-tune: searches on even scenes (0), on odd ones (1), or on all (2)"),
+    RANGE(INT, "rounds", "N", 0, rounds, 0, 1000, "glssao-tune: passes over its constants (12)"),
+    RANGE(SEED, "seed", "N", 0, seed, 0, 4294967295.0, "of every random input (0)"),
+    FLAG(0, "help", 0, help, "prints this"),
 };
 static const option_set set = {table, sizeof table / sizeof table[0], NULL, NULL, 0};
 
@@ -130,6 +112,11 @@ options_result options_parse(int argc, char **argv, options *out, char *error, s
             set_quick(out);
     if (!option_parse(&set, argc, argv, out, &(failure){.text = error, .size = error_size}))
         return OPTIONS_WRONG;
+    if (out->record && !out->peers) {
+        snprintf(error, error_size, "--record: there is nothing to record without --peers");
+        return OPTIONS_WRONG;
+    }
+    out->rays = out->record ? 1 : out->rays; /* nothing is compared with the truth */
     keep_command(argc, argv, out);
     if (out->help)
         print_help();

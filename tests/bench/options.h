@@ -2,8 +2,7 @@
  *
  * The command line of glssao-bench, parsed and checked.
  */
-#ifndef GLSSAO_BENCH_OPTIONS_H
-#define GLSSAO_BENCH_OPTIONS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -22,7 +21,7 @@ typedef struct options {
     int oracle_step, oracle_rays, split_seeds;
     int context, path; /* context_kind, glssao_path */
     uint32_t seed;
-    bool peer_grid, all_views, time_all, bent, quick, check, help;
+    bool peer_grid, all_views, time_all, record, bent, quick, check, help;
     bool flat;          /* truths about the surfaces' own normals are wanted, too */
     char command[1024]; /* as typed, without the program's folder */
 } options;
@@ -35,5 +34,3 @@ options_result options_parse(int argc, char **argv, options *out, char *error, s
 
 /* True where one of the comma-separated words occurs in `text`, or `words` is NULL. */
 bool options_match(const char *words, const char *text);
-
-#endif

@@ -3,8 +3,7 @@
  * The best that one depth layer can give: rays marched densely through the depth map, in plain C. Its error is the
  * error of every screen-space technique that sees only this layer, except for a better estimate of thickness.
  */
-#ifndef GLSSAO_BENCH_ORACLE_H
-#define GLSSAO_BENCH_ORACLE_H
+#pragma once
 
 #include "results.h"
 #include "views.h"
@@ -23,5 +22,3 @@ sampled_pixels oracle_pixels(const bench_view *v, int step, uint32_t seed);
  * short. */
 bool oracle_march(const bench_view *v, const sampled_pixels *pixels, int rays, int threads, uint32_t seed,
                   const double thickness[THICKNESS_COUNT], float *const out[THICKNESS_COUNT]);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * Recorded motions: how the camera, or a thing in the scene, moves from frame to frame.
  */
-#ifndef GLSSAO_BENCH_PATHS_H
-#define GLSSAO_BENCH_PATHS_H
+#pragma once
 
 #include "camera.h"
 
@@ -31,5 +30,3 @@ camera path_camera(bench_path path, const camera *start, int frame);
 bool path_moves_things(bench_path path);
 /* Puts them to where they are in that frame; frames come in order. False where there are none. */
 bool path_move_things(bench_path path, scene *s, int frame);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * Effects of npm packages as peers: node records what each draws for a view (peers/record.mjs), replay.h draws it.
  */
-#ifndef GLSSAO_BENCH_PEERS_H
-#define GLSSAO_BENCH_PEERS_H
+#pragma once
 
 #include "replay.h"
 #include "results.h"
@@ -41,5 +40,3 @@ replay *peers_load(peer_bench *b, int number, const peer_view *v, char *error, s
 
 /* The median view distance of the pixels that show a surface; 1 where there are none. */
 float peers_distance(const float *distance, size_t count);
-
-#endif

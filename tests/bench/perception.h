@@ -9,8 +9,7 @@
  * Alternating Images", HPG 2020. Accessibility is shown as linear grey: a white surface under ambient light alone.
  * For grey pictures the paper's two colour channels are 0, so only its achromatic channel is computed.
  */
-#ifndef GLSSAO_BENCH_PERCEPTION_H
-#define GLSSAO_BENCH_PERCEPTION_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -35,5 +34,3 @@ double perception_ssim(perception *p, const float *picture);
 
 /* Mean FLIP: 0 for equal pictures, at most 1. The viewer sees 67 pixels a degree, the paper's default. */
 double perception_flip(perception *p, const float *picture);
-
-#endif

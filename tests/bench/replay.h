@@ -2,8 +2,7 @@
  *
  * Draws the passes of a peer's recording (peers/recording.mjs writes them).
  */
-#ifndef GLSSAO_BENCH_REPLAY_H
-#define GLSSAO_BENCH_REPLAY_H
+#pragma once
 
 #include "context.h"
 #include "gbuffer.h"
@@ -40,5 +39,3 @@ void replay_draw(replayer *r, const replay *p, const replay_inputs *in);
 double replay_gpu_ms(replayer *r, const replay *p, const replay_inputs *in);
 /* The red channel of the output, at full size; false, with one line in `error`, where it has another size. */
 bool replay_read(const replay *p, int width, int height, float *out, char *error, size_t error_size);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * A recording in memory, for loading and drawing.
  */
-#ifndef GLSSAO_BENCH_REPLAY_INTERNAL_H
-#define GLSSAO_BENCH_REPLAY_INTERNAL_H
+#pragma once
 
 #include "replay.h"
 
@@ -59,5 +58,3 @@ struct replayer {
 
 GLuint replay_make_texture(GLenum internal, GLenum format, GLenum type, const int size[2], bool linear, bool repeat,
                            const void *data);
-
-#endif

@@ -12,9 +12,7 @@ static void add_time(table *t, const timing *time)
 {
     static const glssao_pass passes[] = {GLSSAO_PASS_NORMALS, GLSSAO_PASS_DISTANCE, GLSSAO_PASS_ESTIMATE,
                                          GLSSAO_PASS_BLUR, GLSSAO_PASS_UPSAMPLE};
-    table_number(t, time->median_ms);
-    table_number(t, time->p95_ms);
-    table_number(t, time->cpu_ms);
+    TABLE_NUMBERS(t, time->median_ms, time->p95_ms, time->cpu_ms);
     for (size_t i = 0; i < sizeof passes / sizeof passes[0]; i++)
         table_number(t, time->pass_ms[passes[i]]);
 }
@@ -48,31 +46,12 @@ bool report_accuracy(const results *r, char *error, size_t error_size)
         for (int v = 0; v < r->view_count; v++) {
             const view_result *m = &c->views[v];
             const error_measure *e = &m->error;
-            const double figures[] = {e->rmse,
-                                      e->mean,
-                                      e->p95,
-                                      e->p99,
-                                      e->off_share,
-                                      e->nonfinite_share,
-                                      e->smooth_rmse,
-                                      e->edge_rmse,
-                                      m->ssim,
-                                      m->flip,
-                                      m->grain,
-                                      m->specks,
-                                      m->frame_change,
-                                      m->roll_change,
-                                      c->exponent,
-                                      m->by_default_rmse,
-                                      m->by_default_mean,
-                                      m->own_exponent,
-                                      m->own_rmse,
-                                      m->flat_rmse,
-                                      m->flat_mean};
             add_config(&t, &c->config);
             table_text(&t, r->views[v].name);
-            for (size_t k = 0; k < sizeof figures / sizeof figures[0]; k++)
-                table_number(&t, figures[k]);
+            TABLE_NUMBERS(&t, e->rmse, e->mean, e->p95, e->p99, e->off_share, e->nonfinite_share, e->smooth_rmse,
+                          e->edge_rmse, m->ssim, m->flip, m->grain, m->specks, m->frame_change, m->roll_change,
+                          c->exponent, m->by_default_rmse, m->by_default_mean, m->own_exponent, m->own_rmse,
+                          m->flat_rmse, m->flat_mean);
             add_time(&t, &m->time);
             table_end_row(&t);
         }
@@ -90,10 +69,7 @@ bool report_scenes(const results *r, char *error, size_t error_size)
         const bench_view *b = &r->views[v];
         table_text(&t, b->name);
         table_text(&t, r->scenes[v].judging ? "judging" : "tuning");
-        const double figures[] = {(double)b->radius, b->triangles, b->coverage, b->edge_share, b->tilted_share};
-        for (size_t k = 0; k < sizeof figures / sizeof figures[0]; k++)
-            table_number(&t, figures[k]);
-        table_end_row(&t);
+        TABLE_END_ROW(&t, (double)b->radius, b->triangles, b->coverage, b->edge_share, b->tilted_share);
     }
     return table_end(&t, error, error_size);
 }
@@ -111,8 +87,7 @@ static bool report_oracle(const results *r, char *error, size_t error_size)
             table_text(&t, r->views[v].name);
             table_text(&t, text);
             table_text(&t, k == r->oracle.best ? "1" : "0");
-            table_number(&t, r->oracle.rmse[v][k]);
-            table_end_row(&t);
+            TABLE_END_ROW(&t, r->oracle.rmse[v][k]);
         }
     }
     return table_end(&t, error, error_size);
@@ -133,9 +108,7 @@ bool report_split(const results *r, char *error, size_t error_size)
                 table_text(&t, s->of->config.id);
                 table_text(&t, r->views[v].name);
                 table_text(&t, steps[k]);
-                table_number(&t, s->views[v].alone[k]);
-                table_number(&t, s->views[v].total[k]);
-                table_end_row(&t);
+                TABLE_END_ROW(&t, s->views[v].alone[k], s->views[v].total[k]);
             }
         }
     }

@@ -3,8 +3,7 @@
  * The tables of glssao-bench, in the output folder. Each call returns false, with one line in `error`, where a file
  * could not be written.
  */
-#ifndef GLSSAO_BENCH_REPORT_H
-#define GLSSAO_BENCH_REPORT_H
+#pragma once
 
 #include "results.h"
 
@@ -14,5 +13,3 @@ bool report_accuracy(const results *r, char *error, size_t error_size);
 bool report_scenes(const results *r, char *error, size_t error_size);
 /* split.tsv: one row for each split configuration, scene and step; oracle.tsv: for each scene and thickness. */
 bool report_split(const results *r, char *error, size_t error_size);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * Everything a run finds out.
  */
-#ifndef GLSSAO_BENCH_RESULTS_H
-#define GLSSAO_BENCH_RESULTS_H
+#pragma once
 
 #include "configs.h"
 #include "context.h"
@@ -86,5 +85,3 @@ typedef struct results {
 
 /* The quality level of a technique as it comes; NULL where it was not measured. */
 const config_result *results_level(const results *r, glssao_technique technique, glssao_quality level);
-
-#endif

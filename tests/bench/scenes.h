@@ -2,8 +2,7 @@
  *
  * Which scenes are measured, from where, and with which radius.
  */
-#ifndef GLSSAO_BENCH_SCENES_H
-#define GLSSAO_BENCH_SCENES_H
+#pragma once
 
 #include "camera.h"
 #include "options.h"
@@ -29,5 +28,3 @@ camera bench_scene_camera(const bench_scene *b, const scene *s, float aspect);
 /* Loads it and gives the view at that size. NULL, with one line in `error`, on failure. */
 scene *bench_scene_open(const bench_scene *b, int width, int height, scene_view *out_view, float *out_radius,
                         char *error, size_t error_size);
-
-#endif

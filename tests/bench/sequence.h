@@ -6,8 +6,7 @@
  * The true accessibility of a point that stands still is the same in both frames. So the change of the error is the
  * change of the result, and no truth has to be traced.
  */
-#ifndef GLSSAO_BENCH_SEQUENCE_H
-#define GLSSAO_BENCH_SEQUENCE_H
+#pragma once
 
 #include "draw.h"
 
@@ -30,5 +29,3 @@ void sequence_compare(frame_change *c, const sequence_frame *before, const seque
 
 /* Sets a 1 for each pixel of `now` that shows a point that was not seen in `before`, by the same measure, else a 0. */
 void sequence_find_new(const sequence_frame *before, const sequence_frame *now, unsigned char *out_new);
-
-#endif

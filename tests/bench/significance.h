@@ -4,8 +4,7 @@
  * testing many pixels at once. Subr and Arvo, "Statistical Hypothesis Testing for Assessing Monte Carlo Estimators",
  * Pacific Graphics 2007.
  */
-#ifndef GLSSAO_BENCH_SIGNIFICANCE_H
-#define GLSSAO_BENCH_SIGNIFICANCE_H
+#pragma once
 
 #include <stddef.h>
 
@@ -28,5 +27,3 @@ double student_p(double t, double freedom);
  * is the distance of two stored values, which bounds how well a pixel without noise can agree. Welch's t-test, where
  * `reference` has one picture: exact values. */
 double significance(const sample_set *estimate, double scale, const sample_set *reference, double step);
-
-#endif

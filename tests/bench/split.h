@@ -2,8 +2,7 @@
  *
  * What each choice costs in accuracy: one depth layer, the estimator, half size, sample noise, denoising, contrast.
  */
-#ifndef GLSSAO_BENCH_SPLIT_H
-#define GLSSAO_BENCH_SPLIT_H
+#pragma once
 
 #include "effects.h"
 #include "results.h"
@@ -12,5 +11,3 @@
  * one line in `error`; split_destroy is due in either case. */
 bool split_measure(results *r, context *c, map_reader *m, char *error, size_t error_size);
 void split_destroy(results *r);
-
-#endif

@@ -9,9 +9,6 @@
 #include "effect.h"
 #include "fixture.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 enum { FRAMES = 30, PAIRS = 2000, ROUNDS = 5 };

@@ -2,8 +2,7 @@
  *
  * Pictures of the error. In all of them blue is too dark and red-orange is too bright.
  */
-#ifndef GLSSAO_BENCH_STRIPS_H
-#define GLSSAO_BENCH_STRIPS_H
+#pragma once
 
 #include "effects.h"
 #include "results.h"
@@ -16,5 +15,3 @@ bool strips_write(const results *r, effects *e, map_reader *m, char *error, size
  * error at the place where the level `high` of horizon is worst, in full size. Nothing where pictures are smaller than
  * a place. */
 bool strips_write_worst(const results *r, effects *e, map_reader *m, char *error, size_t error_size);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * Faults that an eye finds though an error average hides them.
  */
-#ifndef GLSSAO_BENCH_STRUCTURE_H
-#define GLSSAO_BENCH_STRUCTURE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -28,5 +27,3 @@ double grain_measure(grain_places *g, const float *picture);
 /* How many pixels are darker by more than 0.5 than each pixel of the truth in the 3 x 3 about them that shows a
  * surface. */
 int count_specks(const float *picture, const float *truth, const uint8_t *classes, int width, int height);
-
-#endif

@@ -79,6 +79,12 @@ void table_end_row(table *t)
     t->row_begun = false;
 }
 
+void table_numbers(table *t, const double *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        table_number(t, values[i]);
+}
+
 bool table_end(table *t, char *error, size_t error_size)
 {
     const bool written = !ferror(t->file);

@@ -309,7 +309,4 @@ TEST_WITH(points_that_were_hidden_are_left_out, reset)
     assert_true(c.pixels > 0.4 * COUNT && c.pixels <= 0.5 * COUNT);
 }
 
-int main(void)
-{
-    return test_run(NULL, reset, NULL);
-}
+TEST_MAIN(NULL, reset, NULL)

@@ -3,6 +3,7 @@
  * Recordings of peers: the passes are drawn in order, and errors name the fault.
  */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
+#include "peers.h"
 #include "replay.h"
 
 #include "fixture.h"
@@ -132,7 +133,35 @@ TEST_GL(wrong_recordings_are_named)
     replayer_destroy(r);
 }
 
-int main(void)
+/* The name of the recording that a view wants, from the message that there is none. */
+static void find_name(peer_bench *b, const peer_view *v, char name[64])
 {
-    return test_run(NULL, make_folder_of_files, remove_folder);
+    assert_null(peers_load(b, 0, v, error, sizeof error));
+    const char *slash = strrchr(error, '/');
+    if (!slash || sscanf(slash + 1, "%63[^:]", name) != 1 || !strstr(name, ".peer"))
+        fail_msg("%s", error);
 }
+
+TEST(other_machines_find_recordings)
+{
+    gbuffer g = {.view = {.width = WIDTH, .height = HEIGHT, .view_from_world = {1, 0, 0.123456789f}}}, other = g;
+    peer_view v = {&g, 0.3f, 7}, w = {&other, nextafterf(0.3f, 1), 7.001f};
+    peer_bench b = {.modules = NULL};
+    char name[64], found[64];
+    memcpy(b.folder, folder, sizeof folder);
+    g.view.clip_from_view[10] = other.view.clip_from_view[10] = -1.1f;
+    g.view.clip_from_view[14] = other.view.clip_from_view[14] = -0.2f;
+    find_name(&b, &v, name);
+    other.view.view_from_world[2] = nextafterf(0.123456789f, 1);
+    find_name(&b, &w, found);
+    assert_string_equal(name, found);
+    w.radius = 0.301f;
+    find_name(&b, &w, found);
+    assert_string_not_equal(name, found);
+    other.view.width++;
+    w.radius = v.radius;
+    find_name(&b, &w, found);
+    assert_string_not_equal(name, found);
+}
+
+TEST_MAIN(NULL, make_folder_of_files, remove_folder)

@@ -111,7 +111,4 @@ TEST_GL(accumulation_is_unbiased)
     assert_true(high < alpha && low < alpha);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

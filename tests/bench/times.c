@@ -106,8 +106,31 @@ static bool take_turns(results *r, effects *e, effects *plain, const gbuffer g[2
     return true;
 }
 
+/* Adds what uploading and denoising a picture of rays takes, in the last of some frames. */
+static bool time_denoiser(const bench_config *c, effects *e, const gbuffer *g, const float *picture, float radius,
+                          timing *out, char *error, size_t error_size)
+{
+    const glssao_settings scaled = bench_scale_settings(&c->settings, radius);
+    glssao_effect *effect = effects_get(e, g, &c->settings, error, error_size);
+    glssao_frame frame = gbuffer_frame(g, false);
+    bool done = effect != NULL;
+    for (int f = -WARM_UP_FRAMES; done && f <= 0; f++) {
+        gl.Finish();
+        const double wall = clock_wall_ms(), cpu = clock_cpu_ms();
+        frame.rays_texture = gl_make_texture(GL_R32F, GL_RED, GL_FLOAT, g->view.width, g->view.height, picture);
+        done = glssao_compute(effect, &frame, &scaled) == GLSSAO_OK;
+        gl.Finish();
+        if (f == 0) {
+            out->cpu_ms += clock_cpu_ms() - cpu;
+            out->median_ms = out->p95_ms = out->median_ms + clock_wall_ms() - wall;
+        }
+        gl.DeleteTextures(1, &frame.rays_texture);
+    }
+    return done;
+}
+
 /* Ray tracing, once each: it takes long, and its times hardly vary. */
-static bool time_rays(results *r, const scene *s, const scene_view *view, float radius, int of_view, char *error,
+static bool time_rays(results *r, effects *e, const gbuffer *g, const scene *s, float radius, int of_view, char *error,
                       size_t error_size)
 {
     for (int i = 0; i < r->config_count; i++) {
@@ -117,12 +140,14 @@ static bool time_rays(results *r, const scene *s, const scene_view *view, float 
         const truth_request request = {.name = c->id, .radius = radius, .rays = c->rays, .seed = r->options->seed};
         bench_truth t;
         const double cpu = clock_cpu_ms();
-        const bool traced = truth_get(&request, s, view, &t, error, error_size);
+        const bool traced = truth_get(&request, s, &g->view, &t, error, error_size);
         timing *out = &r->configs[i].views[of_view].time;
         out->cpu_ms = clock_cpu_ms() - cpu;
         out->median_ms = out->p95_ms = t.seconds * 1e3;
+        const bool timed =
+            traced && (!c->denoised || time_denoiser(c, e, g, t.accessibility, radius, out, error, error_size));
         truth_destroy(&t);
-        if (!traced)
+        if (!timed)
             return false;
     }
     return true;
@@ -177,7 +202,7 @@ static bool time_peers(results *r, const gbuffer *g, float radius, int of_view, 
     double *values = calloc((size_t)frames * ROWS, sizeof *values);
     replay_inputs in;
     bool timed = replay_inputs_create(&in, g) && values && peers_record_configs(r, &view, 1, error, error_size);
-    for (int i = 0; timed && i < r->config_count; i++) {
+    for (int i = 0; timed && !r->options->record && i < r->config_count; i++) {
         if (r->configs[i].config.kind != BENCH_PEER)
             continue;
         replay *p = peers_load(r->peers, r->configs[i].config.peer, &view, error, error_size);
@@ -223,7 +248,7 @@ bool times_measure(results *r, effects *e, int of_view, char *error, size_t erro
     const bool timed = s && gbuffer_draw(&g[0], s, &view, 0, error, error_size) &&
                        gbuffer_draw(&g[1], s, &view, gbuffer_margin(e->width), error, error_size) &&
                        take_turns(r, e, &plain, g, radius, values, error, error_size) &&
-                       time_rays(r, s, &view, radius, of_view, error, error_size) &&
+                       time_rays(r, e, &g[0], s, radius, of_view, error, error_size) &&
                        time_traced(r, e, &g[0], radius, of_view, error, error_size) &&
                        (!r->peers || time_peers(r, &g[0], radius, of_view, error, error_size));
     effects_destroy(&plain);

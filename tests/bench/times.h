@@ -2,13 +2,10 @@
  *
  * Milliseconds of glssao_compute. The configurations take turns, so that a busy machine slows all of them alike.
  */
-#ifndef GLSSAO_BENCH_TIMES_H
-#define GLSSAO_BENCH_TIMES_H
+#pragma once
 
 #include "effects.h"
 #include "results.h"
 
 /* Times every configuration on one of the scenes, at the options' time_size. False, with one line in `error`. */
 bool times_measure(results *r, effects *e, int of_view, char *error, size_t error_size);
-
-#endif

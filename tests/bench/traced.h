@@ -2,8 +2,7 @@
  *
  * Configurations with a few rays that the host traces: BENCH_TRACED.
  */
-#ifndef GLSSAO_BENCH_TRACED_H
-#define GLSSAO_BENCH_TRACED_H
+#pragma once
 
 #include "effects.h"
 #include "rays.h"
@@ -25,5 +24,3 @@ void traced_close(host_rays *t);
 /* Reads surfaces back, traces the rays of the configuration and uploads them: t->rays.texture. */
 bool traced_run(host_rays *t, const gbuffer *g, const bench_config *c, float radius, uint32_t seed, char *error,
                 size_t error_size);
-
-#endif

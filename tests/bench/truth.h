@@ -2,8 +2,7 @@
  *
  * Ray-traced accessibility of a view, traced once and kept on disk under a hash of all that it depends on.
  */
-#ifndef GLSSAO_BENCH_TRUTH_H
-#define GLSSAO_BENCH_TRUTH_H
+#pragma once
 
 #include "draw.h"
 #include "scene.h"
@@ -37,5 +36,3 @@ void truth_destroy(bench_truth *t);
 
 /* Makes the folder and those above it. */
 bool make_folder(const char *path);
-
-#endif

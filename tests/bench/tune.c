@@ -7,6 +7,7 @@
  */
 #include "effects.h"
 #include "progress.h"
+#include "tool.h"
 #include "tuned.glsl"
 #include "views.h"
 
@@ -278,9 +279,8 @@ static int keep_tuning_scenes(int count)
 
 static bool prepare(void)
 {
-    t.context = context_create(&(context_options){.kind = (context_kind)t.options.context}, t.error, sizeof t.error);
-    if (!t.context || !gl_load(context_load, t.context, t.error, sizeof t.error) ||
-        !map_reader_create(&t.reader, t.options.size[0], t.options.size[1], t.error, sizeof t.error))
+    t.context = tool_open(&t.options, t.error, sizeof t.error);
+    if (!t.context || !map_reader_create(&t.reader, t.options.size[0], t.options.size[1], t.error, sizeof t.error))
         return false;
     const int count = keep_tuning_scenes(bench_scenes_list(&t.options, t.scenes));
     for (; count > 0 && t.view_count < count; t.view_count++)
@@ -310,19 +310,14 @@ static bool tune(void)
 
 int main(int argc, char **argv)
 {
-    const options_result parsed = options_parse(argc, argv, &t.options, t.error, sizeof t.error);
-    if (parsed != OPTIONS_RUN) {
-        if (parsed == OPTIONS_WRONG)
-            fprintf(stderr, "glssao-tune: %s\n", t.error);
-        return parsed == OPTIONS_WRONG ? 2 : 0;
-    }
+    const int code = tool_begin("glssao-tune", argc, argv, &t.options);
+    if (code >= 0)
+        return code;
     const bool done = tune();
-    if (!done)
-        fprintf(stderr, "glssao-tune: %s\n", t.error);
     for (int v = 0; v < t.view_count; v++)
         bench_view_destroy(&t.views[v]);
     free(t.picture);
     map_reader_destroy(&t.reader);
     context_destroy(t.context);
-    return done ? 0 : 1;
+    return tool_end("glssao-tune", done, t.error);
 }

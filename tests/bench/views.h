@@ -2,8 +2,7 @@
  *
  * A view to measure: the effect's inputs, the truth, and the pixels that count.
  */
-#ifndef GLSSAO_BENCH_VIEWS_H
-#define GLSSAO_BENCH_VIEWS_H
+#pragma once
 
 #include "gbuffer.h"
 #include "measure.h"
@@ -34,5 +33,3 @@ typedef struct bench_view {
 /* False, with one line in `error`; bench_view_destroy is due in either case. */
 bool bench_view_create(bench_view *v, const bench_scene *b, const options *o, char *error, size_t error_size);
 void bench_view_destroy(bench_view *v);
-
-#endif

@@ -3,7 +3,6 @@
  * The snippets of docs/integration.md that no example program contains. This file is compiled and never run;
  * tests/docs/snippets.sh compares each snippet with the page.
  */
-#include <GL/glcorearb.h>
 #include <glssao/glssao.h>
 #include <stdio.h>
 #include <string.h>

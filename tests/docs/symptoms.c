@@ -7,11 +7,6 @@
 #include "fixture.h"
 #include "picture.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { W = 240, H = 180 };
 
 typedef struct scene {

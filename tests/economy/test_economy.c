@@ -100,12 +100,12 @@ static bool is_dispatched(const struct row *row, const glssao_settings *settings
 static void check_row(fixture *f, const struct row *row, glssao_path path)
 {
     const struct calls calls = path == GLSSAO_PATH_COMPUTE && row->compute.passes ? row->compute : row->fragment;
-    glssao_effect *effect = counted_effect(f, path);
+    SCOPED(effect) glssao_effect *effect = counted_effect(f, path);
     const gl_counts made = gl_counter_take();
     assert_int_equal(made.draws, 0);
     assert_int_equal(made.programs, 1); /* shows how the driver lays out blocks */
     assert_int_equal(made.textures, 4); /* normals, two ambient maps, random vectors */
-    glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
+    SCOPED(frame) glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
     glssao_frame changed = frame;
     glssao_settings settings = glssao_default_settings(row->technique, row->quality);
     if (row->change)
@@ -141,8 +141,6 @@ static void check_row(fixture *f, const struct row *row, glssao_path path)
                      frame_number, counts.draws + counts.dispatches, planned, counts.programs, counts.textures,
                      calls.draws, calls.draws, programs, textures);
     }
-    glssao_destroy(effect);
-    fixture_delete_frame(&frame);
 }
 
 TEST_GL(each_setting_causes_these_calls)
@@ -183,14 +181,14 @@ static void *gpu_load(const char *name, void *user)
 TEST_GL(tiles_and_path_depend_on_the_driver)
 {
     fixture *f = *state;
-    const glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
+    SCOPED(frame) const glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
     for (int gpu = 0; gpu < 2; ++gpu)
         for (int tiles = GLSSAO_TILES_AUTO; tiles <= GLSSAO_TILES_ON; ++tiles) {
             glssao_config config = fixture_config(f, 800, 600);
             if (gpu)
                 config.load = gpu_load;
-            glssao_effect *effect = NULL;
+            SCOPED(effect) glssao_effect *effect = NULL;
             assert_int_equal(glssao_create(&config, &effect), GLSSAO_OK);
             settings.tiles = (glssao_tiles)tiles;
             const glssao_plan plan = glssao_plan_frame(effect, &frame, &settings);
@@ -200,16 +198,14 @@ TEST_GL(tiles_and_path_depend_on_the_driver)
                         (tiles == GLSSAO_TILES_ON || (tiles == GLSSAO_TILES_AUTO && !on_gpu)));
             const bool dispatches = on_gpu && tiles != GLSSAO_TILES_ON && !fixture_hides_newer();
             assert_int_equal(plan.path, dispatches ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT);
-            glssao_destroy(effect);
         }
-    fixture_delete_frame(&frame);
 }
 
 /* After glssao_prepare a frame compiles and allocates nothing; preparing draws nothing. */
 TEST_GL(prepared_frames_make_nothing)
 {
-    glssao_effect *effect = counted_effect(*state, GLSSAO_PATH_AUTO);
-    const glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
+    SCOPED(effect) glssao_effect *effect = counted_effect(*state, GLSSAO_PATH_AUTO);
+    SCOPED(frame) const glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
     settings.tiles = GLSSAO_TILES_ON;
     (void)gl_counter_take();
@@ -221,8 +217,6 @@ TEST_GL(prepared_frames_make_nothing)
     assert_true(computed.draws == 17 && computed.programs == 0 && computed.textures == 0);
     assert_int_equal(glssao_prepare(effect, &frame, NULL), GLSSAO_INVALID_ARGUMENT);
     assert_int_equal(glssao_prepare(NULL, &frame, &settings), GLSSAO_INVALID_ARGUMENT);
-    glssao_destroy(effect);
-    fixture_delete_frame(&frame);
 }
 
 static void make_unlit(scene *s)
@@ -388,7 +382,4 @@ TEST_GL(hidden_sky_is_not_drawn_again)
     scene_destroy(s);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

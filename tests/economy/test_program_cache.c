@@ -220,7 +220,4 @@ TEST_GL(a_folder_that_is_not_there_does_no_harm)
     close_cached(&c);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

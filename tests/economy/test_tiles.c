@@ -385,7 +385,4 @@ TEST_GL(few_tiles_are_not_sorted)
     fixture_delete_frame(&frame);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

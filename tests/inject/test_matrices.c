@@ -2,17 +2,8 @@
  *
  * glssao-inject's search for a projection among the matrices that a program sets.
  */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "inject.h"
-
-#include <math.h>
-#include <string.h>
+#include "testing.h"
 
 typedef float matrix[16];
 
@@ -71,9 +62,8 @@ static void assert_alike(const matrix a, const matrix b)
         assert_float_equal(a[i], b[i], 2e-4f * (1.0f + fabsf(a[i])));
 }
 
-static void a_projection_is_its_own(void **state)
+TEST(a_projection_is_its_own)
 {
-    (void)state;
     matrix p, found;
     frustum(0.0f, 0.1f, 100.0f, p);
     assert_true(inject_perspective_of(p, false, found));
@@ -83,9 +73,8 @@ static void a_projection_is_its_own(void **state)
     assert_alike(p, found);
 }
 
-static void a_projection_is_found_in_a_product(void **state)
+TEST(a_projection_is_found_in_a_product)
 {
-    (void)state;
     static const float scales[] = {1.0f, 0.02f, 40.0f};
     for (int i = 0; i < 3; ++i) {
         matrix p, v, product, found;
@@ -97,9 +86,8 @@ static void a_projection_is_found_in_a_product(void **state)
     }
 }
 
-static void other_matrices_are_refused(void **state)
+TEST(other_matrices_are_refused)
 {
-    (void)state;
     const matrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     const matrix orthographic = {0.1f, 0, 0, 0, 0, 0.1f, 0, 0, 0, 0, -0.02f, 0, 0, 0, -1.0f, 1};
     matrix p, v, product, found;
@@ -116,9 +104,8 @@ static void other_matrices_are_refused(void **state)
     assert_false(inject_perspective_of(p, false, found));
 }
 
-static void reversed_depth_is_told(void **state)
+TEST(reversed_depth_is_told)
 {
-    (void)state;
     matrix p, v, product, found;
     frustum(0.1f, 60.0f, 0.1f, p); /* near and far exchanged */
     model_view(2.0f, 2.0f, 2.0f, v);
@@ -143,9 +130,8 @@ static void orthographic(float half_width, float half_height, float depth, bool 
     out[15] = 1.0f;
 }
 
-static void orthographic_projections_are_told(void **state)
+TEST(orthographic_projections_are_told)
 {
-    (void)state;
     for (int i = 0; i < 4; ++i) {
         const bool zero_to_one = i & 1, reversed = i == 3;
         matrix p, v, product, found;
@@ -159,9 +145,8 @@ static void orthographic_projections_are_told(void **state)
     }
 }
 
-static void interfaces_and_models_are_no_orthographic_scene(void **state)
+TEST(interfaces_and_models_are_no_orthographic_scene)
 {
-    (void)state;
     const matrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     matrix flat, v, found;
     assert_false(inject_orthographic_of(identity, false, found));
@@ -177,9 +162,8 @@ static void interfaces_and_models_are_no_orthographic_scene(void **state)
     assert_false(inject_orthographic_of(v, false, found));
 }
 
-static void matrices_in_a_uniform_buffer_are_found(void **state)
+TEST(matrices_in_a_uniform_buffer_are_found)
 {
-    (void)state;
     struct {
         float color[4], light[4];
         matrix view, row_major;
@@ -201,9 +185,8 @@ static void matrices_in_a_uniform_buffer_are_found(void **state)
     inject_end_frame();
 }
 
-static void perspective_goes_before_orthographic(void **state)
+TEST(perspective_goes_before_orthographic)
 {
-    (void)state;
     matrix p, box;
     inject_projection found;
     frustum(0.0f, 0.5f, 60.0f, p);
@@ -223,11 +206,11 @@ static void perspective_goes_before_orthographic(void **state)
     inject_end_frame();
 }
 
-static void the_projection_of_most_matrices_is_taken_and_kept(void **state)
+TEST(the_projection_of_most_matrices_is_taken_and_kept)
 {
-    (void)state;
     matrix rare, usual;
     inject_projection found;
+    inject_forget_projections(&contexts[0]);
     assert_false(inject_get_projection(at(0), &found));
     frustum(0.0f, 0.1f, 10.0f, rare);
     frustum(0.0f, 0.5f, 60.0f, usual);
@@ -246,9 +229,8 @@ static void the_projection_of_most_matrices_is_taken_and_kept(void **state)
     assert_alike(usual, found.matrix);
 }
 
-static void each_framebuffer_has_its_own(void **state)
+TEST(each_framebuffer_has_its_own)
 {
-    (void)state;
     matrix in_7, in_window;
     inject_projection found;
     frustum(0.0f, 0.1f, 10.0f, in_7);
@@ -267,9 +249,8 @@ static void each_framebuffer_has_its_own(void **state)
 }
 
 /* A program that draws on demand draws few frames, but seconds pass. */
-static void orthographic_takes_over_after_a_second(void **state)
+TEST(orthographic_takes_over_after_a_second)
 {
-    (void)state;
     matrix p, box;
     inject_projection found;
     frustum(0.0f, 0.5f, 60.0f, p);
@@ -289,9 +270,8 @@ static void orthographic_takes_over_after_a_second(void **state)
 }
 
 /* An icon in a corner sets more matrices than the scene. */
-static void the_projection_of_most_depth_goes_before_that_of_most_matrices(void **state)
+TEST(the_projection_of_most_depth_goes_before_that_of_most_matrices)
 {
-    (void)state;
     matrix icon, scene;
     inject_projection found;
     frustum(0.0f, 0.1f, 10.0f, icon);
@@ -309,9 +289,8 @@ static void the_projection_of_most_depth_goes_before_that_of_most_matrices(void 
 }
 
 /* A window's projection is its context's, and goes with it. */
-static void contexts_do_not_mix(void **state)
+TEST(contexts_do_not_mix)
 {
-    (void)state;
     matrix first, second;
     inject_projection found;
     const inject_place other = {&contexts[1], 0}, third = {&contexts[2], 0};
@@ -332,22 +311,4 @@ static void contexts_do_not_mix(void **state)
     assert_true(inject_get_projection(at(0), &found));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_projection_is_its_own),
-        cmocka_unit_test(a_projection_is_found_in_a_product),
-        cmocka_unit_test(other_matrices_are_refused),
-        cmocka_unit_test(reversed_depth_is_told),
-        cmocka_unit_test(orthographic_projections_are_told),
-        cmocka_unit_test(interfaces_and_models_are_no_orthographic_scene),
-        cmocka_unit_test(the_projection_of_most_matrices_is_taken_and_kept),
-        cmocka_unit_test(each_framebuffer_has_its_own),
-        cmocka_unit_test(matrices_in_a_uniform_buffer_are_found),
-        cmocka_unit_test(perspective_goes_before_orthographic),
-        cmocka_unit_test(orthographic_takes_over_after_a_second),
-        cmocka_unit_test(the_projection_of_most_depth_goes_before_that_of_most_matrices),
-        cmocka_unit_test(contexts_do_not_mix),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_MAIN(NULL, NULL, NULL)

@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "occlude_fixture.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 occlude *shared;
 char error[512];
 

@@ -3,8 +3,7 @@
  * Shared by the tests of occlude: one `occlude` for all tests of a program, pictures of shapes as a caller would hand
  * them over, and calls that must succeed or fail.
  */
-#ifndef GLSSAO_TESTS_OCCLUDE_FIXTURE_H
-#define GLSSAO_TESTS_OCCLUDE_FIXTURE_H
+#pragma once
 
 #include "analytic.h"
 #include "fixture.h"
@@ -35,5 +34,3 @@ glssao_settings settings_of(float radius);
 void compute(const occlude_input *input, const glssao_settings *settings, float *out);
 /* Refused with exactly this line, and the result is not written to. */
 void refuse(const occlude_input *input, const glssao_settings *settings, const char *line);
-
-#endif

@@ -200,6 +200,7 @@ TEST(test_every_format_holds_the_result)
         snprintf(arguments, sizeof arguments, "%s %s", in, outputs[i]);
         assert_int_equal(run(arguments), 0);
         int width, height;
+        SCOPED(memory)
         uint8_t *pixels = picture_read_png(i == 2 ? "out" : "a.png", &width, &height, error, sizeof error);
         assert_true(pixels && width == WIDTH && height == HEIGHT);
         for (int y = 0; y < HEIGHT; ++y)
@@ -208,7 +209,6 @@ TEST(test_every_format_holds_the_result)
                 const uint8_t *pixel = pixels + 4 * ((HEIGHT - 1 - y) * WIDTH + x);
                 assert_true(pixel[0] == wanted && pixel[1] == wanted && pixel[2] == wanted);
             }
-        free(pixels);
     }
     snprintf(arguments, sizeof arguments, "%s -o a.jpg", in);
     assert_int_equal(run(arguments), 0);

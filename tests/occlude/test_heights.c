@@ -117,7 +117,4 @@ TEST_GL(test_holes_and_flat_height_maps)
     assert_string_equal(error, "the height map is 0 x 2: want 1 x 1 or more");
 }
 
-int main(void)
-{
-    return test_run(NULL, occlude_setup, occlude_teardown);
-}
+TEST_MAIN(NULL, occlude_setup, occlude_teardown)

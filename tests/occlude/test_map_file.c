@@ -262,7 +262,4 @@ static int teardown(void **state)
     return 0;
 }
 
-int main(void)
-{
-    return test_run(NULL, setup, teardown);
-}
+TEST_MAIN(NULL, setup, teardown)

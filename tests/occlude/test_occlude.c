@@ -13,20 +13,17 @@ TEST_GL(test_result_is_the_effects_own)
     analytic_room(room, 1.0);
     picture p = make_picture(room, ANALYTIC_ROOM_SHAPES, PERSPECTIVE);
     const glssao_settings settings = settings_of(1.0f);
-    float *got = malloc(COUNT * sizeof *got);
+    SCOPED(memory) float *got = malloc(COUNT * sizeof *got);
     const occlude_input input = input_of(&p, true);
     compute(&input, &settings, got);
 
-    glssao_frame frame = fixture_frame(&p.view, room, ANALYTIC_ROOM_SHAPES, WIDTH, HEIGHT);
+    SCOPED(frame) glssao_frame frame = fixture_frame(&p.view, room, ANALYTIC_ROOM_SHAPES, WIDTH, HEIGHT);
     glssao_effect *effect = fixture_shared_effect(f, WIDTH, HEIGHT);
     int width, height;
-    float *wanted = fixture_compute(effect, &frame, &settings, &width, &height);
+    SCOPED(memory) float *wanted = fixture_compute(effect, &frame, &settings, &width, &height);
     turn_over(wanted, WIDTH, HEIGHT, 1);
     assert_memory_equal(got, wanted, COUNT * sizeof *got);
 
-    fixture_delete_frame(&frame);
-    free(wanted);
-    free(got);
     free_picture(&p);
 }
 
@@ -35,6 +32,7 @@ TEST_GL(test_view_distance_and_window_depth_agree)
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     analytic_room(room, 1.0);
     const glssao_settings settings = settings_of(1.0f);
+    SCOPED(memory)
     float *by_window = malloc(COUNT * sizeof *by_window), *by_distance = malloc(COUNT * sizeof *by_distance);
     for (int projection = 0; projection < PROJECTION_COUNT; ++projection) {
         picture p = make_picture(room, ANALYTIC_ROOM_SHAPES, (analytic_projection)projection);
@@ -50,15 +48,13 @@ TEST_GL(test_view_distance_and_window_depth_agree)
         assert_true(darkest < 0.75); /* it is not open everywhere */
         free_picture(&p);
     }
-    free(by_distance);
-    free(by_window);
 }
 
 TEST_GL(test_plane_and_sky_are_open)
 {
     const analytic_shape floor = {ANALYTIC_PLANE, {0.0, -1.5, 0.0}, {0.0, 1.0, 0.0}};
     picture p = make_picture(&floor, 1, PERSPECTIVE); /* the upper half is sky: infinite */
-    float *out = malloc(COUNT * sizeof *out);
+    SCOPED(memory) float *out = malloc(COUNT * sizeof *out);
     occlude_input input = input_of(&p, false);
     const glssao_settings settings = settings_of(1.0f);
     for (int with_holes = 0; with_holes < 2; ++with_holes) {
@@ -69,7 +65,6 @@ TEST_GL(test_plane_and_sky_are_open)
         for (int i = 0; i < COUNT; i += 7)
             p.distance[i] = i % 2 ? NAN : 0.0f; /* no surface either way */
     }
-    free(out);
     free_picture(&p);
 }
 
@@ -80,7 +75,7 @@ TEST_GL(test_corner_agrees_with_traced_rays)
     const analytic_shape corner[] = {{ANALYTIC_PLANE, {0.0, -1.5, 0.0}, {0.0, 1.0, 0.0}},
                                      {ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, 0.0, 1.0}}};
     picture p = make_picture(corner, 2, PERSPECTIVE);
-    float *out = malloc(COUNT * sizeof *out);
+    SCOPED(memory) float *out = malloc(COUNT * sizeof *out);
     const occlude_input input = input_of(&p, false);
     const double radius = 2.0;
     const glssao_settings settings = settings_of((float)radius);
@@ -96,7 +91,6 @@ TEST_GL(test_corner_agrees_with_traced_rays)
         ++compared;
     }
     assert_true(compared > 10);
-    free(out);
     free_picture(&p);
 }
 
@@ -133,13 +127,12 @@ TEST_GL(test_hostile_normals_give_finite_results)
     static const float hostile[] = {NAN, INFINITY, -INFINITY, 0.0f, 1e30f, -1e-30f};
     for (int i = 0; i < 3 * COUNT; ++i)
         p.normals[i] = hostile[(i + i / 7) % 6];
-    float *out = malloc(COUNT * sizeof *out);
+    SCOPED(memory) float *out = malloc(COUNT * sizeof *out);
     const occlude_input input = input_of(&p, false);
     const glssao_settings settings = settings_of(1.0f);
     compute(&input, &settings, out);
     for (int i = 0; i < COUNT; ++i)
         assert_true(out[i] >= 0.0f && out[i] <= 1.0f);
-    free(out);
     free_picture(&p);
 }
 
@@ -197,7 +190,4 @@ TEST_GL(test_error_ends_the_estimates)
     free_picture(&p);
 }
 
-int main(void)
-{
-    return test_run(NULL, occlude_setup, occlude_teardown);
-}
+TEST_MAIN(NULL, occlude_setup, occlude_teardown)

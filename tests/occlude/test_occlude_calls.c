@@ -46,9 +46,8 @@ TEST_GL(test_wrong_input_gives_one_line)
     refuse(&good, &wrong, "settings.radius = -1: want 0 to 1e+12");
     refuse(&good, NULL, "settings is NULL");
 
-    float *out = malloc(COUNT * sizeof *out);
+    SCOPED(memory) float *out = malloc(COUNT * sizeof *out);
     compute(&good, &settings, out); /* all of that left it usable */
-    free(out);
     free_picture(&p);
 }
 
@@ -105,23 +104,18 @@ TEST_GL(test_threads_get_the_same_bits)
 
 TEST_GL(test_callers_context_stays_as_it_is)
 {
-    GLuint texture;
+    SCOPED(texture) GLuint texture = 0;
     gl.GenTextures(1, &texture);
     gl.BindTexture(GL_TEXTURE_2D, texture);
     picture p = make_picture(NULL, 0, PERSPECTIVE);
     const occlude_input input = input_of(&p, false);
     const glssao_settings settings = settings_of(1.0f);
-    float *out = malloc(COUNT * sizeof *out);
+    SCOPED(memory) float *out = malloc(COUNT * sizeof *out);
     compute(&input, &settings, out);
     GLint bound = 0;
     gl.GetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
     assert_int_equal(bound, texture);
-    gl.DeleteTextures(1, &texture);
-    free(out);
     free_picture(&p);
 }
 
-int main(void)
-{
-    return test_run(NULL, occlude_setup, occlude_teardown);
-}
+TEST_MAIN(NULL, occlude_setup, occlude_teardown)

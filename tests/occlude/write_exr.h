@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#ifndef GLSSAO_TESTS_WRITE_EXR_H
-#define GLSSAO_TESTS_WRITE_EXR_H
+#pragma once
 
 #ifdef __cplusplus
 extern "C" {
@@ -11,5 +10,4 @@ void write_exr(const char *path, int width, int height, const char *const *names
 
 #ifdef __cplusplus
 }
-#endif
 #endif

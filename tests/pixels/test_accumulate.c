@@ -195,7 +195,4 @@ TEST_GL(refuses_and_skips)
     delete (&s);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -30,10 +30,9 @@ static float *read_bent(const glssao_effect *effect, int width, int height)
 
 static float *shade(fixture *f, const analytic_shot *s, const glssao_settings *settings)
 {
-    glssao_effect *effect = fixture_effect(f, s->width, s->height);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, s->width, s->height);
     assert_int_equal(glssao_compute(effect, &s->frame, settings), GLSSAO_OK);
     float *got = read_bent(effect, s->width, s->height);
-    glssao_destroy(effect);
     return got;
 }
 
@@ -291,7 +290,7 @@ TEST_GL(radius_0_leaves_normals_and_power_moves_none)
     const int count = s.width * s.height;
     for (int level = 0; level < LEVELS; ++level) {
         glssao_settings settings = level_settings(level, 0.0);
-        float *normals = shade(*state, &s, &settings);
+        SCOPED(memory) float *normals = shade(*state, &s, &settings);
         for (int i = 0; i < count; ++i) {
             const float *n = s.normals + 3 * i;
             const double normal[3] = {(double)n[0], (double)n[1], (double)n[2]};
@@ -299,17 +298,14 @@ TEST_GL(radius_0_leaves_normals_and_power_moves_none)
         }
         settings.radius = 1.0f;
         settings.power = 1.0f;
-        float *one = shade(*state, &s, &settings);
+        SCOPED(memory) float *one = shade(*state, &s, &settings);
         settings.power = 0.0f;
-        float *none = shade(*state, &s, &settings);
+        SCOPED(memory) float *none = shade(*state, &s, &settings);
         double alpha;
         const double moved = difference(one, normals, count, &alpha);
         print_message("%s: occluders move directions by %.2f degrees\n", level_names[level], moved);
         assert_true(moved > 0.3);
         assert_true(difference(one, none, count, &alpha) < 1e-3 && alpha > 0.1);
-        free(normals);
-        free(one);
-        free(none);
     }
     analytic_free_shot(&s);
 }
@@ -323,15 +319,13 @@ TEST_GL(no_light_and_no_surface_give_the_neutral_value)
     for (int i = 0; i < 2; ++i) {
         s.frame.no_ambient_light = i == 0;
         s.frame.only_sky = i == 1;
-        glssao_effect *effect = fixture_effect(*state, s.width, s.height);
+        SCOPED(effect) glssao_effect *effect = fixture_effect(*state, s.width, s.height);
         assert_int_equal(glssao_compute(effect, &s.frame, &settings), GLSSAO_OK);
         int w, h;
         (void)glssao_map(effect, GLSSAO_MAP_AMBIENT, &w, &h); /* not upsampled, since no pass runs */
-        float *got = read_bent(effect, w, h);
+        SCOPED(memory) float *got = read_bent(effect, w, h);
         for (int k = 0; k < w * h; ++k)
             assert_memory_equal(got + 4 * k, neutral, sizeof neutral);
-        free(got);
-        glssao_destroy(effect);
     }
     analytic_free_shot(&s);
 }
@@ -341,14 +335,13 @@ static float *run_way(fixture *f, const analytic_shot *s, glssao_settings settin
                       int *out_height)
 {
     glssao_config config = fixture_config(f, s->width, s->height);
-    glssao_effect *effect;
+    SCOPED(effect) glssao_effect *effect = NULL;
     config.path = way == 2 ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT;
     settings.tiles = way == 1 ? GLSSAO_TILES_ON : GLSSAO_TILES_OFF;
     assert_int_equal(glssao_create(&config, &effect), GLSSAO_OK);
     assert_int_equal(glssao_compute(effect, &s->frame, &settings), GLSSAO_OK);
     assert_int_not_equal(glssao_map(effect, GLSSAO_MAP_BENT_NORMAL, out_width, out_height), 0);
     float *got = read_bent(effect, *out_width, *out_height);
-    glssao_destroy(effect);
     return got;
 }
 
@@ -393,9 +386,10 @@ TEST_GL(turned_pictures_and_normals_change_nothing)
     const double angle = 0.7, c = cos(angle), sine = sin(angle);
     for (int level = 0; level < LEVELS; ++level) {
         const glssao_settings settings = level_settings(level, 0.5);
-        float *upright = shade(*state, &s, &settings);
+        SCOPED(memory) float *upright = shade(*state, &s, &settings);
         /* The same picture in a view space turned about the view axis: x' = c x + s y, y' = c y - s x. */
         analytic_shot turned = s;
+        SCOPED(memory)
         float *normals = malloc(sizeof *normals * 3 * (size_t)count),
               *flipped = malloc(sizeof *flipped * 3 * (size_t)count);
         for (int i = 0; i < count; ++i) {
@@ -432,9 +426,6 @@ TEST_GL(turned_pictures_and_normals_change_nothing)
                       100.0 * of_side);
         assert_true(of_turn < 0.1 && of_side < 0.1); /* creases of such normals bend the other way */
         free(got);
-        free(normals);
-        free(flipped);
-        free(upright);
     }
     analytic_free_shot(&s);
 }
@@ -455,7 +446,7 @@ TEST_GL(accumulated_directions_near_the_integral)
         assert_int_equal(glssao_accumulate(effect, &s.frame, &settings), GLSSAO_OK);
         if (i != 1 && i != ESTIMATES)
             continue;
-        float *got = read_bent(effect, s.width, s.height);
+        SCOPED(memory) float *got = read_bent(effect, s.width, s.height);
         for (int y = EDGE; y < SIDE - EDGE; ++y)
             for (int x = EDGE; x < SIDE - EDGE; ++x) {
                 double at[3], truth[3];
@@ -464,7 +455,6 @@ TEST_GL(accumulated_directions_near_the_integral)
                 errors[i > 1] +=
                     angle_between(got + 4 * (y * SIDE + x), truth) / ((SIDE - 2 * EDGE) * (SIDE - 2 * EDGE));
             }
-        free(got);
     }
     gl.Finish();
     const glssao_stats stats = glssao_get_stats(effect);
@@ -475,7 +465,4 @@ TEST_GL(accumulated_directions_near_the_integral)
     analytic_free_shot(&s);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -48,12 +48,13 @@ TEST_GL(margin_is_cut_off)
                 settings.blur = GLSSAO_BLUR_NONE;
                 settings.blur_rounds = 0;
             }
+            SCOPED(effect)
             glssao_effect *whole = fixture_effect(*state, WIDE, HIGH), *cut = fixture_effect(*state, WIDE, HIGH);
-            glssao_frame frame = make_frame(MARGIN, NULL);
+            SCOPED(frame) glssao_frame frame = make_frame(MARGIN, NULL);
             int w, h, wide, high;
-            float *got = fixture_compute(cut, &frame, &settings, &w, &h);
+            SCOPED(memory) float *got = fixture_compute(cut, &frame, &settings, &w, &h);
             frame.margin = 0;
-            float *wanted = fixture_compute(whole, &frame, &settings, &wide, &high);
+            SCOPED(memory) float *wanted = fixture_compute(whole, &frame, &settings, &wide, &high);
             const int m = (wide - w) / 2;
             assert_true(wide == (variant == 2 ? WIDE / 2 : WIDE) && high == (variant == 2 ? HIGH / 2 : HIGH));
             assert_true(w == (variant == 2 ? W / 2 : W) && h == (variant == 2 ? H / 2 : H));
@@ -66,11 +67,6 @@ TEST_GL(margin_is_cut_off)
             if (techniques[i] == GLSSAO_HORIZON) /* three rounds of classic's blur reach as far as the margin */
                 assert_true(glssao_plan_frame(cut, &frame, &settings).passes[GLSSAO_PASS_ESTIMATE].width <
                             (variant % 2 == 0 ? WIDE / 2 : WIDE));
-            free(got);
-            free(wanted);
-            glssao_destroy(whole);
-            glssao_destroy(cut);
-            fixture_delete_frame(&frame);
         }
 }
 
@@ -86,18 +82,15 @@ TEST_GL(margin_finds_occluders_beyond_the_edge)
         view.projection[5] *= (float)H / (float)height;
         analytic_shape shapes[2] = {{ANALYTIC_PLANE, {0.0, 0.0, -4.0}, {0.0, 0.0, 1.0}},
                                     {ANALYTIC_PLANE, {edge + 0.05, 0.0, 0.0}, {-1.0, 0.0, 0.0}}};
-        glssao_frame frame = fixture_frame(&view, shapes, 2, width, height);
+        SCOPED(frame) glssao_frame frame = fixture_frame(&view, shapes, 2, width, height);
         frame.margin = margin;
-        glssao_effect *effect = fixture_effect(*state, width, height);
+        SCOPED(effect) glssao_effect *effect = fixture_effect(*state, width, height);
         const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_ULTRA);
         int w, h;
-        float *got = fixture_compute(effect, &frame, &settings, &w, &h);
+        SCOPED(memory) float *got = fixture_compute(effect, &frame, &settings, &w, &h);
         darkened[i] = 0.0;
         for (int y = 0; y < H; ++y)
             darkened[i] += (1.0 - (double)got[y * W + W - 1]) / H;
-        free(got);
-        glssao_destroy(effect);
-        fixture_delete_frame(&frame);
     }
     print_message("right column darkened by %.3f without, %.3f with a margin\n", darkened[0], darkened[1]);
     assert_true(darkened[0] < 0.02);
@@ -121,15 +114,15 @@ static double behind_a_plate(fixture *f, double thickness, bool layers, double s
     for (int i = 0; i < W * H; ++i)
         if (normals[3 * i + 2] < 0.99f || depth[i] >= back[i])
             back[i] = second[i] = 1.0f; /* the plane behind has neither layer */
-    glssao_frame frame = fixture_maps_frame(&view, W, H, GL_DEPTH_COMPONENT32F, depth, normals);
+    SCOPED(frame) glssao_frame frame = fixture_maps_frame(&view, W, H, GL_DEPTH_COMPONENT32F, depth, normals);
     if (layers) {
         frame.back_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, back);
         frame.second_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, second);
     }
-    glssao_effect *effect = fixture_effect(f, W, H);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_ULTRA);
     int w, h;
-    float *got = fixture_compute(effect, &frame, &settings, &w, &h);
+    SCOPED(memory) float *got = fixture_compute(effect, &frame, &settings, &w, &h);
     double sum = 0.0;
     int count = 0;
     for (int x = 0; x < W; ++x) {
@@ -142,13 +135,10 @@ static double behind_a_plate(fixture *f, double thickness, bool layers, double s
         }
     }
     assert_true(count >= 4);
-    free(got);
     free(depth);
     free(normals);
     free(back);
     free(second);
-    glssao_destroy(effect);
-    fixture_delete_frame(&frame);
     return sum / count;
 }
 
@@ -169,43 +159,38 @@ TEST_GL(thickness_is_read)
 TEST_GL(refuses_what_it_cannot_use)
 {
     fixture *f = *state;
-    glssao_effect *effect = fixture_effect(f, W, H);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     static const int margins[] = {-2, 3, H / 2, 1 << 30};
     for (int i = 0; i < 4; ++i) {
-        glssao_frame frame = make_frame(0, NULL);
+        SCOPED(frame) glssao_frame frame = make_frame(0, NULL);
         frame.margin = margins[i];
         fixture_refused(f, glssao_compute(effect, &frame, &settings), "frame.margin");
-        fixture_delete_frame(&frame);
     }
-    glssao_frame frame = make_frame(0, NULL);
+    SCOPED(frame) glssao_frame frame = make_frame(0, NULL);
     frame.back_texture = frame.depth_texture;
     fixture_refused(f, glssao_compute(effect, &frame, &settings), "frame.second_texture");
     frame.second_texture = 9999;
     fixture_refused(f, glssao_compute(effect, &frame, &settings), "frame.second_texture");
     frame.back_texture = frame.second_texture = 0;
-    fixture_delete_frame(&frame);
-    glssao_destroy(effect);
 }
 
 /* The last frame's margin does not apply to the new size; glssao_apply would draw a negative area. */
 TEST_GL(resize_forgets_the_margin)
 {
-    glssao_effect *effect = fixture_effect(*state, WIDE, HIGH);
-    glssao_frame frame = make_frame(MARGIN, NULL);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(*state, WIDE, HIGH);
+    SCOPED(frame) glssao_frame frame = make_frame(MARGIN, NULL);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_OK);
     assert_int_equal(glssao_resize(effect, 16, 16), GLSSAO_OK);
-    const fixture_target target = fixture_make_target(GL_RGBA8, 16, 16);
+    SCOPED(target) const fixture_target target = fixture_make_target(GL_RGBA8, 16, 16);
     assert_int_equal(glssao_apply(effect, target.framebuffer), GLSSAO_OK); /* the teardown checks for OpenGL errors */
-    fixture_delete_target(&target);
-    glssao_destroy(effect);
-    fixture_delete_frame(&frame);
 }
 
 /* The mean of a frame with a margin. Where nothing lies outside the picture, it converges to the mean without one. */
 TEST_GL(accumulation_keeps_the_margin)
 {
+    SCOPED(effect)
     glssao_effect *effect = fixture_effect(*state, WIDE, HIGH), *wide_effect = fixture_effect(*state, WIDE, HIGH);
     glssao_frame frame = make_frame(MARGIN, NULL), wide_frame = frame;
     wide_frame.margin = 0;
@@ -218,20 +203,14 @@ TEST_GL(accumulation_keeps_the_margin)
     const uint32_t map = glssao_map(effect, GLSSAO_MAP_AMBIENT, &w, &h),
                    wide_map = glssao_map(wide_effect, GLSSAO_MAP_AMBIENT, &wide, &high);
     assert_true(w == W && h == H && wide == WIDE && high == HIGH);
+    SCOPED(memory)
     float *got = fixture_read_texture(map, w, h, 1), *wanted = fixture_read_texture(wide_map, wide, high, 1);
     for (int y = 0; y < H; ++y)
         for (int x = 0; x < W; ++x)
             assert_float_equal(got[y * W + x], wanted[(y + MARGIN) * WIDE + x + MARGIN], 2e-5f);
     gl.Finish();
     assert_true(glssao_get_stats(effect).sampling_error > 0.0);
-    free(got);
-    free(wanted);
-    glssao_destroy(effect);
-    glssao_destroy(wide_effect);
     fixture_delete_frame(&frame);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

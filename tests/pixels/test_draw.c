@@ -182,7 +182,4 @@ TEST_GL(depth_equal_covers_what_the_prepass_covered)
     free(s);
 }
 
-int main(void)
-{
-    return test_run("draw", fixture_setup, fixture_teardown);
-}
+TEST_MAIN("draw", fixture_setup, fixture_teardown)

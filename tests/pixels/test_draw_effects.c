@@ -286,7 +286,4 @@ TEST_GL(everything_on_shows_the_same)
     free(s);
 }
 
-int main(void)
-{
-    return test_run("draw effects", fixture_setup, fixture_teardown);
-}
+TEST_MAIN("draw effects", fixture_setup, fixture_teardown)

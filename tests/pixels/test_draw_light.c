@@ -122,7 +122,7 @@ TEST_GL(reflection_is_that_of_the_model)
 static void bent_color(small_scene *s, const scene_lighting *lighting, const double bent[3], double accessibility,
                        double left_out, double out[3])
 {
-    GLuint map;
+    SCOPED(texture) GLuint map = 0;
     const float texel[4] = {(float)bent[0], (float)bent[1], (float)bent[2], (float)accessibility};
     const scene_draw_options options = {.bent = true, .left_out = (float)left_out};
     gl.GenTextures(1, &map);
@@ -134,7 +134,6 @@ static void bent_color(small_scene *s, const scene_lighting *lighting, const dou
         out[i] = c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
     }
     frame_free(&f);
-    gl.DeleteTextures(1, &map);
 }
 
 /* Matte light of the gradient, whose first harmonic is all that is not even; and the cones of a metal, whose share
@@ -420,7 +419,4 @@ TEST_GL(light_follows_up)
     scene_environment_destroy(environments[1]);
 }
 
-int main(void)
-{
-    return test_run("draw light", fixture_setup, fixture_teardown);
-}
+TEST_MAIN("draw light", fixture_setup, fixture_teardown)

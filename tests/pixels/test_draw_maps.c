@@ -79,20 +79,18 @@ TEST_GL(view_distance_is_the_analytic_one)
         }
         const bool reversed = depth_at(q, q->nearest) > depth_at(q, q->farthest);
         depth[COUNT - 1] = reversed ? 0 : 1;
-        GLuint depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, COUNT, 1, depth);
+        SCOPED(texture) GLuint depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, COUNT, 1, depth);
         const scene_view view = {.clip_from_view = {1.5f, 0, 0, 0, 0, 2, 0, 0, 0.25f, -0.5f, (float)q->a, (float)q->c,
                                                     0, 0, (float)q->b, (float)q->e},
                                  .width = COUNT,
                                  .height = 1};
         scene_draw_view_distance(p.renderer, &view, depth_texture);
-        float *got = fixture_read_texture(p.map, COUNT, 1, 1);
+        SCOPED(memory) float *got = fixture_read_texture(p.map, COUNT, 1, 1);
         for (int i = 0; i < COUNT - 1; i++)
             if (!(fabs((double)got[i] - distance[i]) <= 1e-4 * fmax(fabs(distance[i]), q->c != 0 ? 0 : 1)))
                 fail_msg("%s: distance %g, not %g", q->name, (double)got[i], distance[i]);
         if (got[COUNT - 1] != 0)
             fail_msg("%s: the sky's distance is %g, not 0", q->name, (double)got[COUNT - 1]);
-        free(got);
-        gl.DeleteTextures(1, &depth_texture);
     }
     free_passes(&p);
 }
@@ -100,7 +98,7 @@ TEST_GL(view_distance_is_the_analytic_one)
 TEST_GL(map_keeps_its_orientation_and_values)
 {
     passes p = make_passes();
-    GLuint map;
+    SCOPED(texture) GLuint map = 0;
     float texels[COUNT * 3];
     for (int i = 0; i < COUNT * 3; i++)
         texels[i] = (float)i;
@@ -109,15 +107,13 @@ TEST_GL(map_keeps_its_orientation_and_values)
     gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, COUNT, 1, 0, GL_RGB, GL_FLOAT, texels);
     for (int red_only = 0; red_only < 2; red_only++) {
         scene_draw_map(p.renderer, map, COUNT, 1, red_only, 2, 0.5f);
-        float *got = fixture_read_texture(p.map, COUNT, 1, 4);
+        SCOPED(memory) float *got = fixture_read_texture(p.map, COUNT, 1, 4);
         for (int i = 0; i < COUNT; i++) {
             for (int c = 0; c < 3; c++)
                 assert_float_equal(got[4 * i + c], 2 * texels[3 * i + (red_only ? 0 : c)] + 0.5f, 0.05f);
             assert_float_equal(got[4 * i + 3], 1, 0);
         }
-        free(got);
     }
-    gl.DeleteTextures(1, &map);
     free_passes(&p);
 }
 
@@ -125,20 +121,18 @@ TEST_GL(small_map_is_spread_linearly_and_upright)
 {
     const float texels[2 * 2] = {0, 1, 2, 3}; /* lower left, lower right, upper left, upper right */
     passes p = make_passes();
-    GLuint map;
+    SCOPED(texture) GLuint map = 0;
     gl.GenTextures(1, &map);
     gl.BindTexture(GL_TEXTURE_2D, map);
     gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, 2, 2, 0, GL_RED, GL_FLOAT, texels);
     gl.BindTexture(GL_TEXTURE_2D, p.map);
     gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, 4, 4, 0, GL_RGBA, GL_FLOAT, NULL);
     scene_draw_map(p.renderer, map, 4, 4, true, 1, 0);
-    float *got = fixture_read_texture(p.map, 4, 4, 1);
+    SCOPED(memory) float *got = fixture_read_texture(p.map, 4, 4, 1);
     const float weight[4] = {0, 0.25f, 0.75f, 1}; /* of the second texel, at each pixel's centre */
     for (int y = 0; y < 4; y++)
         for (int x = 0; x < 4; x++)
             assert_float_equal(got[4 * y + x], weight[x] + 2 * weight[y], 0.01f);
-    free(got);
-    gl.DeleteTextures(1, &map);
     free_passes(&p);
 }
 
@@ -240,7 +234,7 @@ TEST_GL(motion_tells_where_points_were)
     gl.Clear(GL_DEPTH_BUFFER_BIT);
     scene_draw_normals(r, &view);
     scene_draw_motion(r, &view, &last);
-    float *got = fixture_read_texture(textures[0], SIDE, SIDE, 4);
+    SCOPED(memory) float *got = fixture_read_texture(textures[0], SIDE, SIDE, 4);
     int seen = 0;
     for (int i = 0; i < SIDE * SIDE; i++) {
         const double uv[2] = {(i % SIDE + 0.5) / SIDE, (i / SIDE + 0.5) / SIDE};
@@ -256,7 +250,6 @@ TEST_GL(motion_tells_where_points_were)
             assert_true(fabs((double)got[4 * i + k] - expected[k]) < 1e-5);
     }
     assert_true(seen > SIDE * SIDE / 4 && seen < SIDE * SIDE);
-    free(got);
     gl.DeleteFramebuffers(1, &framebuffer);
     gl.DeleteTextures(2, textures);
     scene_renderer_destroy(r);
@@ -265,7 +258,4 @@ TEST_GL(motion_tells_where_points_were)
     free(other);
 }
 
-int main(void)
-{
-    return test_run("draw maps", fixture_setup, fixture_teardown);
-}
+TEST_MAIN("draw maps", fixture_setup, fixture_teardown)

@@ -199,7 +199,4 @@ TEST_GL(images_beyond_the_driver_are_refused)
     free(s);
 }
 
-int main(void)
-{
-    return test_run("draw materials", fixture_setup, fixture_teardown);
-}
+TEST_MAIN("draw materials", fixture_setup, fixture_teardown)

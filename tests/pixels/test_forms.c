@@ -5,11 +5,6 @@
  */
 #include "analytic_shot.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const double PI = 3.14159265358979323846;
 static const char *const level_names[] = {"low", "medium", "high", "ultra"};
 enum { LEVELS = 4, RAYS = 1024, INDICES = 8 };
@@ -67,11 +62,10 @@ static double *trace(const analytic_shot *s, const region *r, double radius)
 
 static float *shade(fixture *f, const analytic_shot *s, const glssao_settings *settings)
 {
-    glssao_effect *effect = fixture_effect(f, s->width, s->height);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, s->width, s->height);
     int width, height;
     float *got = fixture_compute(effect, &s->frame, settings, &width, &height);
     assert_true(width == s->width && height == s->height);
-    glssao_destroy(effect);
     return got;
 }
 
@@ -82,7 +76,7 @@ static void assert_form(fixture *f, const char *name, const analytic_shape *shap
     double *truth = trace(&s, r, radius);
     for (int level = 0; level < LEVELS; ++level) {
         const glssao_settings settings = level_settings(level, radius);
-        float *got = shade(f, &s, &settings);
+        SCOPED(memory) float *got = shade(f, &s, &settings);
         errors e = {0};
         compare(&s, got, truth, &e);
         assert_true(e.count > 100);
@@ -90,7 +84,6 @@ static void assert_form(fixture *f, const char *name, const analytic_shape *shap
         print_message("%s, %s: truth %.3f, bias %+.3f, RMSE %.3f (%d pixels)\n", name, level_names[level],
                       e.truth / e.count, e.sum / e.count, rmse, e.count);
         assert_true(rmse < most[level]);
-        free(got);
     }
     free(truth);
     analytic_free_shot(&s);
@@ -144,22 +137,20 @@ TEST_GL(strands_calm_down_over_frames)
     double *truth = trace(&s, &r, 0.3);
     for (int level = 0; level < LEVELS; ++level) {
         glssao_settings settings = level_settings(level, 0.3);
-        float *mean = shade(*state, &s, &settings);
+        SCOPED(memory) float *mean = shade(*state, &s, &settings);
         errors one = {0}, all = {0};
         compare(&s, mean, truth, &one);
         for (uint32_t k = 1; k < INDICES; ++k) {
             settings.noise_index = k;
-            float *got = shade(*state, &s, &settings);
+            SCOPED(memory) float *got = shade(*state, &s, &settings);
             for (int i = 0; i < s.width * s.height; ++i)
                 mean[i] += (got[i] - mean[i]) / (float)(k + 1);
-            free(got);
         }
         compare(&s, mean, truth, &all);
         const double single = sqrt(one.square / one.count), calm = sqrt(all.square / all.count);
         print_message("strands, %s: RMSE %.3f, of the mean of %d frames %.3f (%d pixels)\n", level_names[level], single,
                       INDICES, calm, one.count);
         assert_true(single < most[level] && calm < part[level] * single);
-        free(mean);
     }
     free(truth);
     analytic_free_shot(&s);
@@ -180,13 +171,12 @@ TEST_GL(roll_changes_little)
         double *truth = trace(&s, &r, 1.0);
         for (int level = 0; level < LEVELS; ++level) {
             const glssao_settings settings = level_settings(level, 1.0);
-            float *got = shade(*state, &s, &settings);
+            SCOPED(memory) float *got = shade(*state, &s, &settings);
             errors e = {0};
             compare(&s, got, truth, &e);
             const double error = e.sum / e.count;
             low[level] = a ? fmin(low[level], error) : error;
             high[level] = a ? fmax(high[level], error) : error;
-            free(got);
         }
         free(truth);
         analytic_free_shot(&s);
@@ -197,7 +187,4 @@ TEST_GL(roll_changes_little)
     }
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

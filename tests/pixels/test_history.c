@@ -699,7 +699,4 @@ TEST_GL(bad_views_are_refused_by_name)
     glssao_destroy(effect);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -15,7 +15,7 @@ enum { LEVELS = 4, MAX_SHAPES = 3 };
 static float *shade_frame(fixture *f, const analytic_shot *s, const glssao_frame *frame, int level, double radius,
                           double epsilon)
 {
-    glssao_effect *effect = fixture_effect(f, s->width, s->height);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, s->width, s->height);
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)level);
     settings.radius = (float)radius;
     settings.surface_epsilon = (float)epsilon;
@@ -23,7 +23,6 @@ static float *shade_frame(fixture *f, const analytic_shot *s, const glssao_frame
     int width, height;
     float *got = fixture_compute(effect, frame, &settings, &width, &height);
     assert_true(width == s->width && height == s->height);
-    glssao_destroy(effect);
     return got;
 }
 
@@ -118,12 +117,11 @@ static void add_layers(analytic_shot *s, double ground)
 {
     const float *m = s->view.projection;
     const float depth = (float)(((double)m[10] * ground + (double)m[14] + 1.0) / 2.0);
-    float *layer = malloc((size_t)(s->width * s->height) * sizeof *layer);
+    SCOPED(memory) float *layer = malloc((size_t)(s->width * s->height) * sizeof *layer);
     for (int i = 0; i < s->width * s->height; ++i)
         layer[i] = s->depth[i] < depth - 1e-4f ? depth : 1.0f;
     s->frame.back_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, s->width, s->height, layer);
     s->frame.second_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, s->width, s->height, layer);
-    free(layer);
 }
 
 /* Ground beside a block, seen straight down in a parallel projection, where nothing of the block is seen but its top.
@@ -330,7 +328,7 @@ static double noise_above(int x, int y)
 static glssao_frame raised(const analytic_shot *s, double (*above)(int x, int y), double height)
 {
     const int count = s->width * s->height;
-    float *distance = malloc((size_t)count * sizeof *distance);
+    SCOPED(memory) float *distance = malloc((size_t)count * sizeof *distance);
     assert_non_null(distance);
     for (int i = 0; i < count; ++i) {
         double at[3];
@@ -340,7 +338,6 @@ static glssao_frame raised(const analytic_shot *s, double (*above)(int x, int y)
     glssao_frame frame = s->frame;
     frame.depth_texture = fixture_texture(GL_R32F, GL_RED, GL_FLOAT, s->width, s->height, distance);
     frame.depth_kind = GLSSAO_DEPTH_VIEW_DISTANCE;
-    free(distance);
     return frame;
 }
 
@@ -368,23 +365,17 @@ TEST_GL(what_stands_out_by_less_than_epsilon_hides_nothing)
             frame.normal_texture = what % 2 ? 0 : s.frame.normal_texture;
             glssao_frame flat = s.frame;
             flat.normal_texture = frame.normal_texture;
-            float *wanted = shade_frame(*state, &s, &flat, level, 1.0, 0.0);
-            float *bare = shade_frame(*state, &s, &frame, level, 1.0, 0.0);
-            float *calm = shade_frame(*state, &s, &frame, level, 1.0, height);
+            SCOPED(memory) float *wanted = shade_frame(*state, &s, &flat, level, 1.0, 0.0);
+            SCOPED(memory) float *bare = shade_frame(*state, &s, &frame, level, 1.0, 0.0);
+            SCOPED(memory) float *calm = shade_frame(*state, &s, &frame, level, 1.0, height);
             const double without = mean_difference(bare, wanted, count), with = mean_difference(calm, wanted, count);
             print_message("%s, %s, %s: off by %.4f, with epsilon by %.4f\n", what / 2 ? "noise" : "lines",
                           what % 2 ? "depth alone" : "normals", level_names[level], without, with);
             assert_true(with < 0.013);
             assert_true(without > 5.0 * with);
             gl.DeleteTextures(1, &frame.depth_texture);
-            free(wanted);
-            free(bare);
-            free(calm);
         }
     analytic_free_shot(&s);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -216,7 +216,7 @@ static void check_scene(fixture *f, const scene_options *o, const glssao_setting
     else
         analytic_room(shapes, 1.0);
     const analytic_view view = analytic_make_view(o->projection, (double)o->width / o->height, 0.5, 40.0, 1.0);
-    float *depth, *normals;
+    SCOPED(memory) float *depth = NULL, *normals = NULL;
     analytic_render(&view, shapes, count, o->width, o->height, &depth, &normals);
     setup s = {.effect = fixture_effect(f, o->width, o->height),
                .frame = fixture_maps_frame(&view, o->width, o->height, GL_DEPTH_COMPONENT32F, depth,
@@ -229,8 +229,6 @@ static void check_scene(fixture *f, const scene_options *o, const glssao_setting
     assert_true(occluded > 0.001); /* where a wall is seen edge-on, little is */
     fixture_delete_frame(&s.frame);
     glssao_destroy(s.effect);
-    free(depth);
-    free(normals);
 }
 
 /* Both scenes for both sizes and both projections, in turn. */
@@ -336,7 +334,7 @@ static GLuint distance_texture(int width, int height, const float *distance)
 static void add_layers(setup *s, const float *distance, double radius, uint32_t *random)
 {
     const int count = s->width * s->height;
-    float *layer = malloc((size_t)count * sizeof *layer);
+    SCOPED(memory) float *layer = malloc((size_t)count * sizeof *layer);
     GLuint *out[] = {&s->frame.back_texture, &s->frame.second_texture};
     for (int k = 0; k < 2; ++k) {
         for (int i = 0; i < count; ++i)
@@ -347,7 +345,6 @@ static void add_layers(setup *s, const float *distance, double radius, uint32_t 
             layer[i] = distance[i] * 0.999f;
         *out[k] = distance_texture(s->width, s->height, layer);
     }
-    free(layer);
 }
 
 typedef struct random_options {
@@ -363,8 +360,8 @@ static void check_random_frame(fixture *f, const random_options *o, uint32_t *ra
     const int width = o->width, height = o->height;
     const analytic_view view =
         analytic_make_view(o->orthographic ? ORTHOGRAPHIC : PERSPECTIVE, (double)width / height, 0.5, 40.0, 1.0);
-    float *distance = malloc((size_t)(width * height) * sizeof *distance);
-    float *normals = malloc((size_t)(3 * width * height) * sizeof *normals);
+    SCOPED(memory) float *distance = malloc((size_t)(width * height) * sizeof *distance);
+    SCOPED(memory) float *normals = malloc((size_t)(3 * width * height) * sizeof *normals);
     double level = 4.0;
     for (int i = 0; i < width * height; ++i) {
         if (next_random(random) < 0.1)
@@ -395,8 +392,6 @@ static void check_random_frame(fixture *f, const random_options *o, uint32_t *ra
     gl.DeleteTextures(1, &s.frame.back_texture);
     gl.DeleteTextures(1, &s.frame.second_texture);
     glssao_destroy(s.effect);
-    free(distance);
-    free(normals);
 }
 
 TEST_GL(agrees_on_random_frames)
@@ -443,9 +438,10 @@ TEST_GL(agrees_for_each_estimate_of_a_still_view)
     analytic_shape shapes[SCENE_SHAPES];
     const int count = make_posts(shapes);
     const analytic_view view = analytic_make_view(PERSPECTIVE, (double)WIDTH / HEIGHT, 0.5, 40.0, 1.0);
-    float *depth, *normals;
+    SCOPED(memory) float *depth = NULL, *normals = NULL;
     analytic_render(&view, shapes, count, WIDTH, HEIGHT, &depth, &normals);
-    glssao_effect *effect = fixture_effect(*state, WIDTH, HEIGHT);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(*state, WIDTH, HEIGHT);
+    SCOPED(frame)
     const glssao_frame frame = fixture_maps_frame(&view, WIDTH, HEIGHT, GL_DEPTH_COMPONENT32F, depth, normals);
     const glssao_settings settings = bare_settings(12, false, 0.8);
     horizon_input in = {.full_width = WIDTH,
@@ -487,12 +483,8 @@ TEST_GL(agrees_for_each_estimate_of_a_still_view)
     print_message("worst outside interval %.2e\n", worst);
     assert_true(worst < 6e-6); /* the driver's pow() */
     assert_true(turned == ESTIMATES / 2);
-    fixture_delete_frame(&frame);
-    glssao_destroy(effect);
     free(before);
     free(distance);
-    free(depth);
-    free(normals);
 }
 
 /* Compares the polynomial with the integral of cos(t - g) sin(t) over 0 <= t <= acos(c), g to either side. */
@@ -516,7 +508,4 @@ TEST(measure_is_near_the_integral)
     assert_true(worst > 1e-4);   /* a polynomial approximation */
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -11,11 +11,6 @@
 #include "horizon_internals.h"
 #include "horizon_passes.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const double PAIRED = 0x1p-14 + 1e-6, RESULT = 1.5 / 65535.0;
 
 typedef struct setup {
@@ -249,7 +244,7 @@ static void check_full_size(fixture *f, analytic_projection projection, int widt
     tear_down(&s);
 }
 
-static void passes_agree_at_half_size(void **state)
+TEST_GL(passes_agree_at_half_size)
 {
     for (int normals = 0; normals < 2; ++normals) {
         check_half_size(*state, PERSPECTIVE, 32, normals, 160, 120);
@@ -259,7 +254,7 @@ static void passes_agree_at_half_size(void **state)
     }
 }
 
-static void passes_agree_at_full_size(void **state)
+TEST_GL(passes_agree_at_full_size)
 {
     check_full_size(*state, PERSPECTIVE, 120, 90);
     check_full_size(*state, ORTHOGRAPHIC, 121, 91);
@@ -267,7 +262,7 @@ static void passes_agree_at_full_size(void **state)
 
 /* Without a normal, or with one facing straight away from the eye, where the projection ends, the code stays within its
  * ten bits, beside an accessibility of 0 to 1. */
-static void every_normal_has_a_code(void **state)
+TEST_GL(every_normal_has_a_code)
 {
     static const float normals[5][3] = {
         {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -1.0f}, {0.1f, 0.0f, -1.0f}, {-0.1f, 0.0f, -1.0f}, {0.0f, -0.1f, -1.0f}};
@@ -294,12 +289,4 @@ static void every_normal_has_a_code(void **state)
     tear_down(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        GL_TEST(passes_agree_at_half_size),
-        GL_TEST(passes_agree_at_full_size),
-        GL_TEST(every_normal_has_a_code),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -447,7 +447,4 @@ TEST_GL(blur_agrees)
         }
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

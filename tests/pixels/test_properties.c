@@ -48,13 +48,12 @@ static double mean_difference(const picture *a, const picture *b)
 static picture shade(fixture *f, const analytic_view *view, const analytic_shape *shapes, int count, int width,
                      int height, bool bring_normals, const glssao_settings *settings)
 {
-    const glssao_frame all = fixture_frame(view, shapes, count, width, height);
+    SCOPED(frame) const glssao_frame all = fixture_frame(view, shapes, count, width, height);
     glssao_frame frame = all;
     if (!bring_normals)
         frame.normal_texture = 0;
     picture p;
     p.values = fixture_compute(fixture_shared_effect(f, width, height), &frame, settings, &p.width, &p.height);
-    fixture_delete_frame(&all);
     return p;
 }
 
@@ -110,11 +109,9 @@ TEST_GL(runs_are_bit_equal_and_seeds_differ)
     for (int i = 0; i < 3; ++i) {
         glssao_config config = fixture_config(f, 150, 100);
         config.seed = i < 2 ? 7u : 8u;
-        glssao_effect *effect = fixture_effect_of(f, &config);
-        const glssao_frame frame = fixture_room(PERSPECTIVE, 150, 100);
+        SCOPED(effect) glssao_effect *effect = fixture_effect_of(f, &config);
+        SCOPED(frame) const glssao_frame frame = fixture_room(PERSPECTIVE, 150, 100);
         pictures[i] = fixture_compute(effect, &frame, &settings, &width, &height);
-        fixture_delete_frame(&frame);
-        glssao_destroy(effect);
     }
     size_t bytes = (size_t)width * (size_t)height * sizeof(float);
     assert_memory_equal(pictures[0], pictures[1], bytes);
@@ -133,7 +130,7 @@ TEST_GL(resizes_through_odd_sizes_down_to_one_pixel)
         for (int bring = 0; bring < 2; ++bring) {
             int w = sizes[i][0], h = sizes[i][1];
             assert_int_equal(glssao_resize(effect, w, h), GLSSAO_OK);
-            const glssao_frame all = fixture_room(PERSPECTIVE, w, h);
+            SCOPED(frame) const glssao_frame all = fixture_room(PERSPECTIVE, w, h);
             glssao_frame frame = all;
             if (!bring)
                 frame.normal_texture = 0;
@@ -148,7 +145,6 @@ TEST_GL(resizes_through_odd_sizes_down_to_one_pixel)
                 (void)least(&p);
                 free(p.values);
             }
-            fixture_delete_frame(&all);
         }
 }
 
@@ -170,15 +166,15 @@ TEST_GL(rebuilt_normals_are_right_up_to_silhouettes)
         analytic_shape room[ANALYTIC_ROOM_SHAPES];
         analytic_room(room, 1.0);
         analytic_view view = analytic_make_view((analytic_projection)projection, 1.5, 0.5, 40.0, 1.0);
-        float *depth, *normals;
+        SCOPED(memory) float *depth = NULL, *normals = NULL;
         analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, W, H, &depth, &normals);
         glssao_effect *effect = fixture_shared_effect(f, W, H);
-        const glssao_frame frame = fixture_maps_frame(&view, W, H, GL_DEPTH_COMPONENT32F, depth, NULL);
+        SCOPED(frame) const glssao_frame frame = fixture_maps_frame(&view, W, H, GL_DEPTH_COMPONENT32F, depth, NULL);
         glssao_settings settings = settings_at_scale(1.0f);
         settings.half_resolution = false;
         int w, h;
         free(fixture_compute(effect, &frame, &settings, &w, &h));
-        float *rebuilt = fixture_read_rebuilt(effect, W, H, 1);
+        SCOPED(memory) float *rebuilt = fixture_read_rebuilt(effect, W, H, 1);
         int off = 0;
         for (int i = 0; i < W * H; ++i) {
             float cosine = 0.0f;
@@ -189,10 +185,6 @@ TEST_GL(rebuilt_normals_are_right_up_to_silhouettes)
         print_message("projection %d: %.2f %% of normals off by more than 14 degrees\n", projection,
                       100.0 * off / (W * H));
         assert_true(off * 100 < W * H); /* slivers of less than three pixels and the very rims of the spheres remain */
-        free(rebuilt);
-        free(depth);
-        free(normals);
-        fixture_delete_frame(&frame);
     }
 }
 
@@ -205,15 +197,15 @@ TEST_GL(rebuilt_normals_of_a_plane_are_exact)
     for (int i = 0; i < 2 * PROJECTION_COUNT; ++i) {
         const analytic_view view = analytic_make_view((analytic_projection)(i / 2), 1.5, 0.5, 40.0, 1.0);
         glssao_effect *effect = fixture_shared_effect(f, W, H);
-        glssao_frame frame = fixture_frame(&view, &plane, 1, W, H);
-        float *depth = fixture_read_depth(frame.depth_texture, W, H);
+        SCOPED(frame) glssao_frame frame = fixture_frame(&view, &plane, 1, W, H);
+        SCOPED(memory) float *depth = fixture_read_depth(frame.depth_texture, W, H);
         gl.DeleteTextures(1, &frame.normal_texture);
         frame.normal_texture = 0;
         glssao_settings settings = settings_at_scale(1.0f);
         settings.half_resolution = i % 2;
         int w, h, seen = 0;
         free(fixture_compute(effect, &frame, &settings, &w, &h));
-        float *rebuilt = fixture_read_rebuilt(effect, W, H, 1 + i % 2);
+        SCOPED(memory) float *rebuilt = fixture_read_rebuilt(effect, W, H, 1 + i % 2);
         for (int k = 0; k < W * H; ++k) {
             if (depth[k] == view.sky_depth || k / W % 2 == 1 || k % W % 2 == 1)
                 continue;
@@ -222,9 +214,6 @@ TEST_GL(rebuilt_normals_of_a_plane_are_exact)
                 assert_float_equal(rebuilt[3 * k + axis], plane.size[axis], 1e-3);
         }
         assert_true(8 * seen > W * H);
-        free(rebuilt);
-        free(depth);
-        fixture_delete_frame(&frame);
     }
 }
 
@@ -232,19 +221,19 @@ TEST_GL(apply_multiplies_colour_and_leaves_alpha)
 {
     fixture *f = *state;
     enum { W = 64, H = 48 };
-    glssao_effect *effect = fixture_effect(f, W, H);
-    const glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
+    SCOPED(frame) const glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
     glssao_settings settings = settings_at_scale(1.0f);
     settings.half_resolution = false;
     assert_int_equal(glssao_apply(effect, 0), GLSSAO_INVALID_ARGUMENT); /* nothing computed yet */
     int w, h;
-    float *access = fixture_compute(effect, &frame, &settings, &w, &h);
+    SCOPED(memory) float *access = fixture_compute(effect, &frame, &settings, &w, &h);
 
-    const fixture_target target = fixture_make_target(GL_RGBA32F, W, H);
+    SCOPED(target) const fixture_target target = fixture_make_target(GL_RGBA32F, W, H);
     gl.ClearBufferfv(GL_COLOR, 0, (const float[4]){0.5f, 2.0f, 0.25f, 0.75f});
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     assert_int_equal(glssao_apply(effect, target.framebuffer), GLSSAO_OK);
-    float *shaded = fixture_read_texture(target.texture, W, H, 4);
+    SCOPED(memory) float *shaded = fixture_read_texture(target.texture, W, H, 4);
     for (int i = 0; i < W * H; ++i) {
         assert_float_equal(shaded[4 * i + 0], 0.5f * access[i], 1e-5f);
         assert_float_equal(shaded[4 * i + 1], 2.0f * access[i], 1e-5f);
@@ -253,17 +242,12 @@ TEST_GL(apply_multiplies_colour_and_leaves_alpha)
     }
     glssao_stats stats = glssao_get_stats(effect);
     assert_int_equal(stats.passes[GLSSAO_PASS_APPLY].draw_calls, 1);
-    free(shaded);
-    free(access);
-    fixture_delete_target(&target);
-    fixture_delete_frame(&frame);
-    glssao_destroy(effect);
 }
 
 TEST_GL(skipped_frame_is_open)
 {
     glssao_effect *effect = fixture_shared_effect(*state, 90, 60);
-    const glssao_frame frame = fixture_room(PERSPECTIVE, 90, 60);
+    SCOPED(frame) const glssao_frame frame = fixture_room(PERSPECTIVE, 90, 60);
     glssao_settings settings = settings_at_scale(1.0f);
     for (int i = 0; i < 2; ++i) {
         settings.radius = i == 0 ? 0.5f : 0.0f; /* the second frame must not show the first one */
@@ -272,7 +256,6 @@ TEST_GL(skipped_frame_is_open)
         assert_true(i == 0 ? least(&p) < 0.9f : least(&p) == 1.0f);
         free(p.values);
     }
-    fixture_delete_frame(&frame);
 }
 
 int main(void)

@@ -606,7 +606,4 @@ TEST_GL(accumulation_ignores_rays)
     tear_down(&s);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

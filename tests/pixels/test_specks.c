@@ -94,11 +94,10 @@ static int count_specks(fixture *f, const shot *s, const glssao_frame *frame, in
     settings.radius = 1.0f;
     settings.upsample = true;
     int width, height, count = 0;
-    float *got = fixture_compute(fixture_shared_effect(f, W, H), frame, &settings, &width, &height);
+    SCOPED(memory) float *got = fixture_compute(fixture_shared_effect(f, W, H), frame, &settings, &width, &height);
     assert_true(width == W && height == H);
     for (int k = 0; k < W * H; ++k)
         count += got[k] < 0.5f && is_speck(s, got, k % W, k / W);
-    free(got);
     return count;
 }
 
@@ -115,6 +114,7 @@ TEST_GL(random_scenes_have_few_specks)
         s.truth = malloc(sizeof *s.truth * W * H);
         for (int i = 0; i < W * H; ++i)
             s.truth[i] = -1.0f;
+        SCOPED(frame)
         glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, s.depth),
                               .normal_texture = fixture_normal_texture(W, H, s.normals)};
         memcpy(frame.projection, s.view.projection, sizeof frame.projection);
@@ -124,7 +124,6 @@ TEST_GL(random_scenes_have_few_specks)
                 print_message("seed %u, %s: %d\n", (unsigned)seed, level_names[level], count);
             counts[level] += count;
         }
-        fixture_delete_frame(&frame);
         free(s.depth);
         free(s.normals);
         free(s.truth);
@@ -134,7 +133,4 @@ TEST_GL(random_scenes_have_few_specks)
         assert_true(counts[level] <= most[level]);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

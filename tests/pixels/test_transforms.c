@@ -22,8 +22,8 @@ static shaded shade(fixture *f, const small_scene *s, const scene_view *view, gl
     scene_renderer *renderer = scene_renderer_create(&s->scene, error, sizeof error);
     if (!renderer)
         fail_msg("%s", error);
-    glssao_effect *effect = fixture_effect(f, WIDTH, HEIGHT);
-    GLuint depth = fixture_depth_texture(GL_DEPTH_COMPONENT24, WIDTH, HEIGHT, NULL);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, WIDTH, HEIGHT);
+    SCOPED(texture) GLuint depth = fixture_depth_texture(GL_DEPTH_COMPONENT24, WIDTH, HEIGHT, NULL);
     gl.DepthMask(GL_TRUE);
     assert_int_equal(glssao_begin_normals(effect, depth), GLSSAO_OK);
     scene_draw_normals(renderer, view);
@@ -36,8 +36,6 @@ static shaded shade(fixture *f, const small_scene *s, const scene_view *view, gl
     int width, height;
     shaded result = {.normals = fixture_read_texture(normals, WIDTH, HEIGHT, 4)};
     result.accessibility = fixture_compute(effect, &frame, &settings, &width, &height);
-    gl.DeleteTextures(1, &depth);
-    glssao_destroy(effect);
     scene_renderer_destroy(renderer);
     return result;
 }
@@ -106,7 +104,4 @@ TEST_GL(transformed_instances_shade_like_baked_triangles)
     free(b);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

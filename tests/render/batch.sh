@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# batch.sh GLSSAO_RENDER CONTEXT: --batch writes the very files that a process a job does, reports the jobs that fail and does
-# the rest, and shards share a list out.
+# batch.sh GLSSAO_RENDER CONTEXT: --batch writes the same files as one process per job, reports the jobs that fail and
+# does the rest. Shards divide a list among them.
 set -uo pipefail
 render=$(realpath "$1") context=$2
 here=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
@@ -30,9 +30,8 @@ moving_triangle c.gltf 0.5
     for _ in $(seq 32); do printf '\100\200\100\200'; done
 } >green.hdr
 
-# Jobs that differ from the one before in all that a pipeline keeps, some with targets of the same size; the first comes
-# back at the end. Written as a shell
-# reads them, which is how the processes get them below.
+# Each job differs from the one before in something that a pipeline keeps, some with targets of the same size. The first
+# job returns at the end. They are written as a shell reads them, for the processes below.
 cat >list <<'LIST'
 # The defaults are the command line's.
 -o $to/01.png --ao $to/01.pfm --depth $to/01-d.pfm
@@ -58,7 +57,7 @@ while IFS= read -r line; do
 done <each.txt
 [ "$(ls each | wc -l)" = 16 ] || fail "not all files were made, one by one"
 diff -r batch each || fail "a batch's files are not those of a process a job"
-# The third picture of an animation is the file at its time: nothing occludes a triangle.
+# The third picture of an animation shows the file at its time: nothing occludes a triangle.
 want 0 "" -s 33x21 --time 0.75 -o third.png c.gltf
 cmp third.png batch/09-0003.png || fail "an animation's picture is not the file at its time"
 cmp -s batch/09-0001.png batch/09-0002.png && fail "the animation stands still"
@@ -82,7 +81,7 @@ for shard in 0 1; do
 done
 [ -z "$(ls each)" ] || fail "no shard made $(ls each)"
 
-# Jobs that fail, and why; what is in between is done. A list from standard input.
+# Jobs that fail, and why; the jobs between them are done. A list from standard input.
 ln -s /dev/full full.png
 echo kept >kept.png
 cat >bad <<'LIST'

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# cli.sh GLSSAO_RENDER: what the command line promises: exit codes, messages that name what and where, files of the
-# right kind and size, the same bits every time.
+# cli.sh GLSSAO_RENDER: the promises of the command line: exit codes, messages that name the fault and its place, files of
+# the right kind and size, the same bits every time.
 set -uo pipefail
 render=$1
 # shellcheck source=tests/render/fail.sh
@@ -97,7 +97,7 @@ size="-s 65x37"
     mkdir folder.png
     want 1 "folder.png" -o folder.png
     want 1 "no-folder/s.json" --stats no-folder/s.json
-    # The line that reports the failure says what the library minds; in a batch it alone names the job.
+    # The line that reports the failure gives the library's reason. In a batch, this line alone names the job.
     want 1 "invalid argument: settings.fade_end = 0.1: less than" $size --set fade-end=0.1,fade-start=3 -o a.png
     want 1 "--camera 3" $size -o a.png --camera 3
     echo '{"asset":' >broken.gltf
@@ -134,7 +134,7 @@ size="-s 65x37"
     want 0 "" $size --no-ao -o off.png
     ! cmp -s a1.png off.png || fail "--no-ao changes nothing"
 
-    # Settings arrive.
+    # Settings reach the effect.
     want 0 "" $size --ao p1.pfm --power 0
     ! cmp -s a1.pfm p1.pfm || fail "--power changes nothing"
     for options in "--radius 0.1" "--samples 12" "--blur-rounds 0" "--quality low" "--eye 3,2,5" "--fov 20"; do

@@ -45,7 +45,7 @@ intact() {
     done
 }
 
-# Outputs that are inputs of the same job, under any name of theirs.
+# Outputs that are inputs of the same job, under any of their names.
 for output in "-o image.png" "--ao buffer.png" "--normals ./image.png" "-o link.png" "--stats scene.gltf" \
     "-o $PWD/image.png"; do
     # shellcheck disable=SC2086
@@ -97,7 +97,7 @@ if [ -n "$bake" ]; then
     rm kept/baked.glb
 fi
 
-# What could not be printed is a failure, told once; a closed stream's number goes to no file. A write-protected file stays.
+# Output that cannot be printed is a failure, reported once. A closed stream's number goes to no file. A write-protected file stays.
 for arguments in --help --version "-s 24x16 --plan" "-s 24x16 --bench 1" "-s 24x16 -o -" "-s 24x16 --stats -"; do
     for target in /dev/full "&-"; do
         # shellcheck disable=SC2086
@@ -170,7 +170,7 @@ for name in INT TERM; do # while a large picture is written
     compgen -G '*.part' && fail "SIG$name leaves a temporary file"
 done
 
-# A job in a process of its own: the same files, and one that is killed costs itself alone.
+# A job in a process of its own writes the same files. Killing one harms no other.
 printf -- '-o i1.png\n-o i2.png none.glb\n-o i3.png --scene steps\n' >list
 want 1 "list: 2 of 3 jobs done, 1 failed; 2 pictures" "${small[@]}" --batch list --isolate
 grep -qF "list:2: none.glb" err || fail "the job that failed is not named"

@@ -10,7 +10,7 @@ trap 'rm -rf "$work"' EXIT
 macros=(TEXTURED BASE_MAPPED COLORED MASKED DOUBLE_SIDED BLENDED NORMAL_MAPPED REFLECTIVE ROUGHNESS_MAPPED BAKED EMISSIVE
     EMISSION_MAPPED SHADOWED LIGHTS SPECULAR_OCCLUSION MULTI_BOUNCE BEHIND ENVIRONMENT FLAT MORE_UVS BENT)
 programs=0 failures=0
-# As program_sources.c puts them together: shared functions behind #version.
+# Put together as program.c does: shared functions behind #version.
 for pass in main normals; do
     { head -n 1 $pass.frag; cat surface.glsl environment.glsl bent.glsl; tail -n +2 $pass.frag; } >"$work/$pass.frag"
 done

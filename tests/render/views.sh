@@ -29,7 +29,7 @@ GLTF
 make y-up.gltf 0,0,0,1
 make z-up.gltf 0.70710678,0,0,0.70710678
 
-# take NAME ARGUMENTS...: the view distances of a picture, as NAME.pfm.
+# take NAME ARGUMENTS...: writes the view distances of a picture to NAME.pfm.
 take() {
     local name=$1
     shift
@@ -50,7 +50,7 @@ equal_margins() { # name: within two pixels, and one pair of 3 to 6
         fail "$1: margins of $left and $right, $bottom and $top pixels"
     [ "$bottom" -le 6 ] || [ "$left" -le 6 ] || fail "$1: seen from too far off: $left, $bottom"
 }
-# The largest difference of two depth maps, as a share; "shape" where one has something that the other has not.
+# The largest relative difference of two depth maps; "shape" if only one of them shows a surface at some pixel.
 apart() {
     paste <(values "$1.pfm") <(values "$2.pfm") |
         awk '($1 > 0) != ($2 > 0) { s++ } $1 > 0 && $2 > 0 { d = ($1 - $2) / $1; d = d < 0 ? -d : d; if (d > m) m = d }
@@ -69,7 +69,7 @@ take narrow --camera none --fov 10 y-up.gltf
 equal_margins narrow
 other fitted narrow
 
-# Files: a flat one is framed by its vertices; one with z up as its copy with y up, which its own JSON turned makes.
+# Files: a flat one is framed by its vertices; one with z up is framed as its copy with y up, made by turning its JSON.
 take flat --camera none "$cases/scale0.glb"
 equal_margins flat
 size=$(od -An -tu4 -j12 -N4 "$cases/zup.glb" | tr -d ' ')

@@ -10,11 +10,6 @@
 #include "gbuffer.h"
 #include "techniques.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { PATHS = 2, WIDTH = 161, HEIGHT = 121 };
 
 static fixture *host;

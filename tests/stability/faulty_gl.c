@@ -4,10 +4,6 @@
 #include "fixture.h"
 #include "gl.h"
 
-#include <stdbool.h>
-#include <stdlib.h>
-#include <string.h>
-
 static int to_go = -1, live_objects, live_blocks;
 static bool is_inside; /* between arming and disarming, so that only the library's allocations count */
 static fault happened;

@@ -3,8 +3,7 @@
  * An OpenGL that fails on demand and counts living objects: a loader for glssao_config that wraps every function that
  * may fail, and the C allocator, which the linker wraps (--wrap=malloc and so on).
  */
-#ifndef GLSSAO_TESTS_FAULTY_GL_H
-#define GLSSAO_TESTS_FAULTY_GL_H
+#pragma once
 
 #include <glssao/glssao.h>
 
@@ -30,5 +29,3 @@ fault faulty_disarm(void);
 /* OpenGL objects and memory blocks that the effect has not freed. */
 int faulty_live_objects(void);
 int faulty_live_blocks(void);
-
-#endif

@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "hard_case.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
 static double or_default(double value, double otherwise)
 {
     return value == 0.0 ? otherwise : value;

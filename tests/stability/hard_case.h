@@ -3,8 +3,7 @@
  * One hard case: the shapes, how they are stored, which values are spoilt, and the result that is required, at every
  * technique and quality.
  */
-#ifndef GLSSAO_TESTS_HARD_CASE_H
-#define GLSSAO_TESTS_HARD_CASE_H
+#pragma once
 
 #include "techniques.h"
 
@@ -32,5 +31,3 @@ typedef struct hard_case { /* zero means default */
 /* Runs every configuration, each `stride`-th, or those of the case's turn, with the host's normals, and with rebuilt
  * ones if the case says so. Returns the number of pictures. */
 int hard_case_run(fixture *f, const hard_case *c, int stride);
-
-#endif

@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "subject.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const struct depth_format {
     const char *name;
     GLenum internal;

@@ -3,8 +3,7 @@
  * Input of the stability tests: a picture of shapes, stored in any way that a host may store it, and the accessibility
  * that comes back.
  */
-#ifndef GLSSAO_TESTS_SUBJECT_H
-#define GLSSAO_TESTS_SUBJECT_H
+#pragma once
 
 #include "analytic.h"
 #include "fixture.h"
@@ -63,5 +62,3 @@ picture subject_shade(fixture *f, int width, int height, const glssao_frame *fra
 /* Names for messages. */
 const char *subject_depth_name(depth_store depth);
 const char *subject_normal_name(normal_store normal);
-
-#endif

@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "techniques.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
 configuration configuration_of(int number)
 {
     static const char *const techniques[TECHNIQUES] = {"classic", "hemisphere", "horizon"};

@@ -2,8 +2,7 @@
  *
  * Every technique at every quality, at half and full size: the configurations that each stability test runs.
  */
-#ifndef GLSSAO_TESTS_TECHNIQUES_H
-#define GLSSAO_TESTS_TECHNIQUES_H
+#pragma once
 
 #include "subject.h"
 
@@ -25,5 +24,3 @@ glssao_settings settings_scaled(const glssao_settings *settings, double scale);
 bool picture_is_sound(const picture *p);
 double picture_least(const picture *p);
 double picture_mean(const picture *p);
-
-#endif

@@ -471,7 +471,4 @@ TEST_GL(depth_may_stay_attached_to_the_bound_framebuffer)
     subject_free(&s);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

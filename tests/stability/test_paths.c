@@ -161,14 +161,13 @@ static int stride = 1;
 
 TEST_WITH(techniques_and_qualities_agree, end_ways)
 {
-    glssao_frame frame = room_frame(PERSPECTIVE, 97, 63, DEPTH_24, NORMAL_32F);
+    SCOPED(frame) glssao_frame frame = room_frame(PERSPECTIVE, 97, 63, DEPTH_24, NORMAL_32F);
     for (int i = 0; i < CONFIGURATIONS; i += stride) {
         configuration c = configuration_of(i);
         if (c.settings.blur == GLSSAO_BLUR_NONE)
             continue;
         assert_alike(*state, c.name, 97, 63, &frame, &c.settings);
     }
-    fixture_delete_frame(&frame);
 }
 
 TEST_WITH(blurs_and_sizes_of_the_result_agree, end_ways)
@@ -193,9 +192,8 @@ TEST_WITH(odd_and_small_sizes_agree, end_ways)
     static const int sizes[][2] = {{1, 40}, {47, 2}, {8, 8}, {17, 33}, {128, 9}};
     const glssao_settings s = wide_horizon(GLSSAO_MEDIUM);
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; ++i) {
-        glssao_frame frame = room_frame(PERSPECTIVE, sizes[i][0], sizes[i][1], DEPTH_32F, NORMAL_32F);
+        SCOPED(frame) glssao_frame frame = room_frame(PERSPECTIVE, sizes[i][0], sizes[i][1], DEPTH_32F, NORMAL_32F);
         assert_alike(*state, "size", sizes[i][0], sizes[i][1], &frame, &s);
-        fixture_delete_frame(&frame);
     }
 }
 
@@ -211,9 +209,8 @@ TEST_WITH(ways_to_hand_over_agree, end_ways)
                   {ORTHOGRAPHIC, ALPHA_16F, NORMAL_32F}};
     const glssao_settings s = wide_horizon(GLSSAO_MEDIUM);
     for (size_t i = 0; i < sizeof stores / sizeof *stores; ++i) {
-        glssao_frame frame = room_frame(stores[i].projection, 64, 48, stores[i].depth, stores[i].normal);
+        SCOPED(frame) glssao_frame frame = room_frame(stores[i].projection, 64, 48, stores[i].depth, stores[i].normal);
         assert_alike(*state, subject_depth_name(stores[i].depth), 64, 48, &frame, &s);
-        fixture_delete_frame(&frame);
     }
 }
 
@@ -222,8 +219,8 @@ TEST_WITH(margins_layers_and_viewports_agree, end_ways)
     const analytic_shape wall[] = {{ANALYTIC_PLANE, {0.0, 0.0, -9.0}, {0.0, 0.0, 1.0}}};
     const analytic_view view = analytic_make_view(PERSPECTIVE, 90.0 / 70.0, 0.5, 40.0, 1.0);
     subject behind = subject_of(&view, wall, 1, 90, 70);
-    glssao_frame second = subject_frame(&behind, DEPTH_32F, NORMAL_NONE);
-    glssao_frame frame = room_frame(PERSPECTIVE, 90, 70, DEPTH_32F, NORMAL_32F);
+    SCOPED(frame) glssao_frame second = subject_frame(&behind, DEPTH_32F, NORMAL_NONE);
+    SCOPED(frame) glssao_frame frame = room_frame(PERSPECTIVE, 90, 70, DEPTH_32F, NORMAL_32F);
     for (int i = 0; i < 8; ++i) {
         glssao_settings s = wide_horizon(i % 2 ? GLSSAO_MEDIUM : GLSSAO_LOW);
         glssao_frame changed = frame;
@@ -242,8 +239,6 @@ TEST_WITH(margins_layers_and_viewports_agree, end_ways)
         memcpy(changed.viewport, (const int[4]){3, 5, 80, 60}, sizeof changed.viewport);
         assert_alike(*state, "viewport", 80, 60, &changed, &s);
     }
-    fixture_delete_frame(&frame);
-    fixture_delete_frame(&second);
     subject_free(&behind);
 }
 
@@ -253,7 +248,7 @@ TEST_WITH(rays_agree, end_ways)
     float values[66 * 51];
     for (int i = 0; i < 66 * 51; ++i)
         values[i] = i * 7 % 11 == 0 ? -1.0f : 0.5f * (float)(i * 5 % 3);
-    glssao_frame frame = room_frame(PERSPECTIVE, 66, 51, DEPTH_32F, NORMAL_NONE);
+    SCOPED(frame) glssao_frame frame = room_frame(PERSPECTIVE, 66, 51, DEPTH_32F, NORMAL_NONE);
     for (int i = 0; i < 16; ++i) {
         const bool half = i & 1, is_half = i & 2, margin = i & 4;
         const int width = half ? 33 : 66, height = half ? 26 : 51;
@@ -267,28 +262,25 @@ TEST_WITH(rays_agree, end_ways)
         gl.DeleteTextures(1, &frame.rays_texture);
         frame.rays_texture = 0;
     }
-    fixture_delete_frame(&frame);
 }
 
 /* Estimates are added by drawing; the passes before and after may be dispatched. */
 TEST_WITH(accumulated_estimates_agree, end_ways)
 {
     picture pictures[2];
-    glssao_frame frame = room_frame(PERSPECTIVE, 64, 48, DEPTH_32F, NORMAL_32F);
+    SCOPED(frame) glssao_frame frame = room_frame(PERSPECTIVE, 64, 48, DEPTH_32F, NORMAL_32F);
     const glssao_settings s = wide_horizon(GLSSAO_LOW);
     for (int i = 0; i < 2; ++i) {
         host *const h = &(host){.f = *state};
-        glssao_effect *effect;
+        SCOPED(effect) glssao_effect *effect = NULL;
         assert_int_equal(make(h, i ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT, 64, 48, &effect), GLSSAO_OK);
         for (int k = 0; k < 3; ++k)
             assert_int_equal(glssao_accumulate(effect, &frame, &s), GLSSAO_OK);
         pictures[i].values = fixture_read_ambient(effect, &pictures[i].width, &pictures[i].height);
-        glssao_destroy(effect);
     }
     assert_agree(&pictures[0], &pictures[1], "accumulated");
     free(pictures[0].values);
     free(pictures[1].values);
-    fixture_delete_frame(&frame);
 }
 
 /* Which way a host's frames take, and the bits of the picture where they are drawn. */
@@ -309,12 +301,12 @@ TEST_WITH(the_context_and_the_config_decide, end_ways)
         {true, false, false, GLSSAO_PATH_COMPUTE, GLSSAO_PATH_AUTO},
     };
     fixture *f = *state;
-    glssao_frame frame = room_frame(PERSPECTIVE, 64, 48, DEPTH_24, NORMAL_32F);
+    SCOPED(frame) glssao_frame frame = room_frame(PERSPECTIVE, 64, 48, DEPTH_24, NORMAL_32F);
     const glssao_settings s = wide_horizon(GLSSAO_MEDIUM);
     picture wanted = {0};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         host h = {f, cases[i].knows_3_3_alone, cases[i].claims_3_3, cases[i].claims_gpu, false};
-        glssao_effect *effect;
+        SCOPED(effect) glssao_effect *effect = NULL;
         const glssao_result made = make(&h, cases[i].path, 64, 48, &effect);
         /* Where the library decides, a real GPU counts like a claimed one. */
         const bool is_gpu = !context_is_software(f->context) && !cases[i].knows_3_3_alone;
@@ -338,10 +330,8 @@ TEST_WITH(the_context_and_the_config_decide, end_ways)
             assert_memory_equal(got.values, wanted.values, (size_t)(64 * 48) * sizeof *got.values);
         if (i > 0)
             free(got.values);
-        glssao_destroy(effect);
     }
     free(wanted.values);
-    fixture_delete_frame(&frame);
 }
 
 TEST_WITH(an_unknown_path_is_refused, end_ways)
@@ -357,10 +347,10 @@ TEST_WITH(refused_compute_shaders_are_done_without, end_ways)
 {
     fixture *f = *state;
     host h = {.f = f, .claims_gpu = true, .refuses_compute = true};
-    glssao_frame frame = room_frame(PERSPECTIVE, 64, 48, DEPTH_24, NORMAL_32F);
+    SCOPED(frame) glssao_frame frame = room_frame(PERSPECTIVE, 64, 48, DEPTH_24, NORMAL_32F);
     const glssao_settings s = wide_horizon(GLSSAO_MEDIUM);
     for (int i = 0; i < 3; ++i) {
-        glssao_effect *effect;
+        SCOPED(effect) glssao_effect *effect = NULL;
         assert_int_equal(make(&h, GLSSAO_PATH_AUTO, 64, 48, &effect), GLSSAO_OK);
         assert_int_equal(glssao_plan_frame(effect, &frame, &s).path, GLSSAO_PATH_COMPUTE);
         assert_int_equal(i == 0   ? glssao_compute(effect, &frame, &s)
@@ -372,13 +362,10 @@ TEST_WITH(refused_compute_shaders_are_done_without, end_ways)
         assert_true(picture_least(&p) < 0.99);
         assert_string_equal(f->log, "");
         free(p.values);
-        glssao_destroy(effect);
     }
-    glssao_effect *required;
+    SCOPED(effect) glssao_effect *required = NULL;
     assert_int_equal(make(&h, GLSSAO_PATH_COMPUTE, 64, 48, &required), GLSSAO_OK);
     assert_int_equal(glssao_compute(required, &frame, &s), GLSSAO_SHADER_ERROR);
-    glssao_destroy(required);
-    fixture_delete_frame(&frame);
 }
 
 int main(int argc, char **argv)

@@ -93,13 +93,12 @@ TEST_GL(turned_cameras_see_the_same)
     for (int i = 0; i < 4; ++i)
         for (int normals = 0; normals < 2; ++normals) {
             subject s = room(kinds[i % 2]);
-            glssao_frame plain = subject_frame(&s, DEPTH_32F, normals ? NORMAL_32F : NORMAL_NONE), turned;
+            SCOPED(frame)
+            glssao_frame plain = subject_frame(&s, DEPTH_32F, normals ? NORMAL_32F : NORMAL_NONE), turned = {0};
             turn_frame(&s, degrees[i], normals ? NORMAL_32F : NORMAL_NONE, &turned);
             char what[32];
             snprintf(what, sizeof what, "%g degrees", degrees[i]);
             assert_same(*state, &plain, &turned, 5e-4, what);
-            fixture_delete_frame(&plain);
-            fixture_delete_frame(&turned);
             subject_free(&s);
         }
 }
@@ -183,6 +182,7 @@ TEST_GL(normals_in_world_space_are_turned)
         world.normals = malloc((size_t)W * H * 3 * sizeof(float));
         for (int k = 0; k < W * H; ++k)
             to_world(view, s.normals + 3 * k, world.normals + 3 * k);
+        SCOPED(frame)
         glssao_frame plain = subject_frame(&s, DEPTH_32F, NORMAL_32F), other = subject_frame(&world, DEPTH_32F, store);
         memcpy(other.view, view, sizeof view);
         other.world_normals = true;
@@ -198,8 +198,6 @@ TEST_GL(normals_in_world_space_are_turned)
             turned.view[4 * k + 1] = (float)(n * (double)view[4 * k] + c * (double)view[4 * k + 1]);
         }
         assert_same(*state, &other, &turned, 1e-3, "world space, turned");
-        fixture_delete_frame(&plain);
-        fixture_delete_frame(&other);
         subject_free(&s);
         free(world.normals);
     }
@@ -210,7 +208,7 @@ TEST_GL(views_are_checked_where_they_count)
     fixture *f = *state;
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     subject s = room(PERSPECTIVE);
-    glssao_frame frame = subject_frame(&s, DEPTH_32F, NORMAL_32F);
+    SCOPED(frame) glssao_frame frame = subject_frame(&s, DEPTH_32F, NORMAL_32F);
     static const double flat[3] = {1.0, 0.0, 1.0}, plain[3] = {1.0, 1.0, 1.0};
     static const char *const wanted[] = {"frame.view is singular", "frame.view is singular", "frame.view[5] = nan",
                                          NULL};
@@ -227,7 +225,6 @@ TEST_GL(views_are_checked_where_they_count)
         frame.world_normals = false; /* not read */
         assert_int_equal(glssao_compute(effects[0], &frame, &settings), GLSSAO_OK);
     }
-    fixture_delete_frame(&frame);
     subject_free(&s);
 }
 
@@ -273,7 +270,7 @@ TEST_GL(far_fades_follow_the_hosts_eye)
     static const double moves[] = {2.0, -5000.0};
     for (int i = 0; i < 4; ++i) {
         subject s = room(ORTHOGRAPHIC);
-        glssao_frame frame = subject_frame(&s, DEPTH_32F, NORMAL_32F);
+        SCOPED(frame) glssao_frame frame = subject_frame(&s, DEPTH_32F, NORMAL_32F);
         glssao_settings settings = glssao_default_settings(i % 2 ? GLSSAO_HORIZON : GLSSAO_HEMISPHERE, GLSSAO_HIGH);
         settings.radius = 2.0f;
         picture without = subject_shade_by(*state, effects[0], &frame, &settings);
@@ -294,7 +291,6 @@ TEST_GL(far_fades_follow_the_hosts_eye)
         free(without.values);
         free(plain.values);
         free(moved.values);
-        fixture_delete_frame(&frame);
         subject_free(&s);
     }
 }
@@ -333,12 +329,10 @@ TEST_GL(oblique_near_planes_change_nothing)
     static const depth_store stores[] = {DEPTH_32F, DEPTH_24};
     for (int i = 0; i < 4; ++i) {
         subject s = room(i < 2 ? PERSPECTIVE : PERSPECTIVE_OFF_CENTRE);
-        glssao_frame plain = subject_frame(&s, DISTANCE_32F, i % 2 ? NORMAL_NONE : NORMAL_32F);
+        SCOPED(frame) glssao_frame plain = subject_frame(&s, DISTANCE_32F, i % 2 ? NORMAL_NONE : NORMAL_32F);
         make_oblique(&s, planes[i % 2], i == 3);
-        glssao_frame other = subject_frame(&s, stores[i / 2], i % 2 ? NORMAL_NONE : NORMAL_32F);
+        SCOPED(frame) glssao_frame other = subject_frame(&s, stores[i / 2], i % 2 ? NORMAL_NONE : NORMAL_32F);
         assert_same(*state, &plain, &other, 2e-3, "an oblique near plane");
-        fixture_delete_frame(&plain);
-        fixture_delete_frame(&other);
         subject_free(&s);
     }
 }
@@ -355,7 +349,7 @@ TEST_GL(planes_stay_open)
         if (i == 2)
             make_oblique(&s, near_plane, false);
         for (int normals = 0; normals < 2; ++normals) {
-            glssao_frame frame;
+            SCOPED(frame) glssao_frame frame = {0};
             turn_frame(&s, i == 1 ? 0.0 : 40.0, normals ? NORMAL_32F : NORMAL_NONE, &frame);
             if (i == 1)
                 frame.projection[14] -= 10.0f * frame.projection[10]; /* the plane lies behind the eye */
@@ -366,7 +360,6 @@ TEST_GL(planes_stay_open)
                     fail_msg("case %d, %s: %g", i, c.name, picture_least(&p));
                 free(p.values);
             }
-            fixture_delete_frame(&frame);
         }
         subject_free(&s);
     }
@@ -381,7 +374,7 @@ TEST_GL(doubts_are_told_once)
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     subject s = room(PERSPECTIVE);
     glssao_frame frame = subject_frame(&s, DEPTH_32F, NORMAL_NONE), bad = frame;
-    glssao_effect *effect = fixture_effect(f, W, H);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
     for (int i = 0; i < 2; ++i) {
         for (int k = 0; k < 16; ++k)
             bad.projection[k] = i ? frame.projection[4 * (k % 4) + k / 4] : identity[k];
@@ -397,12 +390,8 @@ TEST_GL(doubts_are_told_once)
     fixture_clear_log(f);
     assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_OK);
     assert_string_equal(f->log, "");
-    glssao_destroy(effect);
     fixture_delete_frame(&frame);
     subject_free(&s);
 }
 
-int main(void)
-{
-    return test_run(NULL, setup, teardown);
-}
+TEST_MAIN(NULL, setup, teardown)

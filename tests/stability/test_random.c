@@ -137,7 +137,7 @@ static void random_case(fixture *f, uint64_t seed)
         spoil(&s, seen.normals, 3 * texels, false);
     const glssao_settings settings = random_settings(&alike, &s, scale);
     const depth_store depth = (depth_store)below(&alike, DEPTH_STORES);
-    glssao_frame frame = subject_frame(&seen, depth, (normal_store)below(&alike, NORMAL_STORES));
+    SCOPED(frame) glssao_frame frame = subject_frame(&seen, depth, (normal_store)below(&alike, NORMAL_STORES));
     const int most = (width < height ? width : height) / 2 - 1;
     frame.margin = most > 1 && below(&s, 4) == 0 ? below(&s, most) / 2 * 2 : 0;
 
@@ -151,7 +151,6 @@ static void random_case(fixture *f, uint64_t seed)
     free(again.values);
     if (below(&s, 3) == 0)
         random_walk(f, &s, &frame, &settings, width, height, scale, seed);
-    fixture_delete_frame(&frame);
     subject_free(&seen);
 }
 

@@ -47,11 +47,10 @@ static picture shade_room(fixture *f, const analytic_view *view, int width, int 
     subject s = subject_of(view, room, ANALYTIC_ROOM_SHAPES, width, height);
     for (int i = 0; i < 3 * width * height && how == LOOKING_AWAY; ++i)
         s.normals[i] = -s.normals[i];
-    glssao_frame frame = subject_frame(&s, DEPTH_32F, NORMAL_32F);
+    SCOPED(frame) glssao_frame frame = subject_frame(&s, DEPTH_32F, NORMAL_32F);
     const glssao_settings scaled = settings_scaled(settings, scale);
     picture p = subject_shade(f, width, height, &frame, &scaled);
     assert_true(picture_is_sound(&p));
-    fixture_delete_frame(&frame);
     subject_free(&s);
     return p;
 }

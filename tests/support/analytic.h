@@ -3,8 +3,7 @@
  * Depth and normal maps that are computed instead of drawn: the ray of each pixel hits spheres, boxes and planes, in
  * double precision, for any supported projection. Tests know every input exactly and need no renderer.
  */
-#ifndef GLSSAO_TESTS_ANALYTIC_H
-#define GLSSAO_TESTS_ANALYTIC_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -56,5 +55,3 @@ double analytic_open(const analytic_shape *shapes, int shape_count, const double
 /* A floor, a wall, two spheres and two boxes, 3 to 9 units away. `scale` multiplies all lengths. */
 enum { ANALYTIC_ROOM_SHAPES = 6 };
 void analytic_room(analytic_shape shapes[ANALYTIC_ROOM_SHAPES], double scale);
-
-#endif

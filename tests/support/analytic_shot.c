@@ -4,8 +4,6 @@
  */
 #include "analytic_shot.h"
 
-#include <stdlib.h>
-
 analytic_shot analytic_take(const analytic_shape *shapes, int shape_count, analytic_projection projection, int width,
                             int height)
 {

@@ -2,8 +2,7 @@
  *
  * A picture of analytic shapes as a frame, and the surface that each pixel shows.
  */
-#ifndef GLSSAO_TESTS_ANALYTIC_SHOT_H
-#define GLSSAO_TESTS_ANALYTIC_SHOT_H
+#pragma once
 
 #include "fixture.h"
 
@@ -22,5 +21,3 @@ analytic_shot analytic_take(const analytic_shape *shapes, int shape_count, analy
 void analytic_free_shot(analytic_shot *s);
 /* View-space position of a pixel's surface, in perspective. */
 void analytic_position(const analytic_shot *s, int x, int y, double out[3]);
-
-#endif

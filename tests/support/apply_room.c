@@ -6,10 +6,6 @@
 
 #include "gl_counter.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { W = APPLY_W, H = APPLY_H };
 
 GLuint apply_make_texture(GLenum format, int width, int height, GLenum components, const float *texels)

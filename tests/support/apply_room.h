@@ -3,8 +3,7 @@
  * What the tests of glssao_apply and glssao_apply_with share: a room with its accessibility, and pictures to apply it
  * to.
  */
-#ifndef GLSSAO_TESTS_APPLY_ROOM_H
-#define GLSSAO_TESTS_APPLY_ROOM_H
+#pragma once
 
 #include "fixture.h"
 
@@ -46,5 +45,3 @@ void apply_clear(const apply_target *t);
 float *apply_read_target(const apply_target *t);
 
 int apply_count_lines(const char *log, const char *word);
-
-#endif

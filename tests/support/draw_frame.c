@@ -3,9 +3,6 @@
 
 #include "fixture.h"
 
-#include <math.h>
-#include <stdlib.h>
-
 const scene_view frame_front = {.view_from_world = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
                                 .clip_from_view = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -0.5f, 0, 0, 0, 0, 1},
                                 .width = FRAME_SIZE,

@@ -2,8 +2,7 @@
  *
  * Shared by the tests of the scene's draw passes: draws a frame and reads it back.
  */
-#ifndef GLSSAO_TESTS_DRAW_FRAME_H
-#define GLSSAO_TESTS_DRAW_FRAME_H
+#pragma once
 
 #include "draw.h"
 #include "small_scene.h"
@@ -48,5 +47,3 @@ void frame_add_quad(small_scene *s, scene_material material, const float world_f
 
 /* Fails unless the colour equals these linear values, sRGB-encoded, to 1/255. */
 void frame_assert_color(const uint8_t color[4], double r, double g, double b);
-
-#endif

@@ -3,11 +3,6 @@
 
 #include "functions_of_3_3.h" /* generated from GL/glcorearb.h */
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 int fixture_setup(void **state)
 {
     fixture *f = calloc(1, sizeof *f);
@@ -40,7 +35,7 @@ static bool library_saw_gl_error;
 
 int fixture_no_gl_error(void **state)
 {
-    (void)state;
+    test_release(state);
     if (library_saw_gl_error) {
         library_saw_gl_error = false;
         return 1;
@@ -298,4 +293,14 @@ float *fixture_compute(glssao_effect *effect, const glssao_frame *frame, const g
 {
     assert_int_equal(glssao_compute(effect, frame, settings), GLSSAO_OK);
     return fixture_read_ambient(effect, out_width, out_height);
+}
+
+void test_end_effect(glssao_effect **effect)
+{
+    glssao_destroy(*effect);
+}
+
+void test_end_texture(const GLuint *texture)
+{
+    gl.DeleteTextures(1, texture);
 }

@@ -3,8 +3,7 @@
  * Shared by the GL tests: a context as GLSSAO_TEST_CONTEXT names it, a loader limited by GLSSAO_TEST_LOADER, effects
  * whose log is kept, and transfers between arrays and textures. Arrays hold rows bottom to top.
  */
-#ifndef GLSSAO_TESTS_FIXTURE_H
-#define GLSSAO_TESTS_FIXTURE_H
+#pragma once
 
 #include "analytic.h"
 #include "context.h"
@@ -24,7 +23,6 @@ int fixture_setup(void **state);
 int fixture_teardown(void **state);
 /* cmocka test teardown. Fails if GL has an error or the library logged one. */
 int fixture_no_gl_error(void **state);
-#define GL_TEST(test) cmocka_unit_test_setup_teardown(test, NULL, fixture_no_gl_error)
 /* A test after which GL must hold no error. */
 #define TEST_GL(name) TEST_WITH(name, fixture_no_gl_error)
 
@@ -91,4 +89,8 @@ float *fixture_read_ambient(const glssao_effect *effect, int *out_width, int *ou
 float *fixture_compute(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings,
                        int *out_width, int *out_height);
 
-#endif
+/* For SCOPED, which runs them in the reverse order of the variables. */
+void test_end_effect(glssao_effect **effect);
+void test_end_texture(const GLuint *texture);
+#define test_end_frame fixture_delete_frame
+#define test_end_target fixture_delete_target

@@ -2,8 +2,7 @@
  *
  * A GL loader that counts the calls an effect makes. One at a time.
  */
-#ifndef GLSSAO_TESTS_GL_COUNTER_H
-#define GLSSAO_TESTS_GL_COUNTER_H
+#pragma once
 
 #include <glssao/glssao.h>
 #include <stdint.h>
@@ -27,5 +26,3 @@ void gl_counter_start(glssao_load_fn load, void *load_user);
 void *gl_counter_load(const char *name, void *user);
 /* The counts since the last call, which marks the end of a frame. */
 gl_counts gl_counter_take(void);
-
-#endif

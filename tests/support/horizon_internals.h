@@ -2,8 +2,7 @@
  *
  * The inputs of the horizon estimate in an effect's last frame, read from the library's internals.
  */
-#ifndef GLSSAO_TESTS_HORIZON_INTERNALS_H
-#define GLSSAO_TESTS_HORIZON_INTERNALS_H
+#pragma once
 
 #include "horizon_model.h"
 #include "horizon_passes.h"
@@ -37,5 +36,3 @@ void horizon_depth_step(const struct glssao_effect *effect, double out_step[3]);
 /* Slices, steps and constants of the compiled variant, and the step of the depth format. The effect must have run
  * exactly one variant. */
 bool horizon_variant(const glssao_effect *effect, horizon_input *out);
-
-#endif

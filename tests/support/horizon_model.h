@@ -8,8 +8,7 @@
  * that bound leaves a decision open, the model takes both ways, and the result is an interval: the sectors that are
  * certainly hidden, and those that may be.
  */
-#ifndef GLSSAO_TESTS_HORIZON_MODEL_H
-#define GLSSAO_TESTS_HORIZON_MODEL_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -49,5 +48,3 @@ bool horizon_model_open(const horizon_input *in, int x, int y, double out[3]);
 /* The measure of the angles from 0 to acos(c) on one side of a slice, for a normal that leans to that side by an angle
  * of the given cosine and sine. A polynomial approximates the integral of cos(t - g) sin(t). */
 double horizon_measure(double cos_g, double sin_g, double c);
-
-#endif

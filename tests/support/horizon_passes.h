@@ -3,8 +3,7 @@
  * The planar blur and upsampling in double precision, written from their formulas, to compare with pixel by pixel. As
  * in horizon_model.h, the result is an interval where float arithmetic could decide a threshold either way.
  */
-#ifndef GLSSAO_TESTS_HORIZON_PASSES_H
-#define GLSSAO_TESTS_HORIZON_PASSES_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -52,5 +51,3 @@ void upsample_model(const paired_map *half, bool orthographic, const pass_consta
 double paired_accessibility(float red);
 /* Replaces the value, which keeps its normal; negative: missing. */
 void paired_set(float *red, double value);
-
-#endif

@@ -3,8 +3,7 @@
  * Shared by the two halves of the horizon model: horizon_model.c makes the slice, horizon_slice.c finds what is hidden
  * in it.
  */
-#ifndef GLSSAO_TESTS_HORIZON_SLICE_H
-#define GLSSAO_TESTS_HORIZON_SLICE_H
+#pragma once
 
 #include "horizon_model.h"
 #include "rounded.h"
@@ -71,5 +70,3 @@ hidden horizon_slice_hidden(const point *p, const slice *s, const side *d);
 /* The integral of the directions, along the slice and towards the eye, that its hidden sectors and its veil stand for.
  * False where either is not decided. */
 bool horizon_slice_directions(const point *p, const slice *s, const hidden h[2], double out[2]);
-
-#endif

@@ -7,8 +7,7 @@
  * and true. So the model returns an interval: at each threshold that the float precision of the inputs cannot decide,
  * it takes both sides. Elsewhere the interval has no width.
  */
-#ifndef GLSSAO_TESTS_MODEL_H
-#define GLSSAO_TESTS_MODEL_H
+#pragma once
 
 #include <glssao/glssao.h>
 
@@ -35,5 +34,3 @@ void model_hemisphere(const model_input *in, int x, int y, double *out_low, doub
 /* One direction of the blur of `ambient` (an ambient map's texels). Returns false if float precision cannot decide a
  * tap's threshold. */
 bool model_blur(const model_input *in, const float *ambient, bool horizontal, int x, int y, double *out_value);
-
-#endif

@@ -3,8 +3,7 @@
  * Ambient light on occluded surfaces as the demo computes it (examples/scene/shaders/bent.glsl and main.frag), in
  * double precision.
  */
-#ifndef GLSSAO_TESTS_OPEN_LIGHT_H
-#define GLSSAO_TESTS_OPEN_LIGHT_H
+#pragma once
 
 /* How much more of the light that is linear in direction arrives than from a whole hemisphere, if what is open is a
  * cone. */
@@ -17,5 +16,3 @@ double open_light_cone(const double bent[3], double accessibility, const double 
                        double roughness);
 /* The same from accessibility alone (Lagarde and de Rousiers 2014, listing 26). */
 double open_light_lobe(double cos_eye, double accessibility, double roughness);
-
-#endif

@@ -5,8 +5,7 @@
  * ed., section 3.3). Each operation is as exact as GLSL requires from 4.10 on: half a unit in the last place; division
  * and square roots two and a half.
  */
-#ifndef GLSSAO_TESTS_ROUNDED_H
-#define GLSSAO_TESTS_ROUNDED_H
+#pragma once
 
 #include <math.h>
 
@@ -82,5 +81,3 @@ static inline rounded middle(interval a)
 {
     return (rounded){0.5 * (a.low + a.high), 0.5 * (a.high - a.low)};
 }
-
-#endif

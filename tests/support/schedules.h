@@ -2,8 +2,7 @@
  *
  * Every kind of frame that a schedule can be made for, without OpenGL.
  */
-#ifndef GLSSAO_TESTS_SCHEDULES_H
-#define GLSSAO_TESTS_SCHEDULES_H
+#pragma once
 
 #include "frame/schedule.h"
 
@@ -14,5 +13,3 @@ int schedules_visit(void (*visit)(const glssao__request *request, const glssao__
 
 /* A request for a frame of that size with depth and normals, on a GPU with compute shaders. */
 glssao__request schedules_request(glssao_frame *frame, glssao_settings *settings, int width, int height);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * Scenes built by hand, for tests of the drawing: materials, then meshes of one primitive, each with its instances.
  */
-#ifndef GLSSAO_TESTS_SMALL_SCENE_H
-#define GLSSAO_TESTS_SMALL_SCENE_H
+#pragma once
 
 #include "scene.h"
 
@@ -44,5 +43,3 @@ void small_scene_add_instance(small_scene *s, const float world_from_mesh[16]);
 void small_scene_turned_and_scaled(float x, float y, float z, float out[16]);
 /* A copy whose vertices are where the instances put them, as a modelling program would bake it. Free with free(). */
 small_scene *small_scene_baked(const small_scene *s);
-
-#endif

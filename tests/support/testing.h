@@ -7,15 +7,11 @@
  *         assert_int_equal(2 * 3 % 2, 0);
  *     }
  *
- *     int main(void)
- *     {
- *         return test_run(NULL, NULL, NULL);
- *     }
+ *     TEST_MAIN(NULL, NULL, NULL)
  *
  * Inside a test, `state` is cmocka's.
  */
-#ifndef GLSSAO_TESTS_TESTING_H
-#define GLSSAO_TESTS_TESTING_H
+#pragma once
 
 #include <math.h>
 #include <setjmp.h>
@@ -29,7 +25,17 @@
 
 #include <cmocka.h>
 
-/* A test with a teardown of its own; NULL: none. */
+/* Calls release(what) when the running test ends, passed or failed; the latest comes first. */
+void test_release_later(void (*release)(void *what), void *what);
+/* The cmocka teardown that does so. A teardown for TEST_WITH calls it. */
+int test_release(void **state);
+
+/* Ends the variable with its block, for kinds of which there is a test_end_KIND: SCOPED(memory) float *a = ...; */
+#define SCOPED(kind) __attribute__((cleanup(test_end_##kind)))
+/* `at` points to a pointer. */
+void test_end_memory(const void *at);
+
+/* A test with a teardown of its own. */
 #define TEST_WITH(name, teardown)                                                                                      \
     static void name(void **state);                                                                                    \
     __attribute__((constructor)) static void name##_registers(void)                                                    \
@@ -37,12 +43,16 @@
         test_register(#name, name, teardown);                                                                          \
     }                                                                                                                  \
     static void name(__attribute__((unused)) void **state)
-#define TEST(name) TEST_WITH(name, NULL)
+#define TEST(name) TEST_WITH(name, test_release)
 
 void test_register(const char *name, CMUnitTestFunction test, CMFixtureFunction teardown);
 
 /* Runs the tests of the program in the order of their definition, between the group's setup and teardown, and returns
  * the number of those that failed. `group` is a name for the output, or NULL. */
 int test_run(const char *group, CMFixtureFunction setup, CMFixtureFunction teardown);
-
-#endif
+/* The program's main function, which does that alone. */
+#define TEST_MAIN(group, setup, teardown)                                                                              \
+    int main(void)                                                                                                     \
+    {                                                                                                                  \
+        return test_run(group, setup, teardown);                                                                       \
+    }

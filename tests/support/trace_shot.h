@@ -2,8 +2,7 @@
  *
  * Small traced pictures and single points for the tests of the ray tracer. A failure of the tracer fails the test.
  */
-#ifndef GLSSAO_TESTS_TRACE_SHOT_H
-#define GLSSAO_TESTS_TRACE_SHOT_H
+#pragma once
 
 #include "trace.h"
 
@@ -24,5 +23,3 @@ scene_view trace_shot_view(const float eye[3], const float target[3], float scal
 trace_shot trace_shot_take(const scene *s, const scene_view *view, trace_options options);
 int trace_shot_foreground(const trace_shot *p);                         /* pixels that see a surface */
 double trace_shot_difference(const trace_shot *a, const trace_shot *b); /* mean, absolute */
-
-#endif

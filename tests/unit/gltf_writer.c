@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: MIT
  *
- * Writes small glTF files.
+ * Writes small glTF files, and loads them.
  */
 #define _XOPEN_SOURCE 700 /* mkdtemp, nftw */
 #include "gltf_writer.h"
 
+#include "scene_validity.h"
 #include "testing.h"
 
 #include <ftw.h>
+
+const float gltf_triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 
 static char folder[] = "/tmp/glssao-test-XXXXXX";
 
@@ -79,6 +82,13 @@ int gltf_put_floats(gltf_writer *w, const char *type, size_t count, const float 
     return gltf_put_accessor(w, view, 5126, type, count, "");
 }
 
+gltf_writer gltf_begin(void)
+{
+    gltf_writer w = {0};
+    gltf_put_floats(&w, "VEC3", 3, gltf_triangle);
+    return w;
+}
+
 const char *gltf_write_bytes(const char *name, const void *data, size_t size)
 {
     const char *path = gltf_writer_path(name);
@@ -130,8 +140,13 @@ static char *compose(const gltf_writer *w, int embedded, const char *rest)
 
 const char *gltf_write(const gltf_writer *w, const char *name, const char *rest)
 {
-    const char *text = w ? compose(w, 1, rest) : rest;
-    return gltf_write_bytes(name, text, strlen(text));
+    const char *path = gltf_writer_path(name), *text = w ? compose(w, 1, rest) : rest;
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    for (; *text; ++text)
+        fputc(*text == '\'' ? '"' : *text, file);
+    assert_int_equal(fclose(file), 0);
+    return path;
 }
 
 static void put_u32(uint8_t *at, size_t value)
@@ -154,9 +169,27 @@ const char *gltf_write_glb(const gltf_writer *w, const char *name, const char *r
     put_u32(file + 8, size);
     put_u32(file + 12, json_size);
     memcpy(file + 16, "JSON", 4);
-    memcpy(file + 20, json, json_size);
+    for (size_t i = 0; i < json_size; ++i)
+        file[20 + i] = (uint8_t)(json[i] == '\'' ? '"' : json[i]);
     put_u32(file + 20 + json_size, w->size);
     memcpy(file + 24 + json_size, "BIN", 4);
     memcpy(file + 28 + json_size, w->bin, w->size);
     return gltf_write_bytes(name, file, size);
+}
+
+static void destroy(void *what)
+{
+    scene_destroy(what);
+}
+
+scene *gltf_scene(const char *path, const scene_load_options *options)
+{
+    char error[1024] = "";
+    scene *s = scene_load_with(path, options, error, sizeof error);
+    if (!s)
+        fail_msg("%s", error);
+    test_release_later(destroy, s);
+    if (scene_find_flaw(s))
+        fail_msg("%s: %s", path, scene_find_flaw(s));
+    return s;
 }

@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "guest.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-
 guest guest_open(fixture *f, glssao_path path)
 {
     guest g = {.f = f};

@@ -3,12 +3,9 @@
  * What the tests of good manners share: a guest (an effect with a frame to read), a compatibility context, GL
  * functions outside the common table, and checks that a call left no GL error and said why it refused.
  */
-#ifndef GLSSAO_TESTS_GUEST_H
-#define GLSSAO_TESTS_GUEST_H
+#pragma once
 
 #include "fixture.h"
-
-#include <string.h>
 
 enum { GUEST_W = 64, GUEST_H = 48 };
 
@@ -42,5 +39,3 @@ void guest_refused(guest *g, glssao_result result, const char *word, const char 
 fixture_target guest_make_white(void);
 /* Pixels that are white no longer. */
 int guest_count_dark(const fixture_target *t);
-
-#endif

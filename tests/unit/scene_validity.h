@@ -2,13 +2,10 @@
  *
  * The invariants of every scene.
  */
-#ifndef GLSSAO_TESTS_SCENE_VALIDITY_H
-#define GLSSAO_TESTS_SCENE_VALIDITY_H
+#pragma once
 
 #include "scene.h"
 
 /* NULL if all invariants hold, otherwise the one that fails: indices within the vertices, references within their
  * arrays, finite numbers, unit normals, instances sorted by mesh, bounds that contain everything drawn. */
 const char *scene_find_flaw(const scene *s);
-
-#endif

@@ -69,12 +69,11 @@ static glssao_result create_with(fixture *f, liar *l)
     glssao_config config = fixture_config(f, 8, 8);
     config.load = lying_load;
     config.load_user = l;
-    glssao_effect *effect = (glssao_effect *)&config; /* must become NULL */
+    SCOPED(effect) glssao_effect *effect = (glssao_effect *)&config; /* must become NULL */
     fixture_clear_log(f);
     glssao_result result = glssao_create(&config, &effect);
     if (result != GLSSAO_OK)
         assert_null(effect);
-    glssao_destroy(effect);
     return result;
 }
 
@@ -190,7 +189,7 @@ static void check_refused(fixture *f, const scene_inputs *in, const glssao_frame
 {
     int w, h;
     uint32_t ambient = glssao_map(in->effect, GLSSAO_MAP_AMBIENT, &w, &h);
-    float *before = fixture_read_texture(ambient, w, h, 1);
+    SCOPED(memory) float *before = fixture_read_texture(ambient, w, h, 1);
     glssao_constants constants = *glssao_get_constants(in->effect);
     uint64_t frames = glssao_get_stats(in->effect).frame;
     fixture_clear_log(f);
@@ -202,12 +201,10 @@ static void check_refused(fixture *f, const scene_inputs *in, const glssao_frame
     assert_false(glssao_plan_frame(in->effect, frame, settings).passes[GLSSAO_PASS_BLUR].run &&
                  strncmp(field, "frame.", 6) != 0);
     assert_int_equal(glssao_map(in->effect, GLSSAO_MAP_AMBIENT, NULL, NULL), ambient);
-    float *after = fixture_read_texture(ambient, w, h, 1);
+    SCOPED(memory) float *after = fixture_read_texture(ambient, w, h, 1);
     assert_memory_equal(before, after, (size_t)(w * h) * sizeof *before);
     assert_memory_equal(&constants, glssao_get_constants(in->effect), sizeof constants);
     assert_int_equal(glssao_get_stats(in->effect).frame, frames);
-    free(before);
-    free(after);
 }
 
 TEST_GL(compute_refuses_bad_settings)
@@ -382,7 +379,7 @@ TEST_GL(begin_normals_clears_to_the_documented_values)
     for (int i = 0; i < 4; ++i) {
         scene_inputs in = make_inputs(f);
         float depth[16 * 12] = {0};
-        GLuint texture = fixture_depth_texture(formats[i], 16, 12, depth);
+        SCOPED(texture) GLuint texture = fixture_depth_texture(formats[i], 16, 12, depth);
         gl.ClearDepth(0.25);
         assert_int_equal(glssao_begin_normals(in.effect, texture), GLSSAO_OK);
         GLint viewport[4];
@@ -390,23 +387,21 @@ TEST_GL(begin_normals_clears_to_the_documented_values)
         assert_true(viewport[2] == 16 && viewport[3] == 12);
         assert_int_equal(glssao_end_normals(in.effect), GLSSAO_OK);
         gl.ClearDepth(1.0);
-        float *got = fixture_read_depth(texture, 16, 12);
+        SCOPED(memory) float *got = fixture_read_depth(texture, 16, 12);
+        SCOPED(memory)
         float *normals = fixture_read_texture(glssao_map(in.effect, GLSSAO_MAP_NORMAL, NULL, NULL), 16, 12, 4);
         for (int k = 0; k < 16 * 12; ++k) {
             assert_float_equal(got[k], 0.25f, 1e-4f);
             assert_true(normals[4 * k] == 0.0f && normals[4 * k + 1] == 0.0f && normals[4 * k + 2] == 1.0f &&
                         normals[4 * k + 3] == 0.0f);
         }
-        free(got);
-        free(normals);
-        gl.DeleteTextures(1, &texture);
         free_inputs(&in);
     }
 }
 
 TEST_GL(maps_are_born_as_documented)
 {
-    glssao_effect *effect = fixture_effect(*state, 17, 9);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(*state, 17, 9);
     int w, h;
     float *ambient = fixture_read_texture(glssao_map(effect, GLSSAO_MAP_AMBIENT, &w, &h), 9, 5, 1);
     assert_true(w == 9 && h == 5);
@@ -431,7 +426,6 @@ TEST_GL(maps_are_born_as_documented)
     }
     assert_int_equal(glssao_map(effect, GLSSAO_MAP_DEPTH, &w, &h), 0);
     assert_int_equal(glssao_map(effect, (glssao_map_id)99, &w, &h), 0);
-    glssao_destroy(effect);
 }
 
 TEST_GL(timers_can_be_forbidden)
@@ -457,7 +451,4 @@ TEST_GL(texts_are_never_null)
     assert_int_equal(glssao_version(), GLSSAO_VERSION_MAJOR << 16 | GLSSAO_VERSION_MINOR << 8 | GLSSAO_VERSION_PATCH);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

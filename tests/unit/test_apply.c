@@ -122,10 +122,9 @@ TEST_GL(each_option_follows_its_formula)
                 const gl_counts counts = gl_counter_take();
                 const bool dispatches = path == GLSSAO_PATH_COMPUTE && formats[k].is_image;
                 assert_true(counts.dispatches == dispatches && counts.draws == !dispatches && counts.unordered == 0);
-                float *got = apply_read_target(&t);
+                SCOPED(memory) float *got = apply_read_target(&t);
                 /* GL_FRAMEBUFFER_SRGB is off: what is stored is multiplied, and was cleared so. */
                 check_picture(&r, &options[i], &formats[k], true, got, what);
-                free(got);
                 apply_delete_target(&t);
             }
         assert_string_equal(r.f->log, "");
@@ -151,9 +150,8 @@ TEST_GL(sRGB_framebuffers_multiply_light_while_the_host_has_them_on)
             assert_int_equal(glssao_apply_with(r.effect, &options), GLSSAO_OK);
             assert_true(gl.IsEnabled(GL_FRAMEBUFFER_SRGB));
             gl.Disable(GL_FRAMEBUFFER_SRGB);
-            float *got = apply_read_target(&t);
+            SCOPED(memory) float *got = apply_read_target(&t);
             check_picture(&r, &options, &formats[FORMATS - 1], false, got, "sRGB on");
-            free(got);
             apply_delete_target(&t);
         }
         apply_close_room(&r);
@@ -181,13 +179,12 @@ TEST_GL(show_replaces_the_picture)
         options.show = true;
         options.color[0] = 0.5f; /* has no say */
         assert_int_equal(glssao_apply_with(r.effect, &options), GLSSAO_OK);
-        float *got = apply_read_target(&t);
+        SCOPED(memory) float *got = apply_read_target(&t);
         for (int i = 0; i < W * H; ++i) {
             for (int k = 0; k < 3; ++k)
                 assert_float_equal(got[4 * i + k], r.access[i], 1e-5f);
             assert_float_equal(got[4 * i + 3], apply_before[3], 0.0f);
         }
-        free(got);
         apply_delete_target(&t);
         apply_close_room(&r);
     }
@@ -208,7 +205,7 @@ TEST_GL(parameters_of_the_strength_texture_are_lent)
     options.framebuffer = t.framebuffer;
     options.strength_texture = r.strength;
     assert_int_equal(glssao_apply_with(r.effect, &options), GLSSAO_OK);
-    float *got = apply_read_target(&t);
+    SCOPED(memory) float *got = apply_read_target(&t);
     check_picture(&r, &options, &formats[3], true, got, "lent parameters");
     GLint red, base;
     gl.BindTexture(GL_TEXTURE_2D, r.strength);
@@ -216,7 +213,6 @@ TEST_GL(parameters_of_the_strength_texture_are_lent)
     get(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, &base);
     gl.BindTexture(GL_TEXTURE_2D, 0);
     assert_true(red == GL_ZERO && base == 3);
-    free(got);
     apply_delete_target(&t);
     apply_close_room(&r);
 }
@@ -307,7 +303,4 @@ TEST_GL(unusual_targets_get_the_same_picture)
     }
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

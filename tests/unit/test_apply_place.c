@@ -67,25 +67,24 @@ TEST_GL(four_views_in_one_framebuffer)
     analytic_shape shapes[ANALYTIC_ROOM_SHAPES];
     analytic_room(shapes, 1.0);
     for (int path = GLSSAO_PATH_FRAGMENT; path <= apply_last_path(); ++path) {
-        glssao_effect *effect = apply_make_effect(*state, (glssao_path)path, W, H);
+        SCOPED(effect) glssao_effect *effect = apply_make_effect(*state, (glssao_path)path, W, H);
         glssao_settings settings = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_HIGH);
         settings.half_resolution = false;
+        SCOPED(memory)
         float *depth = malloc(4 * W * H * sizeof *depth), *strengths = malloc(4 * W * H * sizeof *strengths);
         analytic_view views[4];
         for (int i = 0; i < 4; ++i) {
             views[i] = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
             views[i].projection[0] *= 1.0f + 0.3f * (float)i;
-            float *part, *normals;
+            SCOPED(memory) float *part = NULL, *normals = NULL;
             analytic_render(&views[i], shapes, ANALYTIC_ROOM_SHAPES, W, H, &part, &normals);
             for (int k = 0; k < W * H; ++k)
                 depth[((k / W) + i / 2 * H) * 2 * W + k % W + i % 2 * W] = part[k];
-            free(part);
-            free(normals);
         }
         for (int i = 0; i < 4 * W * H; ++i)
             strengths[i] = (float)(i % 13) / 12.0f;
-        const GLuint atlas = fixture_depth_texture(GL_DEPTH_COMPONENT32F, 2 * W, 2 * H, depth);
-        const GLuint strength = apply_make_texture(GL_R32F, 2 * W, 2 * H, GL_RED, strengths);
+        SCOPED(texture) const GLuint atlas = fixture_depth_texture(GL_DEPTH_COMPONENT32F, 2 * W, 2 * H, depth);
+        SCOPED(texture) const GLuint strength = apply_make_texture(GL_R32F, 2 * W, 2 * H, GL_RED, strengths);
         apply_target plain = apply_make_target(GL_RGBA32F, 2 * W, 2 * H),
                      weighted = apply_make_target(GL_RGBA32F, 2 * W, 2 * H);
         float *wanted[4];
@@ -100,7 +99,7 @@ TEST_GL(four_views_in_one_framebuffer)
             options.strength_texture = strength;
             assert_int_equal(glssao_apply_with(effect, &options), GLSSAO_OK);
         }
-        float *got = apply_read_target(&plain), *got_weighted = apply_read_target(&weighted);
+        SCOPED(memory) float *got = apply_read_target(&plain), *got_weighted = apply_read_target(&weighted);
         for (int y = 0; y < 2 * H; ++y)
             for (int x = 0; x < 2 * W; ++x) {
                 const int at = y * 2 * W + x;
@@ -110,15 +109,8 @@ TEST_GL(four_views_in_one_framebuffer)
             }
         for (int i = 0; i < 4; ++i)
             free(wanted[i]);
-        free(got);
-        free(got_weighted);
-        free(depth);
-        free(strengths);
         apply_delete_target(&plain);
         apply_delete_target(&weighted);
-        gl.DeleteTextures(1, &atlas);
-        gl.DeleteTextures(1, &strength);
-        glssao_destroy(effect);
     }
 }
 
@@ -129,7 +121,7 @@ TEST_GL(margin_shifts_the_strength_texture)
     apply_room r = apply_open_room(*state, GLSSAO_PATH_FRAGMENT);
     r.frame.margin = M;
     int w, h;
-    float *inner = fixture_compute(r.effect, &r.frame, &r.settings, &w, &h);
+    SCOPED(memory) float *inner = fixture_compute(r.effect, &r.frame, &r.settings, &w, &h);
     assert_true(w == PW && h == PH);
     apply_target t = apply_make_target(GL_RGBA32F, W, H);
     glssao_apply_options options = glssao_default_apply_options();
@@ -140,10 +132,8 @@ TEST_GL(margin_shifts_the_strength_texture)
         const float strength = r.strengths[(i / PW + M) * W + i % PW + M];
         inner[i] = 1.0f - fminf(fmaxf(strength, 0.0f), 1.0f) * (1.0f - inner[i]);
     }
-    float *got = apply_read_target(&t);
+    SCOPED(memory) float *got = apply_read_target(&t);
     check_place(got, W, H, (const int[4]){0, 0, PW, PH}, inner, "margin");
-    free(got);
-    free(inner);
     apply_delete_target(&t);
     apply_close_room(&r);
 }
@@ -190,13 +180,12 @@ TEST_GL(tests_of_the_host_are_kept_on_request_and_ignored_once_told)
             assert_true(gl.IsEnabled(GL_SCISSOR_TEST) && gl.IsEnabled(GL_STENCIL_TEST));
             gl.Disable(GL_SCISSOR_TEST);
             gl.Disable(GL_STENCIL_TEST);
-            float *got = apply_read_target(&t);
+            SCOPED(memory) float *got = apply_read_target(&t);
             for (int k = 0; k < W * H; ++k) {
                 const bool passes =
                     (!options.keep_scissor || k % W < W / 2) && (!options.keep_stencil || k / W < H / 2);
                 assert_float_equal(got[4 * k], apply_before[0] * (passes ? r.access[k] : 1.0f), 1e-5f);
             }
-            free(got);
         }
         assert_int_equal(apply_count_lines(r.f->log, "GL_SCISSOR_TEST is on and ignored"), 1);
         assert_int_equal(apply_count_lines(r.f->log, "GL_STENCIL_TEST is on and ignored"), 1);
@@ -300,7 +289,4 @@ TEST_GL(bad_options_are_named_and_change_nothing)
     apply_close_room(&r);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

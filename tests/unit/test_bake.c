@@ -52,11 +52,10 @@ static bool contains(const char *data, size_t size, const char *text)
 static void assert_says(const char *words)
 {
     size_t size;
-    char *text = read_file(gltf_writer_path("err"), &size);
+    SCOPED(memory) char *text = read_file(gltf_writer_path("err"), &size);
     if (!strstr(text, words)) {
         fail_msg("\"%s\" does not say \"%s\"", text, words);
     }
-    free(text);
 }
 
 /* A wall at x = 0 and a floor of strips along it, shown twice: beside the wall, and far away from everything. The
@@ -108,16 +107,6 @@ static const char *write_room(const char *name, const float *x, bool coloured)
     return path;
 }
 
-static scene *load(const char *path)
-{
-    char error[512];
-    scene *s = scene_load(path, error, sizeof error);
-    if (!s) {
-        fail_msg("%s", error);
-    }
-    return s;
-}
-
 /* Red of the floor's vertices at x, averaged over both, of the floor beside the wall or of the one far away. */
 static double red_at(const scene *s, float x, bool away)
 {
@@ -157,14 +146,13 @@ TEST(vertices_get_their_accessibility)
     const char *out = output_path("out.glb");
     assert_int_equal(run("--vertices --cosine --distance 1 --rays 4096", write_room("in.gltf", floor_x, false), out),
                      0);
-    scene *s = load(out);
+    scene *s = gltf_scene(out, NULL);
     assert_int_equal(s->mesh_count, 3); /* the floor's mesh became two */
     for (int i = 0; i < COLUMNS; i++) {
         const double truth = beside_wall((double)floor_x[i]), seen = red_at(s, floor_x[i], false);
         assert_true(fabs(seen - truth) <= 3 * sqrt(truth * (1 - truth) / RAYS) + 1e-4);
         assert_true(red_at(s, floor_x[i], true) == 1);
     }
-    scene_destroy(s);
 }
 
 TEST(colours_are_multiplied_or_left_out)
@@ -173,7 +161,7 @@ TEST(colours_are_multiplied_or_left_out)
     const char *in = write_room("in.gltf", floor_x, true);
     for (int alone = 0; alone < 2; alone++) {
         assert_int_equal(run(alone ? "--distance 50 --accessibility-only" : "--distance 50", in, out), 0);
-        scene *s = load(out);
+        scene *s = gltf_scene(out, NULL);
         assert_true(fabs(red_at(s, 5, true) - (alone ? 1 : 0.5)) < 1e-4);
         for (uint32_t i = 0; i < s->vertex_count; i++) {
             const float *c = s->vertices[i].color;
@@ -183,7 +171,6 @@ TEST(colours_are_multiplied_or_left_out)
             assert_true(fabsf(c[3] - 0.75f) < 1e-4f);
             assert_true(fabsf(c[1] - (alone ? 1 : 2) * c[0]) < 1e-4f);
         }
-        scene_destroy(s);
     }
 }
 
@@ -191,13 +178,12 @@ TEST(triangles_give_their_mean)
 {
     const char *out = output_path("out.glb");
     assert_int_equal(run("--rays 65536 --distance 500", write_room("in.gltf", floor_x, false), out), 0);
-    scene *s = load(out);
+    scene *s = gltf_scene(out, NULL);
     /* The wall takes half of each strip's hemisphere: all directions to its side, except past its finite ends. */
     for (int i = 0; i < COLUMNS; i++) {
         assert_true(fabs(red_at(s, floor_x[i], false) - 0.5) < 0.02);
         assert_true(red_at(s, floor_x[i], true) == 1);
     }
-    scene_destroy(s);
 }
 
 /* Over the floor, of the value interpolated between its vertices. */
@@ -229,9 +215,8 @@ TEST(fit_errs_least_on_large_triangles)
         char arguments[128];
         snprintf(arguments, sizeof arguments, "%s --cosine --distance 1 --rays 256", methods[i]);
         assert_int_equal(run(arguments, in, out), 0);
-        scene *s = load(out);
+        scene *s = gltf_scene(out, NULL);
         errors[i] = rms_error(s, wide_x);
-        scene_destroy(s);
     }
     if (!(errors[2] < 0.8 * errors[0] && errors[2] < 0.8 * errors[1])) {
         fail_msg("triangles %g, vertices %g, fit %g", errors[0], errors[1], errors[2]);
@@ -258,10 +243,9 @@ TEST(all_else_is_kept)
     }
     assert_false(contains(data, size, "\"uri\"")); /* stands alone */
     free(data);
-    scene *s = load(out);
+    scene *s = gltf_scene(out, NULL);
     assert_int_equal(s->image_count, 1);
     assert_int_equal(s->images[0].rgba[0], 200);
-    scene_destroy(s);
 }
 
 TEST(baked_file_can_be_baked_again)
@@ -271,9 +255,8 @@ TEST(baked_file_can_be_baked_again)
     assert_int_equal(run("--distance 50 --accessibility-only", out, out), 1);
     assert_says("would overwrite");
     assert_int_equal(run("--distance 50 --accessibility-only --in-place", out, out), 0);
-    scene *s = load(out);
+    scene *s = gltf_scene(out, NULL);
     assert_true(red_at(s, 5, true) == 1);
-    scene_destroy(s);
 }
 
 TEST(same_seed_gives_the_same_file)
@@ -332,9 +315,8 @@ TEST(nothing_to_bake_is_no_fault)
 {
     const char *out = output_path("out.glb");
     assert_int_equal(run("", gltf_write(NULL, "empty.gltf", "{\"asset\":{\"version\":\"2.0\"}}"), out), 0);
-    scene *s = load(out);
+    scene *s = gltf_scene(out, NULL);
     assert_int_equal(s->instance_count, 0);
-    scene_destroy(s);
 }
 
 int main(int argc, char **argv)

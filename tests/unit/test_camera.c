@@ -414,7 +414,4 @@ TEST(suggested_radius_follows_the_diagonal)
     assert_float_equal(camera_suggest_radius(&empty), 0.5f, 0);
 }
 
-int main(void)
-{
-    return test_run("camera", NULL, NULL);
-}
+TEST_MAIN("camera", NULL, NULL)

@@ -5,6 +5,7 @@
 #define _POSIX_C_SOURCE 200809L /* mkfifo, fileno */
 #include "error_color.h"
 #include "fault.h"
+#include "heap.h"
 #include "inputs.h"
 #include "matrix.h"
 #include "read_file.h"
@@ -13,6 +14,7 @@
 #include "whole_file.h"
 #include "words.h"
 
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -174,7 +176,30 @@ TEST(errors_have_their_colours)
     assert_true(rgb[0] == rgb[1] && rgb[1] == rgb[2] && rgb[0] > 0.9);
 }
 
-int main(void)
+/* Page faults of filling a new block as large as a software rasteriser's batches, and freeing it. */
+static long count_faults(void)
 {
-    return test_run("common", NULL, NULL);
+    enum { SIZE = 4 << 20 };
+    struct rusage before, after;
+    getrusage(RUSAGE_SELF, &before);
+    unsigned char *block = malloc(SIZE);
+    assert_non_null(block);
+    memset(block, 1, SIZE);
+    assert_int_equal(block[SIZE / 2], 1); /* else compilers drop the block */
+    free(block);
+    getrusage(RUSAGE_SELF, &after);
+    return after.ru_minflt - before.ru_minflt;
 }
+
+TEST(freed_memory_is_kept)
+{
+#if defined __GLIBC__ && !defined __SANITIZE_ADDRESS__
+    heap_keep_freed();
+    (void)count_faults();
+    assert_in_range(count_faults(), 0, 16);
+#else
+    skip();
+#endif
+}
+
+TEST_MAIN("common", NULL, NULL)

@@ -72,18 +72,17 @@ static void check_depth(const glssao_effect *effect, int width, int height, int 
     int w, h;
     const GLuint texture = glssao_map(effect, GLSSAO_MAP_DEPTH, &w, &h);
     assert_true(texture != 0 && w == width && h == height);
-    float *depth = fixture_read_depth(texture, width, height);
+    SCOPED(memory) float *depth = fixture_read_depth(texture, width, height);
     for (int i = 0; i < width * height; ++i) {
         const float wanted = i % width < split ? 0.25f : 0.75f, difference = depth[i] - wanted;
         if (!(difference < 2e-5f && difference > -2e-5f))
             fail_msg("%s: depth %g at %d, %d", name, (double)depth[i], i % width, i / width);
     }
-    free(depth);
 }
 
 TEST_GL(every_depth_format_arrives)
 {
-    glssao_effect *effect = fixture_effect(*state, W, H);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(*state, W, H);
     const glssao_settings settings = make_settings();
     glssao_frame frame = make_frame();
     memcpy(frame.viewport, (const int[4]){0, 0, W, H}, sizeof frame.viewport);
@@ -97,7 +96,6 @@ TEST_GL(every_depth_format_arrives)
             }
             delete_host(&h);
         }
-    glssao_destroy(effect);
 }
 
 /* Draws a depth texture's texels into part of a framebuffer. */
@@ -119,42 +117,37 @@ static void put_depth(GLuint texture, const host *h, int x, int y)
 TEST_GL(the_result_is_that_of_the_depth_as_a_texture)
 {
     fixture *f = *state;
-    glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
+    SCOPED(frame) glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
     const GLuint normals = frame.normal_texture;
     host h = make_host(&formats[4], 0, 2 * W, 2 * H);
     put_depth(frame.depth_texture, &h, W, H / 2);
     const glssao_settings settings = make_settings();
     for (int i = 0; i < 2; ++i) {
         frame.normal_texture = i ? normals : 0;
-        glssao_effect *plain = fixture_effect(f, W, H), *window = fixture_effect(f, 8, 8);
+        SCOPED(effect) glssao_effect *plain = fixture_effect(f, W, H), *window = fixture_effect(f, 8, 8);
         int w, height;
-        float *wanted = fixture_compute(plain, &frame, &settings, &w, &height);
+        SCOPED(memory) float *wanted = fixture_compute(plain, &frame, &settings, &w, &height);
         assert_true(w == W && height == H);
         glssao_frame copied = frame;
         copied.depth_texture = 0;
         memcpy(copied.viewport, (const int[4]){W, H / 2, W, H}, sizeof copied.viewport);
         assert_int_equal(glssao_compute_framebuffer(window, h.framebuffer, &copied, &settings), GLSSAO_OK);
-        float *got = fixture_read_ambient(window, &w, &height);
+        SCOPED(memory) float *got = fixture_read_ambient(window, &w, &height);
         assert_true(w == W && height == H);
         assert_memory_equal(got, wanted, W * H * sizeof *got);
-        free(got);
-        free(wanted);
-        glssao_destroy(plain);
-        glssao_destroy(window);
     }
     frame.normal_texture = normals;
-    fixture_delete_frame(&frame);
     delete_host(&h);
 }
 
 /* glViewport says which part, the effect takes its size, and glssao_apply covers it. */
 TEST_GL(viewport_and_size_of_the_host_are_followed)
 {
-    glssao_effect *effect = fixture_effect(*state, 8, 8);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(*state, 8, 8);
     const glssao_settings settings = make_settings();
     const glssao_frame frame = make_frame();
     host h = make_host(&formats[2], 0, W, H);
-    const GLuint color = fixture_texture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, W, H, NULL);
+    SCOPED(texture) const GLuint color = fixture_texture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, W, H, NULL);
     gl.BindFramebuffer(GL_FRAMEBUFFER, h.framebuffer);
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
     gl.DrawBuffer(GL_COLOR_ATTACHMENT0);
@@ -172,6 +165,7 @@ TEST_GL(viewport_and_size_of_the_host_are_followed)
         options.show = true;
         assert_int_equal(glssao_apply_with(effect, &options), GLSSAO_OK);
         int w, height;
+        SCOPED(memory)
         float *access = fixture_read_ambient(effect, &w, &height), *got = fixture_read_texture(color, W, H, 1);
         assert_true(w == p[2] && height == p[3]);
         for (int k = 0; k < W * H; ++k) {
@@ -180,14 +174,10 @@ TEST_GL(viewport_and_size_of_the_host_are_followed)
             const float wanted = inside ? access[y * w + x] : 0.0f;
             assert_float_equal(got[k], wanted, 0.003f);
         }
-        free(access);
-        free(got);
     }
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     gl.Viewport(0, 0, W, H);
-    gl.DeleteTextures(1, &color);
     delete_host(&h);
-    glssao_destroy(effect);
 }
 
 /* ---- what is refused ---- */
@@ -203,7 +193,7 @@ static void check_refused(fixture *f, glssao_result got, glssao_result wanted, c
 TEST_GL(bad_arguments_are_named)
 {
     fixture *f = *state;
-    glssao_effect *effect = fixture_effect(f, 8, 8);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, 8, 8);
     const glssao_settings settings = make_settings();
     host h = make_host(&formats[2], 0, W, H);
     glssao_frame good = make_frame(), frame;
@@ -236,13 +226,12 @@ TEST_GL(bad_arguments_are_named)
     assert_true(w == 8 && height == 8); /* nothing has changed */
     assert_int_equal(glssao_compute_framebuffer(effect, h.framebuffer, &frame, &settings), GLSSAO_OK);
     delete_host(&h);
-    glssao_destroy(effect);
 }
 
 TEST_GL(framebuffers_that_hold_no_depth_are_named)
 {
     fixture *f = *state;
-    glssao_effect *effect = fixture_effect(f, 8, 8);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, 8, 8);
     const glssao_settings settings = make_settings();
     glssao_frame frame = make_frame();
     memcpy(frame.viewport, (const int[4]){0, 0, W, H}, sizeof frame.viewport);
@@ -277,7 +266,6 @@ TEST_GL(framebuffers_that_hold_no_depth_are_named)
     gl.DeleteFramebuffers(1, &framebuffer);
     gl.DeleteFramebuffers(1, &empty);
     gl.DeleteRenderbuffers(1, &color);
-    glssao_destroy(effect);
 }
 
 /* ---- drivers and hosts ---- */
@@ -355,7 +343,7 @@ TEST_GL(drivers_that_refuse_the_blit_copy_texels)
     memcpy(frame.viewport, (const int[4]){5, 3, W, H}, sizeof frame.viewport);
     host h = make_host(&formats[1], 0, W + 9, H + 9);
     for (int i = REFUSES_NOTHING; i <= REFUSES_ALL; ++i) {
-        glssao_effect *effect = effect_of_a_driver(f, false);
+        SCOPED(effect) glssao_effect *effect = effect_of_a_driver(f, false);
         driver = i;
         blits = copies = 0;
         for (int k = 0; k < 3; ++k) {
@@ -371,7 +359,6 @@ TEST_GL(drivers_that_refuse_the_blit_copy_texels)
                     : i == REFUSES_BLITS ? blits == 1 && copies == 3
                                          : copies == 3);
         driver = REFUSES_NOTHING;
-        glssao_destroy(effect);
     }
     delete_host(&h);
 }
@@ -382,7 +369,7 @@ TEST_GL(errors_of_the_host_stay)
     if (GLSSAO_CHECK_GL)
         skip(); /* such builds ask for errors after every pass and take the host's */
     fixture *f = *state;
-    glssao_effect *effect = effect_of_a_driver(f, false);
+    SCOPED(effect) glssao_effect *effect = effect_of_a_driver(f, false);
     const glssao_settings settings = make_settings();
     glssao_frame frame = make_frame();
     memcpy(frame.viewport, (const int[4]){0, 0, W, H}, sizeof frame.viewport);
@@ -397,7 +384,6 @@ TEST_GL(errors_of_the_host_stay)
     assert_int_equal(errors_asked, 0);
     assert_int_equal(gl.GetError(), GL_INVALID_ENUM);
     delete_host(&h);
-    glssao_destroy(effect);
 }
 
 /* With config.host_restores_state the part is told, not looked up. test_guest_calls counts its queries. */
@@ -458,7 +444,4 @@ TEST_GL(the_copy_is_timed)
     glssao_destroy(effect);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -221,7 +221,4 @@ TEST(moves_to_a_new_context_after_destroy)
     context_destroy(NULL);
 }
 
-int main(void)
-{
-    return test_run(NULL, NULL, NULL);
-}
+TEST_MAIN(NULL, NULL, NULL)

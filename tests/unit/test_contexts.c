@@ -43,11 +43,10 @@ static float *compute_alone(fixture *f, glssao_technique technique, double scale
 {
     inputs in = make_inputs(scale);
     upload(&in);
-    glssao_effect *effect = fixture_effect(f, W, H);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
     glssao_settings settings = glssao_default_settings(technique, GLSSAO_MEDIUM);
     int width, height;
     float *picture = fixture_compute(effect, &in.frame, &settings, &width, &height);
-    glssao_destroy(effect);
     delete_inputs(&in);
     return picture;
 }
@@ -81,9 +80,8 @@ TEST_GL(two_effects_in_one_context_do_not_mix)
             assert_int_equal(glssao_compute(effects[i], &in[i].frame, &settings[i]), GLSSAO_OK);
     for (int i = 0; i < 2; ++i) {
         int width, height;
-        float *got = fixture_read_ambient(effects[i], &width, &height);
+        SCOPED(memory) float *got = fixture_read_ambient(effects[i], &width, &height);
         assert_memory_equal(got, alone[i], (size_t)width * (size_t)height * sizeof *got);
-        free(got);
         free(alone[i]);
     }
     glssao_destroy(effects[0]);
@@ -209,10 +207,10 @@ TEST_GL(contexts_that_share_objects_take_each_other_s_textures)
 TEST_GL(a_map_is_read_in_a_sharing_context)
 {
     fixture *f = *state;
-    float *alone = compute_alone(f, GLSSAO_HORIZON, 1.0);
+    SCOPED(memory) float *alone = compute_alone(f, GLSSAO_HORIZON, 1.0);
     inputs in = make_inputs(1.0);
     upload(&in);
-    glssao_effect *effect = fixture_effect(f, W, H);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
     assert_int_equal(glssao_compute(effect, &in.frame, &settings), GLSSAO_OK);
     int width, height;
@@ -221,18 +219,12 @@ TEST_GL(a_map_is_read_in_a_sharing_context)
     context *other = another_context(f->context);
     assert_non_null(other);
     assert_true(gl.IsTexture(map));
-    float *got = fixture_read_texture(map, width, height, 1);
+    SCOPED(memory) float *got = fixture_read_texture(map, width, height, 1);
     assert_int_equal(gl.GetError(), 0);
     context_destroy(other);
     assert_true(context_make_current(f->context));
     assert_memory_equal(got, alone, (size_t)width * (size_t)height * sizeof *got);
-    glssao_destroy(effect);
     delete_inputs(&in);
-    free(got);
-    free(alone);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -265,7 +265,4 @@ TEST(broken_files_are_refused_in_one_line)
     remove(path);
 }
 
-int main(void)
-{
-    return test_run("environment", NULL, NULL);
-}
+TEST_MAIN("environment", NULL, NULL)

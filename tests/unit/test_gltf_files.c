@@ -265,7 +265,4 @@ TEST(harmful_faults_are_refused)
     assert_int_equal(harmful_loaded, 0);
 }
 
-int main(void)
-{
-    return test_run(NULL, need_folder, NULL);
-}
+TEST_MAIN(NULL, need_folder, NULL)

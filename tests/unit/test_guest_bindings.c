@@ -128,7 +128,7 @@ TEST_GL(every_unit_is_restored)
 {
     guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     GLuint textures[UNITS], samplers[UNITS], multisample;
-    const fixture_target white = guest_make_white();
+    SCOPED(target) const fixture_target white = guest_make_white();
     gl.GenTextures(UNITS, textures);
     gl.GenSamplers(UNITS, samplers);
     gl.GenTextures(1, &multisample);
@@ -167,7 +167,6 @@ TEST_GL(every_unit_is_restored)
     gl.DeleteTextures(UNITS, textures);
     gl.DeleteSamplers(UNITS, samplers);
     gl.DeleteTextures(1, &multisample);
-    fixture_delete_target(&white);
     guest_close(&g);
 }
 

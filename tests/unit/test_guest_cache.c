@@ -28,11 +28,10 @@ static gl_counts run(cache *c, const char *folder)
     gl_counter_start(fixture_load, c->g.f->context);
     config.load = gl_counter_load;
     config.program_cache = folder;
-    glssao_effect *effect = NULL;
+    SCOPED(effect) glssao_effect *effect = NULL;
     assert_int_equal(glssao_create(&config, &effect), GLSSAO_OK);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     assert_int_equal(glssao_compute(effect, &c->g.frame, &settings), GLSSAO_OK);
-    glssao_destroy(effect);
     return gl_counter_take();
 }
 
@@ -283,7 +282,4 @@ TEST_GL(what_another_user_owns_is_not_used)
     close_cache(&c);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -436,7 +436,4 @@ TEST_GL(a_debug_context_has_nothing_to_say)
     set_callback(NULL, NULL);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

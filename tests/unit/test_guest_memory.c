@@ -134,17 +134,13 @@ TEST_GL(a_size_that_the_driver_refuses_leaves_no_error)
     GLint largest = 0;
     gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
     const glssao_config config = fixture_config(f, largest, largest);
-    glssao_effect *effect = NULL;
+    SCOPED(effect) glssao_effect *effect = NULL;
     fixture_clear_log(f);
     const glssao_result result = glssao_create(&config, &effect);
     print_message("%d x %d: %s\n", largest, largest, glssao_result_string(result));
     guest_no_error("the largest size");
     assert_true(result == GLSSAO_OK ? effect != NULL : result == GLSSAO_OUT_OF_MEMORY && effect == NULL);
     assert_true((result == GLSSAO_OK) == (strstr(f->log, "memory") == NULL));
-    glssao_destroy(effect);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -12,7 +12,7 @@ TEST_GL(apply_refuses_a_name_that_is_no_framebuffer)
     guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     assert_int_equal(glssao_compute(g.effect, &g.frame, &settings), GLSSAO_OK);
-    const fixture_target bound = guest_make_white();
+    SCOPED(target) const fixture_target bound = guest_make_white();
     GLuint deleted;
     gl.GenFramebuffers(1, &deleted);
     gl.BindFramebuffer(GL_FRAMEBUFFER, deleted);
@@ -32,7 +32,6 @@ TEST_GL(apply_refuses_a_name_that_is_no_framebuffer)
     fixture_clear_log(g.f);
     assert_int_equal(glssao_apply(g.effect, bound.framebuffer), GLSSAO_OK);
     assert_true(guest_count_dark(&bound) > 0);
-    fixture_delete_target(&bound);
     guest_close(&g);
 }
 
@@ -127,13 +126,12 @@ TEST_GL(a_texture_of_another_target_leaves_no_error)
         refuse_everywhere(&g, name, false, "a deleted texture");
     }
     refuse_everywhere(&g, 4000000000u, false, "a name never generated");
-    GLuint empty;
+    SCOPED(texture) GLuint empty = 0;
     gl.GenTextures(1, &empty);
     refuse_everywhere(&g, empty, false, "a texture never bound");
     gl.BindTexture(GL_TEXTURE_2D, empty);
     gl.BindTexture(GL_TEXTURE_2D, 0);
     refuse_everywhere(&g, empty, false, "a texture without an image");
-    gl.DeleteTextures(1, &empty);
     guest_close(&g);
 }
 
@@ -143,7 +141,7 @@ TEST_GL(the_hosts_own_error_stays)
     if (GLSSAO_CHECK_GL)
         skip(); /* such builds ask for errors after every pass and take the host's */
     guest g = guest_open(*state, GLSSAO_PATH_AUTO);
-    GLuint name = make_of_target(g.f, GL_TEXTURE_3D);
+    SCOPED(texture) GLuint name = make_of_target(g.f, GL_TEXTURE_3D);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     glssao_frame wrong = g.frame;
     wrong.depth_texture = name;
@@ -154,7 +152,6 @@ TEST_GL(the_hosts_own_error_stays)
     assert_int_equal(glssao_compute(g.effect, &wrong, &settings), GLSSAO_INVALID_ARGUMENT);
     assert_int_equal(gl.GetError(), GL_INVALID_ENUM);
     assert_int_equal(gl.GetError(), 0);
-    gl.DeleteTextures(1, &name);
     guest_close(&g);
 }
 
@@ -166,7 +163,7 @@ TEST_GL(a_deleted_program_that_is_current_stays_current)
     guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     assert_int_equal(glssao_compute(g.effect, &g.frame, &settings), GLSSAO_OK);
-    const fixture_target t = guest_make_white();
+    SCOPED(target) const fixture_target t = guest_make_white();
     const GLuint program = fixture_program("#version 330\nvoid main() { gl_Position = vec4(0.0); }\n",
                                            "#version 330\nout vec4 o_color;\nvoid main() { o_color = vec4(1.0); }\n");
     gl.UseProgram(program);
@@ -192,7 +189,6 @@ TEST_GL(a_deleted_program_that_is_current_stays_current)
     }
     gl.UseProgram(0);
     assert_int_equal(glssao_compute(g.effect, &g.frame, &settings), GLSSAO_OK);
-    fixture_delete_target(&t);
     guest_close(&g);
 }
 
@@ -201,7 +197,7 @@ TEST_GL(a_deleted_program_that_is_current_stays_current)
 TEST_GL(crossed_pairs_give_the_hosts_framebuffer_back)
 {
     guest a = guest_open(*state, GLSSAO_PATH_AUTO), b = guest_open(*state, GLSSAO_PATH_AUTO);
-    const fixture_target t = guest_make_white();
+    SCOPED(target) const fixture_target t = guest_make_white();
     gl.Viewport(3, 5, 17, 19);
     GLuint depth[2];
     for (int i = 0; i < 2; ++i)
@@ -228,7 +224,6 @@ TEST_GL(crossed_pairs_give_the_hosts_framebuffer_back)
     assert_true(draw == (GLint)t.framebuffer && read == draw);
     assert_true(viewport[0] == 3 && viewport[1] == 5 && viewport[2] == 17 && viewport[3] == 19);
     guest_no_error("crossed pairs");
-    fixture_delete_target(&t);
     gl.DeleteTextures(2, depth);
     guest_close(&a);
     guest_close(&b);

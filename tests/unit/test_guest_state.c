@@ -40,16 +40,14 @@ TEST_GL(clamped_fragment_colours_change_nothing)
     for (int i = 0; i < 3; ++i) {
         glssao_settings settings = glssao_default_settings(techniques[i], GLSSAO_HIGH);
         settings.half_resolution = techniques[i] == GLSSAO_HORIZON;
-        float *const wanted = guest_picture(&g, &bare, &settings);
+        SCOPED(memory) float *const wanted = guest_picture(&g, &bare, &settings);
         clamp_color(CLAMP_FRAGMENT_COLOR, GL_TRUE);
-        float *const got = guest_picture(&g, &bare, &settings);
+        SCOPED(memory) float *const got = guest_picture(&g, &bare, &settings);
         GLint now = 0;
         gl.GetIntegerv(CLAMP_FRAGMENT_COLOR, &now);
         clamp_color(CLAMP_FRAGMENT_COLOR, GL_FIXED_ONLY);
         guest_same_picture(got, wanted, "with GL_CLAMP_FRAGMENT_COLOR");
         assert_int_equal(now, GL_TRUE);
-        free(wanted);
-        free(got);
     }
     guest_close(&g);
 }
@@ -76,6 +74,7 @@ TEST_GL(pixel_transfer_changes_nothing)
     const double wanted_error = error_of_accumulation(&calm);
     assert_true(wanted_error > 0.0);
     int w, h;
+    SCOPED(memory)
     float *const wanted = fixture_read_texture(glssao_map(calm.effect, GLSSAO_MAP_RANDOM_VECTOR, &w, &h), 256, 256, 4);
     for (int i = 0; i < 2; ++i) {
         const char *const what = i ? "a pixel map" : "scale and bias";
@@ -98,6 +97,7 @@ TEST_GL(pixel_transfer_changes_nothing)
         pixel_transfer(MAP_COLOR, 0.0f);
         pixel_transfer(RED_SCALE, 1.0f);
         pixel_transfer(RED_BIAS, 0.0f);
+        SCOPED(memory)
         float *const got = fixture_read_texture(glssao_map(g.effect, GLSSAO_MAP_RANDOM_VECTOR, &w, &h), 256, 256, 4);
         for (int k = 0; k < 4 * 256 * 256; ++k)
             if (got[k] != wanted[k])
@@ -105,10 +105,8 @@ TEST_GL(pixel_transfer_changes_nothing)
         if (error != wanted_error)
             fail_msg("with %s, the error of accumulation is %g instead of %g", what, error, wanted_error);
         assert_true(scale == (i ? 1.0f : 0.5f) && bias == (i ? 0.0f : 0.25f) && map == (float)i);
-        free(got);
         guest_close(&g);
     }
-    free(wanted);
     guest_close(&calm);
 }
 
@@ -125,7 +123,7 @@ TEST_GL(feedback_and_selection_are_refused)
     guest_load(g.f, "glFeedbackBuffer", &feedback_buffer);
     guest_load(g.f, "glSelectBuffer", &select_buffer);
     const glssao_settings settings = horizon();
-    float *const wanted = guest_picture(&g, &g.frame, &settings);
+    SCOPED(memory) float *const wanted = guest_picture(&g, &g.frame, &settings);
     static GLfloat feedback[64];
     static GLuint selection[64];
     feedback_buffer(64, FEEDBACK_2D, feedback);
@@ -142,11 +140,9 @@ TEST_GL(feedback_and_selection_are_refused)
         render_mode(RENDER);
         guest_refused(&g, result, "GL_RENDER_MODE", what);
         assert_int_equal(now, mode);
-        float *const got = guest_picture(&g, &g.frame, &settings);
+        SCOPED(memory) float *const got = guest_picture(&g, &g.frame, &settings);
         guest_same_picture(got, wanted, what);
-        free(got);
     }
-    free(wanted);
     guest_close(&g);
 }
 
@@ -166,11 +162,10 @@ static void check_all_one(const glssao_effect *effect, const char *what)
 {
     int w, h;
     const uint32_t map = glssao_map(effect, GLSSAO_MAP_AMBIENT, &w, &h);
-    float *const pixels = fixture_read_texture(map, w, h, 1);
+    SCOPED(memory) float *const pixels = fixture_read_texture(map, w, h, 1);
     for (int i = 0; i < w * h; ++i)
         if (pixels[i] != 1.0f)
             fail_msg("%s: pixel %d, %d is %g instead of 1", what, i % w, i / w, (double)pixels[i]);
-    free(pixels);
 }
 
 /* GL has no query that tells, so the frame may be dropped; later frames must be right. */
@@ -185,15 +180,16 @@ TEST_GL(a_frame_under_conditional_rendering_harms_no_later_one)
     const glssao_settings settings = horizon();
     glssao_frame sky = g.frame;
     sky.only_sky = true;
-    float *const wanted = guest_picture(&g, &g.frame, &settings);
+    SCOPED(memory) float *const wanted = guest_picture(&g, &g.frame, &settings);
     begin(query, GL_QUERY_WAIT);
     (void)glssao_compute(g.effect, &g.frame, &settings);
     end();
     guest_no_error("conditional rendering");
-    float *const got = guest_picture(&g, &g.frame, &settings);
+    SCOPED(memory) float *const got = guest_picture(&g, &g.frame, &settings);
     guest_same_picture(got, wanted, "after conditional rendering");
     begin(query, GL_QUERY_WAIT);
     (void)glssao_compute(g.effect, &sky, &settings);
+    SCOPED(effect)
     glssao_effect *other = fixture_effect(g.f, GUEST_W, GUEST_H); /* maps that are made are cleared, too */
     end();
     guest_no_error("conditional rendering");
@@ -201,9 +197,6 @@ TEST_GL(a_frame_under_conditional_rendering_harms_no_later_one)
     check_all_one(g.effect, "only sky, after conditional rendering");
     assert_int_equal(glssao_compute(other, &sky, &settings), GLSSAO_OK);
     check_all_one(other, "an effect made under conditional rendering");
-    free(wanted);
-    free(got);
-    glssao_destroy(other);
     gl.DeleteQueries(1, &query);
     guest_close(&g);
 }

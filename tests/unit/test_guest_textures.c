@@ -31,28 +31,25 @@ static const parameter parameters[] = {
 /* Gives the texture a second level of zeros. */
 static void add_level(GLuint texture, GLenum internal_format, GLenum format, GLenum type)
 {
-    float *const zeros = calloc(GUEST_W * GUEST_H, sizeof *zeros);
+    SCOPED(memory) float *const zeros = calloc(GUEST_W * GUEST_H, sizeof *zeros);
     gl.BindTexture(GL_TEXTURE_2D, texture);
     gl.TexImage2D(GL_TEXTURE_2D, 1, (GLint)internal_format, GUEST_W / 2, GUEST_H / 2, 0, format, type, zeros);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 1);
     gl.BindTexture(GL_TEXTURE_2D, 0);
-    free(zeros);
 }
 
 /* The guest's frame in textures of their own, for drivers may remember how a texture was read last. */
 static glssao_frame copy_frame(const guest *g, bool stencil)
 {
     glssao_frame frame = g->frame;
-    float *const depth = fixture_read_depth(frame.depth_texture, GUEST_W, GUEST_H);
-    float *const normals = fixture_read_texture(frame.normal_texture, GUEST_W, GUEST_H, 3);
+    SCOPED(memory) float *const depth = fixture_read_depth(frame.depth_texture, GUEST_W, GUEST_H);
+    SCOPED(memory) float *const normals = fixture_read_texture(frame.normal_texture, GUEST_W, GUEST_H, 3);
     frame.depth_texture =
         fixture_depth_texture(stencil ? GL_DEPTH24_STENCIL8 : GL_DEPTH_COMPONENT32F, GUEST_W, GUEST_H, depth);
     frame.normal_texture = fixture_normal_texture(GUEST_W, GUEST_H, normals);
     if (!stencil)
         add_level(frame.depth_texture, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT);
     add_level(frame.normal_texture, GL_RGB32F, GL_RGB, GL_FLOAT);
-    free(depth);
-    free(normals);
     return frame;
 }
 
@@ -137,7 +134,7 @@ TEST_GL(integer_formats_are_refused)
     guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
     for (size_t i = 0; i < sizeof formats / sizeof *formats; ++i) {
-        GLuint texture = make_texture(formats[i].internal_format, formats[i].format, formats[i].type);
+        SCOPED(texture) GLuint texture = make_texture(formats[i].internal_format, formats[i].format, formats[i].type);
         guest_no_error(formats[i].name);
         for (int k = 0; k < 5; ++k) {
             char what[96];
@@ -156,7 +153,6 @@ TEST_GL(integer_formats_are_refused)
             const glssao_result result = glssao_compute(g.effect, &frame, &settings);
             guest_refused(&g, result, fields[k], what);
         }
-        gl.DeleteTextures(1, &texture);
     }
     guest_close(&g);
 }

@@ -35,7 +35,7 @@ picture draw_imgui(GLuint color)
     return result;
 }
 
-void imgui_draws_the_same_before_and_after(void **state)
+TEST_GL(imgui_draws_the_same_before_and_after)
 {
     fixture *f = static_cast<fixture *>(*state);
     const fixture_target target = fixture_make_target(GL_RGBA8, W, H);
@@ -91,10 +91,4 @@ void imgui_draws_the_same_before_and_after(void **state)
 
 } // namespace
 
-int main()
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(imgui_draws_the_same_before_and_after, nullptr, fixture_no_gl_error),
-    };
-    return cmocka_run_group_tests(tests, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(nullptr, fixture_setup, fixture_teardown)

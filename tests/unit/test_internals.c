@@ -92,7 +92,7 @@ TEST(random_repeats_and_streams_differ)
 TEST(random_vector_channels_are_uniform_and_independent)
 {
     size_t texels = (size_t)RANDOM_VECTOR_MAP_SIZE * RANDOM_VECTOR_MAP_SIZE;
-    uint8_t *rgba = malloc(texels * 4), *first = malloc(texels * 4);
+    SCOPED(memory) uint8_t *rgba = malloc(texels * 4), *first = malloc(texels * 4);
     for (uint32_t seed = 0; seed < 4; ++seed) {
         glssao__random_vector_texels(seed, rgba);
         double mean[3] = {0}, product[3] = {0};
@@ -115,8 +115,6 @@ TEST(random_vector_channels_are_uniform_and_independent)
         else
             assert_true(memcmp(first, rgba, texels * 4) != 0);
     }
-    free(rgba);
-    free(first);
 }
 
 /* ---- projections ---- */
@@ -303,7 +301,4 @@ TEST(depth_steps_are_differences)
                 1e-3 * 0x1p-24 * (next - t) * 1e6);
 }
 
-int main(void)
-{
-    return test_run(NULL, NULL, NULL);
-}
+TEST_MAIN(NULL, NULL, NULL)

@@ -46,7 +46,7 @@ TEST_WITH(png_round_trips_odd_sizes, remove_file)
         const int width = sizes[k / 3][0], height = sizes[k / 3][1], channels = channel_counts[k % 3];
         int read_width = 0, read_height = 0;
         assert_true(picture_write_png(path, width, height, channels, pixels, error, sizeof error));
-        uint8_t *read = picture_read_png(path, &read_width, &read_height, error, sizeof error);
+        SCOPED(memory) uint8_t *read = picture_read_png(path, &read_width, &read_height, error, sizeof error);
         assert_non_null(read);
         assert_int_equal(read_width, width);
         assert_int_equal(read_height, height);
@@ -58,7 +58,6 @@ TEST_WITH(png_round_trips_odd_sizes, remove_file)
                 assert_int_equal(read[4 * i + c], wanted);
             }
         }
-        free(read);
     }
 }
 
@@ -85,13 +84,12 @@ TEST_WITH(pfm_round_trips_every_bit, remove_file)
     for (int k = 0; k < 6; k++) {
         int width = 0, height = 0, channels = 0;
         assert_true(picture_write_pfm(path, sizes[k][0], sizes[k][1], sizes[k][2], values, error, sizeof error));
-        float *read = picture_read_pfm(path, &width, &height, &channels, error, sizeof error);
+        SCOPED(memory) float *read = picture_read_pfm(path, &width, &height, &channels, error, sizeof error);
         assert_non_null(read);
         assert_int_equal(width, sizes[k][0]);
         assert_int_equal(height, sizes[k][1]);
         assert_int_equal(channels, sizes[k][2]);
         assert_memory_equal(read, values, (size_t)(width * height * channels) * sizeof *read);
-        free(read);
     }
 }
 
@@ -380,7 +378,4 @@ TEST(lossy_formats_refuse_what_they_cannot_hold)
     assert_false(file_exists("a.jpg") || file_exists("a.jpeg") || file_exists("a.webp"));
 }
 
-int main(void)
-{
-    return test_run("picture", NULL, NULL);
-}
+TEST_MAIN("picture", NULL, NULL)

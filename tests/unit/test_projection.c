@@ -341,7 +341,4 @@ TEST(matrices_that_were_hardly_meant_are_told)
     assert_int_equal(doubt_of(other), DOUBT_NONE);
 }
 
-int main(void)
-{
-    return test_run(NULL, NULL, NULL);
-}
+TEST_MAIN(NULL, NULL, NULL)

@@ -62,7 +62,4 @@ TEST(an_unknown_name_is_an_error)
     scene_destroy(NULL);
 }
 
-int main(void)
-{
-    return test_run(NULL, NULL, NULL);
-}
+TEST_MAIN(NULL, NULL, NULL)

@@ -224,7 +224,4 @@ TEST(more_vertices_than_a_buffer_takes_are_refused)
     free(s);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -44,7 +44,7 @@ static const char *move_back(const char *name, const char *far)
     char near[128];
     snprintf(near, sizeof near, "%*s", (int)strlen(far), "0, 0, 0");
     FILE *file = fopen(case_path(name), "rb");
-    char *data = malloc(1 << 20);
+    SCOPED(memory) char *data = malloc(1 << 20);
     assert_true(file && data && strlen(far) == strlen(near));
     const size_t size = fread(data, 1, 1 << 20, file);
     fclose(file);
@@ -57,7 +57,6 @@ static const char *move_back(const char *name, const char *far)
     assert_true(found > 0);
     static char path[512];
     snprintf(path, sizeof path, "%s", gltf_write_bytes("near.glb", data, size));
-    free(data);
     return path;
 }
 
@@ -91,12 +90,10 @@ static double rms(const float *a, const float *b, size_t count)
 
 static void compare(const char *far, const char *far_arguments, const char *near, const char *near_arguments)
 {
-    float *a = draw(far, far_arguments), *b = draw(near, near_arguments);
+    SCOPED(memory) float *a = draw(far, far_arguments), *b = draw(near, near_arguments);
     const double error = rms(a, b, WIDTH * HEIGHT);
     print_message("%s %s: RMS %g\n", far, far_arguments, error);
     assert_true(error <= most_rms);
-    free(a);
-    free(b);
 }
 
 static const struct {
@@ -137,18 +134,16 @@ TEST(eye_and_target_are_in_the_file_s_coordinates)
 /* The reds of all vertices of a baked file; their number. */
 static float *bake_reds(const char *path, const char *arguments, size_t *out_count)
 {
-    char all[3000], error[512];
+    char all[3000];
     snprintf(all, sizeof all, "--rays 64 --distance 10 %s -o \"%s\" \"%s\"", arguments, gltf_writer_path("baked.glb"),
              path);
     run(bake, all);
-    scene *s = scene_load(gltf_writer_path("baked.glb"), error, sizeof error);
-    assert_non_null(s);
+    const scene *s = gltf_scene(gltf_writer_path("baked.glb"), NULL);
     float *reds = malloc(s->vertex_count * sizeof *reds);
     assert_non_null(reds);
     for (uint32_t i = 0; i < s->vertex_count; ++i)
         reds[i] = s->vertices[i].color[0];
     *out_count = s->vertex_count;
-    scene_destroy(s);
     return reds;
 }
 
@@ -159,14 +154,12 @@ TEST(bakes_are_those_at_the_origin)
         const char *near = move_back(files[i].name, files[i].far);
         for (size_t m = 0; m < sizeof methods / sizeof methods[0]; ++m) {
             size_t counts[2];
-            float *a = bake_reds(case_path(files[i].name), methods[m], &counts[0]);
-            float *b = bake_reds(near, methods[m], &counts[1]);
+            SCOPED(memory) float *a = bake_reds(case_path(files[i].name), methods[m], &counts[0]);
+            SCOPED(memory) float *b = bake_reds(near, methods[m], &counts[1]);
             assert_int_equal(counts[0], counts[1]);
             const double error = rms(a, b, counts[0]);
             print_message("%s %s: RMS %g\n", files[i].name, methods[m], error);
             assert_true(error <= most_rms);
-            free(a);
-            free(b);
         }
     }
 }

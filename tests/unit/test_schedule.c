@@ -413,7 +413,4 @@ TEST(loops_are_written_out)
     free(unrolled);
 }
 
-int main(void)
-{
-    return test_run(NULL, NULL, NULL);
-}
+TEST_MAIN(NULL, NULL, NULL)

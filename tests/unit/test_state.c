@@ -527,7 +527,7 @@ static void delete_host(host *h)
 /* Whatever state the host has set, glssao_apply reaches every pixel of framebuffers with depth, stencil and samples. */
 static void check_apply(fixture *f, const inputs *in, const host *h, const float *accessibility)
 {
-    glssao_effect *effect = fixture_effect(f, W, H);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
     glssao_settings settings = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_HIGH);
     settings.half_resolution = false;
     assert_int_equal(glssao_compute(effect, &in->frame, &settings), GLSSAO_OK);
@@ -542,12 +542,10 @@ static void check_apply(fixture *f, const inputs *in, const host *h, const float
         gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, h->framebuffers[0]);
         gl.BlitFramebuffer(0, 0, W, H, 0, 0, W, H, GL_COLOR_BUFFER_BIT, GL_NEAREST);
         gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
-        float *got = fixture_read_texture(h->color[0], W, H, 1);
+        SCOPED(memory) float *got = fixture_read_texture(h->color[0], W, H, 1);
         for (int k = 0; k < W * H; ++k)
             assert_float_equal(got[k], accessibility[k], 0.004f);
-        free(got);
     }
-    glssao_destroy(effect);
 }
 
 static void check_all(fixture *f)
@@ -555,22 +553,20 @@ static void check_all(fixture *f)
     load_newer(f);
     inputs in = make_inputs();
     double calm_error, error;
-    float *calm_picture = walk(f, &in, NULL, GLSSAO_PATH_FRAGMENT, &calm_error);
+    SCOPED(memory) float *calm_picture = walk(f, &in, NULL, GLSSAO_PATH_FRAGMENT, &calm_error);
     host h;
     make_host(&h);
     const int last_path = fixture_hides_newer() ? GLSSAO_PATH_FRAGMENT : GLSSAO_PATH_COMPUTE;
     for (int path = GLSSAO_PATH_FRAGMENT; path <= last_path; ++path) {
-        float *picture = walk(f, &in, &h, (glssao_path)path, &error);
+        SCOPED(memory) float *picture = walk(f, &in, &h, (glssao_path)path, &error);
         assert_true(error > 0.0 && error == calm_error);
         for (int i = 0; i < W * H; ++i)
             assert_float_equal(picture[i], calm_picture[i], path == GLSSAO_PATH_FRAGMENT ? 0.0f : 1.6e-5f);
-        free(picture);
     }
     check_apply(f, &in, &h, calm_picture);
     delete_host(&h);
     fixture_delete_frame(&in.frame);
     gl.DeleteTextures(1, &in.spare_depth);
-    free(calm_picture);
 }
 
 TEST_GL(host_state_comes_back_and_does_no_harm)
@@ -591,10 +587,11 @@ TEST_GL(apply_writes_the_first_draw_buffer_alone)
     gl.ClearBufferfv(GL_COLOR, 0, (const float[4]){1.0f, 1.0f, 1.0f, 1.0f});
     gl.ClearBufferfv(GL_COLOR, 1, (const float[4]){0.2f, 0.4f, 0.6f, 0.8f});
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
-    glssao_effect *effect = fixture_effect(f, W, H);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
     glssao_settings settings = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_HIGH);
     assert_int_equal(glssao_compute(effect, &in.frame, &settings), GLSSAO_OK);
     assert_int_equal(glssao_apply(effect, h.framebuffers[1]), GLSSAO_OK);
+    SCOPED(memory)
     float *first = fixture_read_texture(h.color[1], W, H, 4), *second = fixture_read_texture(h.color[2], W, H, 4);
     int darkened = 0;
     for (int i = 0; i < W * H; ++i) {
@@ -603,9 +600,6 @@ TEST_GL(apply_writes_the_first_draw_buffer_alone)
             assert_float_equal(second[4 * i + k], 0.2f * (float)(k + 1), 0.003f);
     }
     assert_true(darkened > 0);
-    free(first);
-    free(second);
-    glssao_destroy(effect);
     delete_host(&h);
     fixture_delete_frame(&in.frame);
     gl.DeleteTextures(1, &in.spare_depth);

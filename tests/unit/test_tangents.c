@@ -151,7 +151,4 @@ TEST(file_made_by_mikktspace_has_the_same)
     scene_destroy(s);
 }
 
-int main(void)
-{
-    return test_run("tangents", NULL, NULL);
-}
+TEST_MAIN("tangents", NULL, NULL)

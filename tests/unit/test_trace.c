@@ -362,7 +362,4 @@ TEST(tracing_ends_when_told_to)
     free(s);
 }
 
-int main(void)
-{
-    return test_run(NULL, NULL, NULL);
-}
+TEST_MAIN(NULL, NULL, NULL)

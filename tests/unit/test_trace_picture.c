@@ -181,11 +181,10 @@ TEST_GL(threads_change_nothing)
 {
     setup t;
     set_up(&t, "steps", false);
-    float *alone = malloc(sizeof(float) * W * H);
+    SCOPED(memory) float *alone = malloc(sizeof(float) * W * H);
     memcpy(alone, trace(&t, 3, 1, 1, 7), sizeof(float) * W * H);
     assert_memory_equal(alone, trace(&t, 3, 1, 5, 7), sizeof(float) * W * H);
     assert_int_not_equal(memcmp(alone, trace(&t, 3, 1, 5, 8), sizeof(float) * W * H), 0);
-    free(alone);
     tear_down(&t);
 }
 
@@ -194,7 +193,7 @@ TEST_GL(half_size_takes_every_other_surface)
 {
     setup t;
     set_up(&t, "steps", false);
-    uint8_t *full = malloc(W * H);
+    SCOPED(memory) uint8_t *full = malloc(W * H);
     const float *got = trace(&t, 1, 1, 0, 0);
     for (int i = 0; i < W * H; i++)
         full[i] = got[i] >= 0;
@@ -203,7 +202,6 @@ TEST_GL(half_size_takes_every_other_surface)
     for (int y = 0; y < (H + 1) / 2; y++)
         for (int x = 0; x < (W + 1) / 2; x++)
             assert_int_equal(got[y * ((W + 1) / 2) + x] >= 0, full[2 * y * W + 2 * x]);
-    free(full);
     tear_down(&t);
 }
 
@@ -217,7 +215,7 @@ TEST_GL(counts_are_kept)
     static const float(*rows[H])[4];
     char error[ERROR_LENGTH] = "";
     truth_of(&t, truth, seen);
-    float *distance, *normals;
+    SCOPED(memory) float *distance = NULL, *normals = NULL;
     gbuffer_read(&t.gbuffer, &distance, &normals);
     texels = malloc(sizeof *texels * W * H);
     for (int i = 0; i < W * H; i++) {
@@ -253,8 +251,6 @@ TEST_GL(counts_are_kept)
     for (int k = 1; k < 5; k++)
         assert_true(fabs(bias[k] / number[k]) < 0.006);
     free(texels);
-    free(distance);
-    free(normals);
     tear_down(&t);
 }
 
@@ -374,7 +370,4 @@ TEST_GL(wrong_arguments_are_named)
     tear_down(&t);
 }
 
-int main(void)
-{
-    return test_run(NULL, fixture_setup, fixture_teardown);
-}
+TEST_MAIN(NULL, fixture_setup, fixture_teardown)

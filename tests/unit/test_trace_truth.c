@@ -297,7 +297,4 @@ TEST(alpha_test_lets_rays_through)
     assert_true(under(m, NULL, 1) == 1);
 }
 
-int main(void)
-{
-    return test_run(NULL, NULL, NULL);
-}
+TEST_MAIN(NULL, NULL, NULL)

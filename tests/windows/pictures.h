@@ -3,8 +3,7 @@
  * Accessibility of a few analytic scenes by every technique, the same code on each system: against closed forms, and
  * as a file of floats that another system's run is compared with.
  */
-#ifndef GLSSAO_TESTS_WINDOWS_PICTURES_H
-#define GLSSAO_TESTS_WINDOWS_PICTURES_H
+#pragma once
 
 #include <glssao/glssao.h>
 #include <stdbool.h>
@@ -20,5 +19,3 @@ typedef struct pictures_host {
  * to `path`, or, where `compares`, reads the file and wants each value within one step of R16. False, with one line on
  * stderr, at the first fault. */
 bool pictures_check(const pictures_host *host, const char *path, bool compares);
-
-#endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Light from a bent normal: what is open is taken to be a cone about it (C. Oat and P. Sander, "Ambient Aperture Lighting",
-// 2007), whose cosine-weighted share of the hemisphere is the accessibility (J. Jimenez et al., "Practical Real-Time
+// Light from a bent normal: the open directions are taken to be a cone about it (C. Oat and P. Sander, "Ambient Aperture
+// Lighting", 2007), whose cosine-weighted share of the hemisphere is the accessibility (J. Jimenez et al., "Practical Real-Time
 // Strategies for Accurate Indirect Occlusion", 2016).
 // In a cone about the normal with the cosine c at its edge, the mean by the cosine of light that is linear in direction is
 // 2/3 (1 - c^3) / (1 - c^2) of that along the axis; over the hemisphere, c = 0, it is 2/3. This is how much more that is. (The

@@ -1,10 +1,10 @@
 #version 330
 // SPDX-License-Identifier: MIT
 //
-// Main pass: the shaded picture. Accessibility scales ambient light alone, which comes from a gradient from below to above,
-// or from a picture of the surroundings; direct light it leaves alone. Unlit materials (LIT 0) show their base colour as it is: no light
-// reaches them, so no occlusion does either. Blended ones are lit but not occluded: the accessibility map belongs to
-// the opaque surface behind them.
+// Main pass: the shaded picture. Accessibility scales ambient light alone, which comes from a gradient from below to
+// above, or from a picture of the surroundings. Direct light is unchanged. Unlit materials (LIT 0) show their base colour
+// unchanged: no light reaches them, so no occlusion does either. Blended ones are lit but not occluded: the
+// accessibility map belongs to the opaque surface behind them.
 // Macros, 0 or 1: TEXTURED (any map), BASE_MAPPED, COLORED, MASKED, BLENDED, LIT, and where LIT: DOUBLE_SIDED,
 // NORMAL_MAPPED, REFLECTIVE, ROUGHNESS_MAPPED, BAKED, EMISSIVE, EMISSION_MAPPED, SHADOWED, LIGHTS,
 // SPECULAR_OCCLUSION, MULTI_BOUNCE, ENVIRONMENT, BENT.
@@ -34,7 +34,7 @@ uniform sampler2D u_environment_map; // reflections; level i is for roughness i 
 #endif
 #else
 uniform vec3 u_ambient;      // radiance from the side; irradiance / pi on a surface that faces sideways
-uniform vec3 u_ambient_tilt; // how much more comes from straight above, and less from straight below
+uniform vec3 u_ambient_tilt; // added straight above, subtracted straight below
 uniform vec3 u_up_view;      // the sky's up, unit
 #endif
 uniform vec3 u_directional;  // irradiance / pi
@@ -101,7 +101,7 @@ vec3 reflected(surface s, vec3 to_light_view, float cos_light)
     vec3 half_view = normalize(to_light_view + s.to_eye_view);
     float cos_eye = max(dot(s.normal_view, s.to_eye_view), 1e-4);
     float cos_half = max(dot(s.normal_view, half_view), 0.0);
-    float alpha = max(s.roughness * s.roughness, 2e-3); // a mirror would show nothing of a light without size
+    float alpha = max(s.roughness * s.roughness, 2e-3); // a perfect mirror would not show a light without size
     float alpha2 = alpha * alpha;
     float spread = cos_half * cos_half * (alpha2 - 1.0) + 1.0;
     float distribution = alpha2 / (spread * spread); // times pi
@@ -112,7 +112,7 @@ vec3 reflected(surface s, vec3 to_light_view, float cos_light)
 }
 #endif
 
-// Radiance that reaches the eye of light that comes from there, of `light` irradiance / pi head-on.
+// Radiance towards the eye of light from that direction. `light` is its irradiance / pi on a surface that faces it.
 vec3 lit(surface s, vec3 to_light_view, vec3 light)
 {
     float cos_light = max(dot(s.normal_view, to_light_view), 0.0);
@@ -184,7 +184,7 @@ vec3 glossy_light(vec3 mirror_view, float roughness)
 #endif
 #endif
 
-// `open_view`: where the light comes from that arrives, the bent normal with BENT 1.
+// `open_view`: the mean direction of the light that arrives; the bent normal with BENT 1.
 vec3 ambient_light(surface s, vec3 open_view, float accessibility)
 {
 #if BENT && !BLENDED

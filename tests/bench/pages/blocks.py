@@ -92,8 +92,8 @@ def depth(folder):
 
 
 def plain_rays(a):
-    """Ray tracing as it comes: rays-N."""
-    return [c for c in a.configs(technique="rays") if c.split("-")[1].isdigit()]
+    """Ray tracing as it comes: rays-N, without rays-N-denoised."""
+    return [c for c in a.configs(technique="rays") if c.removeprefix("rays-").isdigit()]
 
 
 def traced(folder, use="tuning"):
@@ -151,10 +151,16 @@ def bent_light(folder):
 def rays(folder):
     a = Accuracy(folder)
     rows = []
-    for c in plain_rays(a):
-        rows.append([c.split("-")[1], ms(a.time(c)), number(a.figure(c, "rmse")), number(a.figure(c, "ssim"), 3),
-                     number(a.figure(c, "flip"), 3), number(a.figure(c, "grain"))])
-    return table(["rays a pixel", "ms (CPU)", "RMSE", "SSIM", "FLIP", "grain"], rows, 0) if rows else None
+    kinds = ["", "-denoised"] if any(c.endswith("-denoised") for c in a.by_config) else [""]
+    for plain in plain_rays(a):
+        row = [plain.removeprefix("rays-")]
+        for c in (plain + kind for kind in kinds):
+            row += [ms(a.time(c)), number(a.figure(c, "rmse")), number(a.figure(c, "ssim"), 3), number(a.figure(c, "flip"), 3),
+                    number(a.figure(c, "grain"))] if a.has(c) else 5 * [""]
+        rows.append(row)
+    measures = ["RMSE", "SSIM", "FLIP", "grain"]
+    head = ["rays a pixel", "ms (CPU)", *measures] + (["denoised: ms", *measures] if len(kinds) > 1 else [])
+    return table(head, rows, 0) if rows else None
 
 
 def peers(folder):

@@ -100,6 +100,17 @@ class Figures(unittest.TestCase):
         rows = [row[2:4] for row in blocks.beaten_rows(a)]
         self.assertEqual(rows, [("rmse", "b"), ("ssim", "b"), ("median_ms", "a")])
 
+    def test_rays_stand_beside_their_denoised_picture(self):
+        columns = ["configuration", "technique", "scene", "rmse", "ssim", "flip", "grain", "median_ms"]
+        rows = [["rays-2", "rays", "a", 0.2, 0.5, 0.1, 0.01, 3], ["rays-2-denoised", "rays", "a", 0.1, 0.6, 0.05, 0, 4],
+                ["rays-4", "rays", "a", 0.1, 0.7, 0.1, 0.01, 5], ["rays-low", "rays", "a", 0.1, 0.5, 0.1, 0.01, 3]]
+        write(self.folder, "accuracy", columns, rows)
+        write(self.folder, "scenes", ["scene", "use"], [["a", "tuning"]])
+        lines = blocks.rays(self.folder).split("\n")
+        self.assertEqual(lines[2], "| 2 | 3.00 | 0.2000 | 0.500 | 0.100 | 0.0100 | 4.00 | 0.1000 | 0.600 | 0.050 | 0.0000 |")
+        self.assertTrue(lines[3].startswith("| 4 | 5.00 |") and lines[3].endswith("|  |  |  |  |  |"))
+        self.assertEqual(len(lines), 4)
+
     def test_blocks_are_filled_and_others_kept(self):
         docs, machine = os.path.join(self.folder, "docs"), os.path.join(self.folder, "data", "here")
         os.makedirs(docs)

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: MIT */
+#include "tool.h"
+
+#include "gl.h"
+#include "truth.h"
+
+#include <stdio.h>
+
+enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2 };
+
+int tool_begin(const char *name, int argc, char **argv, options *out)
+{
+    char error[4096] = "";
+    const options_result parsed = options_parse(argc, argv, out, error, sizeof error);
+    if (parsed == OPTIONS_WRONG)
+        fprintf(stderr, "%s: %s\n", name, error);
+    return parsed == OPTIONS_RUN ? -1 : parsed == OPTIONS_WRONG ? EXIT_USAGE : EXIT_DONE;
+}
+
+context *tool_open(const options *o, char *error, size_t error_size)
+{
+    if (!make_folder(o->out)) {
+        snprintf(error, error_size, "%s: no such folder can be made", o->out);
+        return NULL;
+    }
+    context *c = context_create(&(context_options){.kind = (context_kind)o->context}, error, error_size);
+    if (!c || !gl_load(context_load, c, error, error_size)) {
+        context_destroy(c);
+        return NULL;
+    }
+    fprintf(stderr, "context: %s\n", context_description(c));
+    return c;
+}
+
+int tool_end(const char *name, bool done, const char *error)
+{
+    if (!done)
+        fprintf(stderr, "%s: %s\n", name, error);
+    return done ? EXIT_DONE : EXIT_FAILED;
+}
