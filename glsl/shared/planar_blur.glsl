@@ -74,14 +74,6 @@ CONTENTS blurred(PAIRED before_2, PAIRED before, PAIRED center, PAIRED after, PA
         weights.yz = vec2(joins.y && abs(before.y - center.y) < near ? 1.0 : 0.0,
                           joins.z && abs(after.y - center.y) < near ? 1.0 : 0.0);
     }
-#if BENT
-    // What is left without any tap keeps its noise, which shows where it is dark among bright neighbours.
-    float least =
-        weights.y + weights.z == 0.0 ? min(accessibility_of(before), accessibility_of(after)) - BLUR_ALONE : 0.0;
-    CONTENTS mean = (contents_of(center) + weighted(weights, before_2, before, after, after_2)) /
-                    (1.0 + dot(weights, vec4(1.0)));
-    return vec4(max(mean.x, least), mean.yzw);
-#else
     vec4 taps = vec4(accessibility_of(before_2), accessibility_of(before), accessibility_of(after),
                      accessibility_of(after_2));
     float own = accessibility_of(center);
@@ -89,10 +81,14 @@ CONTENTS blurred(PAIRED before_2, PAIRED before, PAIRED center, PAIRED after, PA
     // What is left without any tap keeps its noise, which shows where it is dark among bright neighbours.
     float least = weights.y + weights.z == 0.0 ? min(taps.y, taps.z) - BLUR_ALONE : 0.0;
 #if RAYS
-    if (own < 0.0)
-        return mean;
+    least = own < 0.0 ? MISSING : least;
 #endif
-    return max(mean, least);
+    mean = max(mean, least);
+#if BENT
+    return vec4(mean, (contents_of(center) + weighted(weights, before_2, before, after, after_2)).yzw /
+                          (1.0 + dot(weights, vec4(1.0))));
+#else
+    return mean;
 #endif
 }
 
