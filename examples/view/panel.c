@@ -77,6 +77,10 @@ static void draw_drawing(viewer *v)
     changed = gui_check("apply normal maps before occlusion (K)", &o->mapped_normals) || changed;
     changed = gui_check("specular occlusion (L)", &o->specular_occlusion) || changed;
     changed = gui_check("multi-bounce tint (B)", &o->multi_bounce) || changed;
+    if (v->settings.technique == GLSSAO_HORIZON && gui_check("light by bent normals", &o->bent_normals)) {
+        v->settings.bent_normals = o->bent_normals;
+        changed = true;
+    }
     changed = gui_slider("strength of occlusion", "", &intensity, 0, 1, false, 1) || changed;
     changed = gui_choice("map in the corner (I)", &o->debug_map, OPTIONS_MAP_WORDS) || changed;
     o->no_shadows = !shadows;

@@ -112,6 +112,8 @@ void viewer_display(viewer *v);
 /* What the user sees without the panel: RGBA, rows bottom to top. The caller frees it. */
 void *viewer_read_shown(viewer *v);
 
+/* Whether ambient light comes from where surfaces are open. */
+bool viewer_lights_bent(const viewer *v);
 /* Whether a frame is averaged from several, each of which needs its own depth. */
 bool viewer_averages(const viewer *v);
 

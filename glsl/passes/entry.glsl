@@ -5,7 +5,10 @@
 
 #if COMPUTE
 layout(local_size_x = GROUP_X, local_size_y = GROUP_Y) in;
-writeonly uniform image2D u_target;
+#ifndef TARGET
+#define TARGET image2D
+#endif
+writeonly uniform TARGET u_target;
 
 vec4 texel(float result)
 {
@@ -20,6 +23,11 @@ vec4 texel(vec2 result)
 vec4 texel(vec4 result)
 {
     return result;
+}
+
+uvec4 texel(uvec2 result)
+{
+    return uvec4(result, 0u, 1u);
 }
 
 #if OUTPUT == OUTPUT_BENT

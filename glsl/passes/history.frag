@@ -1,54 +1,33 @@
 // SPDX-License-Identifier: MIT
 // The mean of this frame's estimate and earlier ones', found again where the surface was in the last frame.
-// in  u_ambient_map  paired values after the blur; fetched
-// in  u_raw_map      the same before it; fetched
+// in  u_ambient_map  paired values after the blur; RAW 1: blocks of such values and the estimate's (upsample.frag); fetched
+// in  u_raw_map      paired values of the estimate; fetched (RAW 0)
 // in  u_history_map  the last frame's output, fetched
 // in  u_motion_map   MOTION 1: uv now minus uv in the last frame; point sampled
 // in  u_depth_map, u_normal_map  as for the estimate, full size; point sampled
 // out result         a texel of the history (shared/history.glsl)
-// UPSAMPLE 1: the estimate has half the size
+// RAW 1: the estimate has half the size
 // RAYS 1: both maps are linear and may lack values; what is not blurred is what rays say
 
 uniform sampler2D u_ambient_map;
+#if !RAW
 uniform sampler2D u_raw_map;
-uniform sampler2D u_history_map;
+#endif
+uniform usampler2D u_history_map;
 #if MOTION
 uniform sampler2D u_motion_map;
 #endif
-#define RESULT vec4
-
-#if RAYS && UPSAMPLE
-// The mean of what is not missing.
-float known_mean(vec4 weights, vec4 values)
-{
-    weights = mix(weights, vec4(0.0), lessThan(values, vec4(0.0)));
-    float sum = dot(weights, vec4(1.0));
-    return sum > 0.0 ? dot(weights, values) / sum : MISSING;
-}
-#endif
+#define RESULT uvec2
+#define TARGET uimage2D
 
 // What this frame says of the pixel. x: the estimate, y: what the blur left of it.
-vec2 estimate_at(ivec2 pixel, vec2 uv, float depth)
+vec2 estimate_at(ivec2 pixel)
 {
-#if UPSAMPLE
-    ivec2 from = pixel - ivec2(gPick);
-    ivec2 odd = from & 1;
-    ivec2 last = ivec2(gEstimateSize) - 1;
-    ivec2 a = clamp(from >> 1, ivec2(0), last);
-    ivec2 d = clamp((from >> 1) + odd, ivec2(0), last);
-    vec2 at_a = texelFetch(u_ambient_map, a, 0).rg;
-    vec2 at_b = texelFetch(u_ambient_map, ivec2(d.x, a.y), 0).rg;
-    vec2 at_c = texelFetch(u_ambient_map, ivec2(a.x, d.y), 0).rg;
-    vec2 at_d = texelFetch(u_ambient_map, d, 0).rg;
-    vec4 weights = upsample_weights(at_a, at_b, at_c, at_d, vec2(odd), uv, depth);
-    // The bits of the normal in a value add too little to matter.
-    vec4 raw = vec4(texelFetch(u_raw_map, a, 0).r, texelFetch(u_raw_map, ivec2(d.x, a.y), 0).r,
-                    texelFetch(u_raw_map, ivec2(a.x, d.y), 0).r, texelFetch(u_raw_map, d, 0).r);
-#if RAYS
-    return vec2(known_mean(weights, raw), known_mean(weights, vec4(at_a.x, at_b.x, at_c.x, at_d.x)));
-#else
-    return vec2(dot(weights, raw), weighted(weights, at_a, at_b, at_c, at_d)) / dot(weights, vec4(1.0));
-#endif
+#if RAW
+    ivec2 from = max(pixel - ivec2(gPick), ivec2(0));
+    vec4 block = texelFetch(u_ambient_map, from >> 1, 0);
+    vec2 row = (from.y & 1) == 1 ? block.zw : block.xy;
+    return unpacked_pair((from.x & 1) == 1 ? row.y : row.x);
 #else
     return vec2(texelFetch(u_raw_map, pixel, 0).r, accessibility_of(texelFetch(u_ambient_map, pixel, 0).rg));
 #endif
@@ -67,8 +46,8 @@ vec2 last_uv(vec3 position_view)
 vec3 last_position(vec2 uv, float distance)
 {
     ivec2 texel = ivec2(clamp(floor(uv / gFullTexel), gLastRegion.xy, gLastRegion.zw));
-    vec4 tap = texelFetch(u_history_map, texel, 0);
-    float seen = orthographic() ? tap.z : 1.0 / tap.z;
+    float linear = linear_of(texelFetch(u_history_map, texel, 0).xxxx, linear_from_distance(distance)).x;
+    float seen = orthographic() ? linear : 1.0 / linear;
     distance = abs(seen - distance) < radius_at(distance) ? seen : distance;
     return vec3(uv * gLastRayOrigin.xy + gLastRayOrigin.zw + distance * (uv * gLastRayDirection.xy + gLastRayDirection.zw),
                 -distance);
@@ -82,37 +61,37 @@ vec4 history_at(vec3 position_view, vec3 normal_view, vec2 uv, float tolerance)
 {
     vec2 place = uv / gFullTexel - 0.5;
     // False for NaN too.
-    if (!(all(greaterThanEqual(place, gLastRegion.xy - 0.5)) && all(lessThanEqual(place, gLastRegion.zw + 0.5))))
+    if (!(all(greaterThanEqual(place, gLastRegion.xy - 0.5)) && all(lessThanEqual(place, gLastRegion.zw + 0.5)) &&
+          (orthographic() || position_view.z < 0.0)))
         return vec4(0.0);
     vec2 low = floor(place);
     vec2 part = place - low;
     ivec2 a = ivec2(max(low, gLastRegion.xy)), d = ivec2(min(low + 1.0, gLastRegion.zw));
-    mat4 taps = mat4(texelFetch(u_history_map, a, 0), texelFetch(u_history_map, ivec2(d.x, a.y), 0),
-                     texelFetch(u_history_map, ivec2(a.x, d.y), 0), texelFetch(u_history_map, d, 0));
-    vec4 stored = vec4(taps[0].w, taps[1].w, taps[2].w, taps[3].w);
-    vec4 change = floor(stored * (1.0 / 65536.0));
-    stored -= 65536.0 * change;
-    vec4 frames = floor(stored * (1.0 / 1024.0));
-    vec4 linear = vec4(taps[0].z, taps[1].z, taps[2].z, taps[3].z);
+    ivec2 b = ivec2(d.x, a.y), c = ivec2(a.x, d.y);
+    uvec4 below = uvec4(texelFetch(u_history_map, a, 0).xy, texelFetch(u_history_map, b, 0).xy);
+    uvec4 above = uvec4(texelFetch(u_history_map, c, 0).xy, texelFetch(u_history_map, d, 0).xy);
+    uvec4 first = uvec4(below.xz, above.xz), second = uvec4(below.yw, above.yw);
+    float own = linear_from_distance(-position_view.z);
+    vec4 linear = linear_of(first, own);
+    vec4 frames = frames_of(first);
     float height = dot(position_view, normal_view);
     // The plane's linear quantity at the corners' rays, from that at the point's own uv.
     vec2 slope = normal_view.xy * (orthographic() ? gLastRayOrigin.xy / normal_view.z : gLastRayDirection.xy / height);
     vec4 x = vec4(-part.x, 1.0 - part.x, -part.x, 1.0 - part.x) * (slope.x * gFullTexel.x);
     vec4 y = vec4(-part.yy, 1.0 - part.yy) * (slope.y * gFullTexel.y);
-    float own = linear_from_distance(-position_view.z);
-    vec4 off = abs(own + x + y - linear) * abs(orthographic() ? vec4(normal_view.z) : height / linear);
-    // Squared changes of the projected normal. Codes are whole numbers that a float holds exactly.
-    vec2 projected = projected_normal(normal_view);
-    vec4 codes = stored - 1024.0 * frames;
-    vec4 high = floor(codes * (1.0 / 32.0));
-    vec4 turn_x = high - 15.0 - projected.x, turn_y = codes - 32.0 * high - 15.0 - projected.y;
+    vec4 off = abs((own + x + y - linear) * (orthographic() ? normal_view.z : height));
+    vec4 most = orthographic() ? vec4(tolerance) : tolerance * linear;
+    // Squared changes of the projected normal.
+    vec2 projected = projected_normal(normal_view) + 15.0;
+    vec4 turn_x = floats((second >> 5) & 31u) - projected.x, turn_y = floats(second & 31u) - projected.y;
     vec4 turn = turn_x * turn_x + turn_y * turn_y;
     vec4 weights = vec4(1.0 - part.x, part.x, 1.0 - part.x, part.x) * vec4(1.0 - part.yy, part.yy);
     const float MOST = TURN * TURN / (NORMAL_STEP * NORMAL_STEP);
-    weights *= vec4(lessThan(off, vec4(tolerance))) * vec4(lessThan(turn, vec4(MOST))) * vec4(greaterThan(frames, vec4(0.0)));
+    weights *= vec4(lessThan(off, most)) * vec4(lessThan(turn, vec4(MOST))) * vec4(greaterThan(frames, vec4(0.0)));
     float sum = dot(weights, vec4(1.0));
-    vec2 means = (taps * weights).xy;
-    return sum > 0.01 ? vec4(means, dot(weights, frames), (dot(weights, change) - 128.0 * sum) / 127.0) / sum : vec4(0.0);
+    vec2 means = vec2(dot(weights, floats(second >> 21)), dot(weights, floats((second >> 10) & 2047u))) / MEAN_STEPS;
+    float change = (dot(weights, floats(first & 63u)) - 32.0 * sum) * (LATELY_MOST / 31.0);
+    return sum > 0.01 ? vec4(means, dot(weights, frames), change) / sum : vec4(0.0);
 }
 
 RESULT result()
@@ -121,10 +100,10 @@ RESULT result()
     vec2 uv = pixel_center() * gFullTexel;
     float depth = depth_component(textureLod(u_depth_map, uv, 0.0));
     if (is_sky(depth))
-        return vec4(1.0, 1.0, 0.0, 0.0);
+        return history_texel(vec2(1.0), 0.0, 0.0, 0.0, 0u);
     float distance = distance_from_depth(depth);
     vec3 normal_view = normal_view_at_uv(uv);
-    vec2 now = estimate_at(pixel, uv, depth);
+    vec2 now = estimate_at(pixel);
     vec4 last = vec4(0.0);
     if (gHistory.y > 0.0) {
         vec3 position = (gLastView * vec4(position_view_from_uv(uv, distance), 1.0)).xyz;
@@ -163,7 +142,7 @@ RESULT result()
     frames = min(frames, max(FORGET, floor(gHistory.x * (1.0 - doubt))));
     vec2 means = clamp(last.xy + jump * change, 0.0, 1.0);
     change -= jump * change;
-#if UPSAMPLE && !RAYS
+#if RAW && !RAYS
     // A pixel that was estimated itself counts for more than one between others.
     bool picked = ((pixel - ivec2(gPick)) & 1) == ivec2(0);
     float share = min((picked ? PICKED : (4.0 - PICKED) / 3.0) / frames, 1.0);

@@ -2,7 +2,8 @@
 // Rounds of the planar blur, and the step to full size, for a tile of the picture in shared memory. The result is that of
 // planar_blur.frag and upsample.frag one after the other, without a map in between.
 // in  u_ambient_map  paired values; fetched
-// out u_target       UPSAMPLE 1: accessibility at full size; else by OUTPUT: accessibility or the paired value
+// out u_target       UPSAMPLE 1: accessibility at full size, with RAW 1 blocks as upsample.frag draws them; else by OUTPUT:
+//                    accessibility or the paired value
 // out u_bent_target  UPSAMPLE 1, BENT 1 or OUTPUT_BENT: bent normal and accessibility
 // ROUNDS: how many rounds, 0 to 2. WIDE 1: the first of them is not the first of the blur.
 //
@@ -16,7 +17,7 @@ writeonly uniform image2D u_target;
 writeonly uniform image2D u_bent_target;
 #endif
 
-#if UPSAMPLE
+#if UPSAMPLE && !RAW
 const int FACTOR = 2; // pixels of the target per texel
 #else
 const int FACTOR = 1;
@@ -29,8 +30,8 @@ const int FIRST_REACH = 2;
 const int LATER_REACH = 3;
 const int HALO = ROUNDS == 0 ? 0 : FIRST_REACH + (ROUNDS - 1) * LATER_REACH;
 const int WIDTH = GROUP_X;
-const int MADE_X = WIDTH - 2 * HALO - FACTOR + 1; // upsampling reads one more to the right and above
-const int MADE_Y = GROUP_ROWS - 2 * HALO - FACTOR + 1;
+const int MADE_X = WIDTH - 2 * HALO - UPSAMPLE; // upsampling reads one more to the right and above
+const int MADE_Y = GROUP_ROWS - 2 * HALO - UPSAMPLE;
 
 // Two tiles, which each step reads and writes by turns, in one array (GLSL 3.30 has no arrays of arrays). The margins at both
 // ends are for what the ends of rows read beyond.
@@ -88,7 +89,20 @@ void blur_tile(int from, int to, int but, int kind)
     barrier();
 }
 
-#if UPSAMPLE
+#if UPSAMPLE && RAW
+// Of the four pixels that the texel is the lower left of, from the tile that begins at `from`.
+void write(int from, int row, ivec2 texel)
+{
+    int at = from + row * WIDTH + int(gl_LocalInvocationID.x);
+    if (any(greaterThanEqual(texel, gRegion.zw)))
+        return;
+    texel += gRegion.xy;
+    fetch_corner_raws(texel);
+    vec2 full_uv = (2.0 * vec2(texel) + gPick + 0.5) * gFullTexel;
+    block four = upsampled_block(tiles[at], tiles[at + 1], tiles[at + WIDTH], tiles[at + WIDTH + 1], full_uv);
+    imageStore(u_target, texel, vec4(four.lower_left, four.lower_right, four.upper_left, four.upper_right));
+}
+#elif UPSAMPLE
 void store(ivec2 pixel, CONTENTS contents)
 {
     if (any(greaterThanEqual(pixel, gRegion.zw)))

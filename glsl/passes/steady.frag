@@ -6,47 +6,63 @@
 // out result         accessibility
 // RAYS 1: the history is linear
 
-uniform sampler2D u_history_map;
+uniform usampler2D u_history_map;
 #define RESULT float
+
+struct surface {
+    float linear, tolerance;
+    vec2 projected;
+};
+
+vec4 details_of(uvec4 words)
+{
+    return floats(words >> 21) - floats((words >> 10) & 2047u);
+}
 
 // Adds two pairs of opposite neighbours: those that lie on a line with the pixel and face the same way. `a` and `b` are
 // opposite, and `c` and `d`.
-void add_pairs(vec4 own, vec2 projected, vec4 a, vec4 b, vec4 c, vec4 d, float tolerance, inout vec3 sums)
+void add_pairs(surface own, uvec2 a, uvec2 b, uvec2 c, uvec2 d, inout vec3 sums)
 {
     const float MOST = CHORD * CHORD / (NORMAL_STEP * NORMAL_STEP);
-    vec4 detail = vec4(a.x - a.y, b.x - b.y, c.x - c.y, d.x - d.y);
-    vec2 bend = abs(vec2(a.z + b.z, c.z + d.z) - 2.0 * own.z);
-    vec4 stored = vec4(a.w, b.w, c.w, d.w);
-    vec4 codes = stored - 1024.0 * floor(stored * (1.0 / 1024.0));
-    vec4 high = floor(codes * (1.0 / 32.0));
-    vec4 turn_x = high - 15.0 - projected.x, turn_y = codes - 32.0 * high - 15.0 - projected.y;
-    vec4 counts = vec4(lessThan(bend.xxyy, vec4(tolerance))) *
+    uvec4 first = uvec4(a.x, b.x, c.x, d.x), second = uvec4(a.y, b.y, c.y, d.y);
+    vec4 linear = linear_of(first, 1.0), detail = details_of(second);
+    vec2 bend = abs(linear.xz + linear.yw - 2.0 * own.linear);
+    vec4 turn_x = floats((second >> 5) & 31u) - own.projected.x, turn_y = floats(second & 31u) - own.projected.y;
+    vec4 counts = vec4(lessThan(bend.xxyy, vec4(own.tolerance))) *
                   vec4(lessThan(turn_x * turn_x + turn_y * turn_y, vec4(MOST)));
     sums += vec3(dot(counts, vec4(1.0)), dot(counts, detail), dot(counts, detail * detail));
 }
 
+uvec2 texel_at(int x, int y)
+{
+    return texelFetch(u_history_map, ivec2(x, y), 0).xy;
+}
+
 RESULT result()
 {
-    ivec2 pixel = ivec2(pixel_center());
-    ivec2 low = max(pixel - 1, ivec2(0)), high = min(pixel + 1, textureSize(u_history_map, 0) - 1);
-    vec4 own = texelFetch(u_history_map, pixel, 0);
-    vec2 projected = projected_normal(normal_code(own));
-    float tolerance = max(BLUR_TOLERANCE * radius_in_linear(own.z), linear_step(own.z));
-    float detail = own.x - own.y;
+    ivec2 at = ivec2(pixel_center());
+    ivec2 low = max(at - 1, ivec2(0)), high = min(at + 1, textureSize(u_history_map, 0) - 1);
+    uvec2 texel = texel_at(at.x, at.y);
+    surface own;
+    own.linear = linear_of(texel.xxxx, 1.0).x;
+    // What the history rounds bends lines too.
+    own.tolerance = max(BLUR_TOLERANCE * radius_in_linear(own.linear), linear_step(own.linear)) +
+                    own.linear * (4.0 / 32768.0);
+    own.projected = vec2(ivec2((texel.y >> 5) & 31u, texel.y & 31u));
+    float detail = details_of(texel.yyyy).x;
     vec3 sums = vec3(1.0, detail, detail * detail);
-    add_pairs(own, projected, texelFetch(u_history_map, ivec2(low.x, pixel.y), 0),
-              texelFetch(u_history_map, ivec2(high.x, pixel.y), 0), texelFetch(u_history_map, ivec2(pixel.x, low.y), 0),
-              texelFetch(u_history_map, ivec2(pixel.x, high.y), 0), tolerance, sums);
-    add_pairs(own, projected, texelFetch(u_history_map, low, 0), texelFetch(u_history_map, high, 0),
-              texelFetch(u_history_map, ivec2(low.x, high.y), 0), texelFetch(u_history_map, ivec2(high.x, low.y), 0),
-              tolerance, sums);
+    add_pairs(own, texel_at(low.x, at.y), texel_at(high.x, at.y), texel_at(at.x, low.y), texel_at(at.x, high.y), sums);
+    add_pairs(own, texel_at(low.x, low.y), texel_at(high.x, high.y), texel_at(low.x, high.y), texel_at(high.x, low.y),
+              sums);
     vec2 moments = sums.yz / sums.x;
     float spread = max(moments.y - moments.x * moments.x, 0.0);
-    float known = clamp((frames_of(own) - 1.0) / NARROW, 0.0, 1.0);
+    float known = clamp((frames_of(texel.xxxx).x - 1.0) / NARROW, 0.0, 1.0);
     float keep = known * max(1.0 - SHRINK * spread / max(moments.x * moments.x, 1e-8), 0.0);
+    float blurred = float(int((texel.y >> 10) & 2047u));
+    float accessibility = clamp((blurred + keep * moments.x) / MEAN_STEPS, 0.0, 1.0);
 #if RAYS
-    return pow(clamp(own.y + keep * moments.x, 0.0, 1.0), gPower);
+    return pow(accessibility, gPower);
 #else
-    return clamp(own.y + keep * moments.x, 0.0, 1.0);
+    return accessibility;
 #endif
 }

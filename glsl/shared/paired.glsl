@@ -75,6 +75,11 @@ CONTENTS contents_of(PAIRED paired)
     return vec4(accessibility_of(paired), paired.z, y, paired.w - 4096.0 * y);
 }
 
+float accessibility_in(CONTENTS contents)
+{
+    return contents.x;
+}
+
 // Whether both have the same contents, so that averaging them changes nothing.
 bool is_same(PAIRED a, PAIRED b)
 {
@@ -104,6 +109,11 @@ CONTENTS contents_of(PAIRED paired)
     return accessibility_of(paired);
 }
 
+float accessibility_in(CONTENTS contents)
+{
+    return contents;
+}
+
 bool is_same(PAIRED a, PAIRED b)
 {
     return a.x == b.x;
@@ -131,28 +141,56 @@ float finished(float accessibility)
 #endif
 }
 
+#if BENT
+CONTENTS finished(CONTENTS contents)
+{
+    return vec4(finished(contents.x), contents.yzw);
+}
+#endif
+
 #if OUTPUT == OUTPUT_PAIRED
 #define AMBIENT PAIRED
 AMBIENT ambient(CONTENTS contents, float linear, uint code)
 {
-#if BENT
-    return paired(contents, linear, code);
-#else
     return paired(finished(contents), linear, code);
-#endif
 }
 #elif OUTPUT == OUTPUT_BENT
 #define AMBIENT vec4
 AMBIENT ambient(CONTENTS contents, float linear, uint code)
 {
     vec2 full_uv = (floor(pixel_center()) * float(gFactor) + 0.5) * gFullTexel;
-    return delivered(contents, linear == linear_from_distance(FAR_AWAY), normal_view_at_uv(full_uv));
+    return delivered(finished(contents), linear == linear_from_distance(FAR_AWAY), normal_view_at_uv(full_uv));
 }
 #else
 #define AMBIENT float
 AMBIENT ambient(float accessibility, float linear, uint code)
 {
     return finished(accessibility);
+}
+#endif
+
+#if RAW
+// Estimate and blurred estimate as one number of 24 bits over 2^24, which a float holds exactly: 1 to 4095 each, 0 where the
+// value is missing. Two open ones are 1.
+float packed_pair(vec2 pair)
+{
+    vec2 codes = floor(clamp(pair, 0.0, 1.0) * 4094.0 + 1.5);
+#if RAYS
+    codes = mix(codes, vec2(0.0), lessThan(pair, vec2(0.0)));
+#endif
+    return (4096.0 * codes.x + codes.y + 1.0) * (1.0 / 16777216.0);
+}
+
+vec2 unpacked_pair(float packed_values)
+{
+    float whole = packed_values * 16777216.0 - 1.0;
+    float high = floor(whole * (1.0 / 4096.0));
+    vec2 codes = vec2(high, whole - 4096.0 * high);
+#if RAYS
+    return mix((codes - 1.0) * (1.0 / 4094.0), vec2(MISSING), equal(codes, vec2(0.0)));
+#else
+    return (codes - 1.0) * (1.0 / 4094.0);
+#endif
 }
 #endif
 

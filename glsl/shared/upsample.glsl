@@ -3,6 +3,7 @@
 // those neighbours that lie near it on the same surface, or else the one that is nearest in distance.
 // in  u_depth_map      stored depth, full size; point sampled
 // in  u_normal_map     view space, full size; point sampled. Without (NORMALS_REBUILT), lines through depths tell creases
+// in  u_raw_map        RAW 1: paired values of the estimate, which the history takes besides what the blur left; fetched
 // BRANCHES 1: a branch that all pixels of a warp take alike spares work.
 
 // The difference that a neighbour around a crease counts as having: larger than any other.
@@ -84,11 +85,42 @@ vec4 upsample_weights(PAIRED a, PAIRED b, PAIRED c, PAIRED d, vec2 odd, vec2 ful
     return vec4(lessThanEqual(off, vec4(near)));
 }
 
-// Accessibility there, with BENT 1 what shared/bent.glsl delivers.
+#if RAW
+uniform sampler2D u_raw_map;
+vec4 corner_raws; // of the block's four texels, in the order of corner_normals
+
+void fetch_corner_raws(ivec2 texel)
+{
+    ivec2 next = min(texel + 1, ivec2(gEstimateSize) - 1);
+    // The bits of the normal in a value add too little to matter.
+    corner_raws = vec4(texelFetch(u_raw_map, texel, 0).r, texelFetch(u_raw_map, ivec2(next.x, texel.y), 0).r,
+                       texelFetch(u_raw_map, ivec2(texel.x, next.y), 0).r, texelFetch(u_raw_map, next, 0).r);
+}
+
+// The mean; RAYS 1: of what is not missing.
+float known_mean(vec4 weights, vec4 values)
+{
+#if RAYS
+    weights = mix(weights, vec4(0.0), lessThan(values, vec4(0.0)));
+    float sum = dot(weights, vec4(1.0));
+    return sum > 0.0 ? dot(weights, values) / sum : MISSING;
+#else
+    return dot(weights, values) / dot(weights, vec4(1.0));
+#endif
+}
+#endif
+
+// Accessibility there, with BENT 1 what shared/bent.glsl delivers, with RAW 1 packed with the estimate.
 CONTENTS upsampled(PAIRED a, PAIRED b, PAIRED c, PAIRED d, vec2 odd, vec2 full_uv)
 {
     float depth = depth_component(textureLod(u_depth_map, full_uv, 0.0));
     vec4 weights = upsample_weights(a, b, c, d, odd, full_uv, depth);
+#if RAW
+    vec4 raws = odd.y > 0.0 ? corner_raws : corner_raws.xyxy;
+    raws = odd.x > 0.0 ? raws : raws.xxzz;
+    vec4 values = vec4(accessibility_of(a), accessibility_of(b), accessibility_of(c), accessibility_of(d));
+    return packed_pair(vec2(known_mean(weights, raws), known_mean(weights, values)));
+#else
     CONTENTS mean = weighted(weights, a, b, c, d) / dot(weights, vec4(1.0));
 #if BENT && NORMALS == NORMALS_REBUILT
     return delivered(mean, is_sky(depth), mean_normal(weights, odd));
@@ -96,6 +128,7 @@ CONTENTS upsampled(PAIRED a, PAIRED b, PAIRED c, PAIRED d, vec2 odd, vec2 full_u
     return delivered(mean, is_sky(depth), normal_view_from_stored(textureLod(u_normal_map, full_uv, 0.0).xyz));
 #else
     return is_sky(depth) ? 1.0 : mean;
+#endif
 #endif
 }
 
@@ -113,12 +146,16 @@ block upsampled_block(PAIRED a, PAIRED b, PAIRED c, PAIRED d, vec2 full_uv)
         return block(1.0, 1.0, 1.0, 1.0);
 #endif
     vec2 full_next = full_uv + gFullTexel;
+#if !RAW
     bool sky = is_sky(depth_component(textureLod(u_depth_map, full_uv, 0.0)));
+#endif
 #if BENT && NORMALS == NORMALS_REBUILT
     fetch_corner_normals(full_uv);
     CONTENTS own = delivered(contents_of(a), sky, corner_normals[0]);
 #elif BENT
     CONTENTS own = delivered(contents_of(a), sky, normal_view_at_uv(full_uv));
+#elif RAW
+    CONTENTS own = packed_pair(vec2(corner_raws.x, accessibility_of(a))); // the history knows sky itself
 #else
     CONTENTS own = sky ? 1.0 : contents_of(a);
 #endif

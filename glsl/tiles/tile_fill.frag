@@ -2,9 +2,9 @@
 // Open values, for tiles that no other pass draws.
 // out o_open  accessibility 1; in a paired map beside a quantity of distance that no pass reads
 
-out vec2 o_open;
+out vec4 o_open;
 
 void main()
 {
-    o_open = vec2(1.0);
+    o_open = vec4(1.0);
 }

@@ -80,6 +80,7 @@ static int bytes_of(GLint internal_format)
         return 16;
     case GL_RGBA16F:
     case GL_RG32F:
+    case GL_RG32UI:
         return 8;
     case GL_RGB16F:
         return 6;

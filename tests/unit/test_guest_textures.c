@@ -131,7 +131,7 @@ TEST_GL(integer_formats_are_refused)
     };
     static const char *const fields[] = {"frame.depth_texture", "frame.normal_texture", "frame.back_texture",
                                          "frame.second_texture", "frame.normal_texture"};
-    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
     for (size_t i = 0; i < sizeof formats / sizeof *formats; ++i) {
         SCOPED(texture) GLuint texture = make_texture(formats[i].internal_format, formats[i].format, formats[i].type);
@@ -154,7 +154,6 @@ TEST_GL(integer_formats_are_refused)
             guest_refused(&g, result, fields[k], what);
         }
     }
-    guest_close(&g);
 }
 
 int main(void)

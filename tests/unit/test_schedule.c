@@ -250,7 +250,7 @@ TEST(no_rays_cost_nothing)
                     schedule.steps[i].variant.values[MACRO_STRIDE] == 0);
 }
 
-TEST(history_takes_the_place_of_upsampling)
+TEST(history_reads_upsampled_blocks)
 {
     glssao_frame frame;
     glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
@@ -267,16 +267,49 @@ TEST(history_takes_the_place_of_upsampling)
     assert_int_equal(second.steps[3].target, MAP_HISTORY_1);
     assert_int_equal(first.result, MAP_RESULT);
     q.can.path = GLSSAO_PATH_FRAGMENT;
-    assert_steps(&q, "distance horizon planar-blur planar-blur planar-blur history steady");
+    assert_steps(&q, "distance horizon planar-blur planar-blur planar-blur upsample history steady");
     s = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_LOW);
     s.history = 4;
-    assert_steps(&q, "classic blur blur history steady");
+    assert_steps(&q, "classic blur blur upsample history steady");
     q.can.is_software = true; /* tiles that get no estimate are open in both maps that the history reads */
     q.size[0] = 1280;
     q.size[1] = 720;
-    assert_steps(&q, "tile-rows tile-bounds tile-class tile-rings =1 =1 =1 classic open blur blur history steady");
+    assert_steps(&q, "tile-rows tile-bounds tile-class tile-rings tile-fill =1 =1 =1 classic open blur blur upsample "
+                     "history steady");
     s.history = 0;
     assert_steps(&q, "tile-rows tile-bounds tile-class tile-rings =1 =1 classic blur blur");
+}
+
+TEST(histories_take_12_steps_a_side_at_least)
+{
+    static const int without[] = {6, 8, 12, 12};
+    for (int quality = GLSSAO_LOW; quality <= GLSSAO_ULTRA; ++quality)
+        for (int reuses = 0; reuses < 2; ++reuses) {
+            glssao_frame frame;
+            glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)quality);
+            const glssao__request q = schedules_request(&frame, &s, 64, 48);
+            glssao__schedule schedule;
+            s.history = reuses;
+            glssao__schedule_make(&schedule, &q);
+            assert_int_equal(schedule.steps[1].shader, SHADER_HORIZON);
+            assert_int_equal(schedule.steps[1].variant.values[MACRO_STEPS], reuses ? 12 : without[quality]);
+        }
+}
+
+TEST(histories_know_radii_in_pixels)
+{
+    glssao_frame frame;
+    glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
+    const glssao__request q = schedules_request(&frame, &s, 64, 48);
+    glssao__schedule schedule;
+    s.history = 16;
+    s.radius = 20.0f;
+    s.radius_in_pixels = true;
+    glssao__schedule_make(&schedule, &q);
+    for (int i = schedule.count - 2; i < schedule.count; ++i) {
+        assert_int_equal(schedule.steps[i].pass, GLSSAO_PASS_HISTORY);
+        assert_int_equal(schedule.steps[i].variant.values[MACRO_RADIUS_GROWS], 1);
+    }
 }
 
 TEST(nothing_is_only_cleared)

@@ -163,7 +163,6 @@ static void choose_passes(glssao__choice *c, const glssao__request *q)
                              : "the host brings no rays");
     choose_pass(c, GLSSAO_PASS_UPSAMPLE, c->upsamples,
                 c->upsamples     ? "from half size to full size along surfaces"
-                : c->has_history ? "the history brings the result to full size"
                 : c->factor == 2 ? "the host takes the half-size map"
                                  : "the estimate is at full size");
     choose_pass(c, GLSSAO_PASS_HISTORY, c->has_history,
@@ -219,7 +218,7 @@ static void choose_reach(glssao__choice *c, const glssao_settings *settings)
     c->rays_rounds = c->corrects ? CORRECTION_ROUNDS + (c->factor == 1) : c->is_rays && blurs ? c->blur_rounds : 0;
     if (blurs && !c->is_rays)
         c->reach = first + later * (c->blur_rounds - 1);
-    c->reach += c->upsamples || (c->has_history && c->factor == 2) ? 1 : 0;
+    c->reach += c->upsamples ? 1 : 0;
     c->tile_rings = (c->reach + TILE_SIDE - 1) / TILE_SIDE;
     for (int i = 0; i < c->rays_rounds; ++i) /* in all tiles */
         c->reach += 2 << glssao__rays_stride(i);
@@ -256,7 +255,7 @@ void glssao__choose(glssao__choice *c, const glssao__request *q)
     if (!nothing) {
         c->compute = chooses_compute(&q->can, settings->tiles, &c->plan.path_reason);
         c->plan.path = c->compute ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT;
-        c->upsamples = settings->half_resolution && settings->upsample && !c->has_history;
+        c->upsamples = settings->half_resolution && (settings->upsample || c->has_history);
         choose_passes(c, q);
         choose_inputs(c, q);
         choose_reach(c, settings);

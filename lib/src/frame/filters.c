@@ -71,6 +71,7 @@ static void set_rays_blur(const glssao__builder *b, glssao__step *step, int i, e
     step->is_horizontal = i % 2 == 0;
     glssao__build_set(step, MACRO_STRIDE, glssao__rays_stride(i / 2));
     glssao__build_set(step, MACRO_RAYS, 1);
+    read_normals_for_bent(b, step);
     glssao__build_finish(b, step);
     set_normals_for_bent(step);
 }
@@ -162,6 +163,7 @@ void glssao__add_correction(glssao__builder *b)
             glssao__build_rays(b, step, false);
         } else {
             set_rays_blur(b, step, i - 1, (enum glssao__map)(MAP_RAYS_0 + (i - 1) % 2));
+            glssao__build_set(step, MACRO_BENT, 0); /* a difference has no direction */
         }
     }
     if (b->c.has_history) { /* what rays say without the estimate and the blur */
@@ -183,8 +185,31 @@ enum glssao__map glssao__last_turn(const glssao__builder *b)
     return glssao__build_turn_map(b, count_turns(b));
 }
 
+/* Blocks of four values for the history, which finds its own in them. */
+static void add_upsample_for_history(glssao__builder *b)
+{
+    const bool compute = b->c.plan.passes[GLSSAO_PASS_UPSAMPLE].compute;
+    glssao__step *step =
+        glssao__build_step(b, GLSSAO_PASS_UPSAMPLE, compute ? SHADER_PLANAR_TILE : SHADER_UPSAMPLE, MAP_BLOCKS);
+    step->region = glssao__region_of(&b->c, GLSSAO_PASS_ESTIMATE);
+    if (b->c.normals != MAP_REBUILT)
+        glssao__build_point(step, UNIT_NORMAL, b->c.normals);
+    glssao__build_point(step, UNIT_DEPTH, b->c.depth);
+    glssao__build_point(step, UNIT_AMBIENT, glssao__last_turn(b));
+    glssao__build_point(step, UNIT_RAW, MAP_RAW);
+    glssao__build_set(step, MACRO_UPSAMPLE, 1);
+    glssao__build_set(step, MACRO_RAW, 1);
+    glssao__build_set(step, MACRO_RAYS, b->c.is_rays || b->c.corrects);
+    set_tile(b, step, b->c.inner_rounds, !b->c.blurs);
+    glssao__build_tiles(b, step, 1, 0, b->c.tile_rings);
+}
+
 void glssao__add_upsample(glssao__builder *b)
 {
+    if (b->c.has_history) {
+        add_upsample_for_history(b);
+        return;
+    }
     const enum glssao__map from = glssao__last_turn(b);
     const bool compute = b->c.plan.passes[GLSSAO_PASS_UPSAMPLE].compute;
     if (!compute)

@@ -108,13 +108,15 @@ static void add_open_tiles(glssao__builder *b, enum glssao__map map, int factor,
 static void add_open_values(glssao__builder *b)
 {
     const glssao__choice *c = &b->c;
+    if (c->bent) /* later passes draw everything */
+        return;
     if (c->paired && !c->has_history && !c->corrects) {
-        if (c->bent) /* later passes draw everything */
-            return;
         add_open_tiles(b, MAP_PAIRED_1, 1, c->blurs ? c->tile_rings + 1 : 0);
         add_open_tiles(b, b->s->result, c->upsamples ? 2 : 1, c->tile_rings + 1);
         return;
     }
+    if (c->has_history && c->upsamples && !c->corrects)
+        add_open_tiles(b, MAP_BLOCKS, 1, c->tile_rings + 1);
     if (c->has_history)
         glssao__build_clear(b, GLSSAO_PASS_TILES, MAP_RAW, STEP_CLEAR_TO_OPEN);
     for (int i = 0; i < 2; ++i)
@@ -145,14 +147,19 @@ static void add_tiles(glssao__builder *b)
     add_open_values(b);
 }
 
+/* Steps a side with a history: a mean over frames takes noise away, not what lies between samples. */
+enum { STEPS_OF_A_MEAN = 12 };
+
 static void set_estimate(const glssao__builder *b, glssao__step *step)
 {
-    const int samples = b->settings->sample_count;
-    const int slices = samples >= 32 ? 2 : 1;
+    const int samples = b->settings->sample_count, slices = samples >= 32 ? 2 : 1;
+    int steps = samples / (2 * slices);
+    if (b->c.has_history && steps < STEPS_OF_A_MEAN)
+        steps = STEPS_OF_A_MEAN;
     glssao__build_surfaces(b, step);
     glssao__build_read(step, UNIT_RANDOM_VECTOR, MAP_RANDOM_VECTOR, SAMPLER_LINEAR_WRAP);
     glssao__build_set(step, MACRO_SLICES, slices);
-    glssao__build_set(step, MACRO_STEPS, samples / (2 * slices));
+    glssao__build_set(step, MACRO_STEPS, steps);
     glssao__build_set(step, MACRO_LAYERS, b->frame->back_texture != 0);
     glssao__build_set(step, MACRO_NO_ANGLE_WEIGHT, b->settings->no_angle_weight);
     glssao__build_finish(b, step);
@@ -223,20 +230,24 @@ static void add_history(glssao__builder *b)
 {
     const enum glssao__map last = b->frames % 2 ? MAP_HISTORY_0 : MAP_HISTORY_1,
                            next = b->frames % 2 ? MAP_HISTORY_1 : MAP_HISTORY_0;
-    glssao__build_map(b, last, "history", GL_RGBA32F, b->c.size);
-    glssao__build_map(b, next, "history", GL_RGBA32F, b->c.size);
+    glssao__build_map(b, last, "history", GL_RG32UI, b->c.size);
+    glssao__build_map(b, next, "history", GL_RG32UI, b->c.size);
     glssao__step *step = glssao__build_step(b, GLSSAO_PASS_HISTORY, SHADER_HISTORY, next);
     step->region = glssao__region_of(&b->c, GLSSAO_PASS_HISTORY);
     glssao__build_point(step, UNIT_NORMAL, b->c.normals);
     glssao__build_point(step, UNIT_DEPTH, b->c.depth);
-    glssao__build_point(step, UNIT_AMBIENT, glssao__last_turn(b));
-    glssao__build_point(step, UNIT_RAW, MAP_RAW);
+    if (b->c.upsamples) {
+        glssao__build_point(step, UNIT_AMBIENT, MAP_BLOCKS);
+        glssao__build_set(step, MACRO_RAW, 1);
+    } else {
+        glssao__build_point(step, UNIT_AMBIENT, glssao__last_turn(b));
+        glssao__build_point(step, UNIT_RAW, MAP_RAW);
+    }
     glssao__build_point(step, UNIT_HISTORY, last);
     if (b->frame->motion_texture) {
         glssao__build_point(step, UNIT_MOTION, layer_map(b, HOST_MOTION));
         glssao__build_set(step, MACRO_MOTION, 1);
     }
-    glssao__build_set(step, MACRO_UPSAMPLE, b->c.factor == 2);
     glssao__build_set(step, MACRO_RAYS, b->c.is_rays || b->c.corrects);
     glssao__build_finish(b, step);
     step = glssao__build_step(b, GLSSAO_PASS_HISTORY, SHADER_STEADY, MAP_RESULT);
@@ -301,6 +312,8 @@ static void set_results(glssao__builder *b)
         glssao__build_map(b, MAP_BENT, "bent normal", GL_RGBA16F, delivered);
     if (c->has_history)
         glssao__build_map(b, MAP_RAW, "raw ambient", GL_RG32F, c->estimate);
+    if (c->has_history && c->upsamples)
+        glssao__build_map(b, MAP_BLOCKS, "block", GL_RGBA32F, c->estimate);
     if (c->accumulates)
         glssao__build_map(b, MAP_SUM, "accumulation", c->bent ? GL_RGBA32F : GL_RG32F, c->size);
     if (c->accumulates && c->bent)

@@ -80,13 +80,14 @@ static const struct shader {
                              shader_entry_glsl}},
     [SHADER_PLANAR_TILE] = {"planar-tile",
                             BIT(RADIUS_GROWS) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(OUTPUT) | BIT(COMPUTE) |
-                                BIT(UPSAMPLE) | BIT(ROUNDS) | BIT(WIDE) | BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(BENT),
+                                BIT(UPSAMPLE) | BIT(ROUNDS) | BIT(WIDE) | BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(BENT) |
+                                BIT(RAW) | BIT(RAYS),
                             {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                              shader_bent_glsl, shader_paired_glsl, shader_planar_blur_glsl, shader_upsample_glsl,
                              shader_planar_tile_comp}},
     [SHADER_UPSAMPLE] = {"upsample",
                          BIT(RADIUS_GROWS) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PERSPECTIVE) |
-                             BIT(BRANCHES) | BIT(BENT),
+                             BIT(BRANCHES) | BIT(BENT) | BIT(RAW) | BIT(RAYS),
                          {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                           shader_bent_glsl, shader_paired_glsl, shader_upsample_glsl, shader_upsample_frag}},
     [SHADER_SPREAD] = {"spread", BIT(BENT), {shader_pixel_glsl, shader_spread_frag}},
@@ -96,13 +97,12 @@ static const struct shader {
                      {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                       shader_paired_glsl, shader_rays_frag, shader_entry_glsl}},
     [SHADER_HISTORY] = {"history",
-                        BIT(DENSE) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PERSPECTIVE) | BIT(BRANCHES) |
-                            BIT(COMPUTE) | BIT(UPSAMPLE) | BIT(MOTION) | BIT(RAYS),
+                        BIT(RADIUS_GROWS) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PERSPECTIVE) | BIT(COMPUTE) |
+                            BIT(RAW) | BIT(MOTION) | BIT(RAYS),
                         {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
-                         shader_paired_glsl, shader_upsample_glsl, shader_history_glsl, shader_history_frag,
-                         shader_entry_glsl}},
+                         shader_paired_glsl, shader_history_glsl, shader_history_frag, shader_entry_glsl}},
     [SHADER_STEADY] = {"steady",
-                       BIT(PERSPECTIVE) | BIT(BRANCHES) | BIT(COMPUTE) | BIT(RAYS),
+                       BIT(RADIUS_GROWS) | BIT(PERSPECTIVE) | BIT(COMPUTE) | BIT(RAYS),
                        {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_paired_glsl,
                         shader_history_glsl, shader_steady_frag, shader_entry_glsl}},
     [SHADER_APPLY] = {"apply",
@@ -150,9 +150,10 @@ void glssao__shader_group(enum glssao__shader shader, const glssao__variant *var
     /* As in planar_tile.comp: each round reads farther than it writes, and upsampling one texel more. */
     const int rounds = variant->values[MACRO_ROUNDS], first_reach = variant->values[MACRO_WIDE] ? 3 : 2;
     const int later_reach = 3, halo = rounds == 0 ? 0 : first_reach + (rounds - 1) * later_reach;
-    const int factor = variant->values[MACRO_UPSAMPLE] ? 2 : 1;
-    out_pixels[0] = factor * (group->x - 2 * halo - factor + 1);
-    out_pixels[1] = factor * (group->rows - 2 * halo - factor + 1);
+    const int upsamples = variant->values[MACRO_UPSAMPLE];
+    const int factor = upsamples && !variant->values[MACRO_RAW] ? 2 : 1;
+    out_pixels[0] = factor * (group->x - 2 * halo - upsamples);
+    out_pixels[1] = factor * (group->rows - 2 * halo - upsamples);
 }
 
 const char *glssao__shader_name(enum glssao__shader shader)

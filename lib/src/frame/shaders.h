@@ -61,6 +61,7 @@ enum glssao__shader {
     X(CORRECTS, 2)        /* rays: the difference to another technique's estimate; 2: its sum with that */             \
     X(ROUNDS, 2)          /* planar blur: rounds of one dispatch */                                                    \
     X(UPSAMPLE, 1)        /* planar tile: brings the result to full size */                                            \
+    X(RAW, 1)             /* upsampling: for the history, with the estimate as it was before the blur */               \
     X(MULTISAMPLE, 1)     /* input: of several samples */                                                              \
     X(LOGARITHMIC, 1)     /* input: logarithmic depth */                                                               \
     X(OBLIQUE, 1)         /* input: window depth under an oblique near plane */                                        \

@@ -20,6 +20,8 @@ static gl_enum channels_of(gl_enum format)
         return GL_RED;
     case GL_RG32F:
         return GL_RG;
+    case GL_RG32UI:
+        return GL_RG_INTEGER;
     default:
         return GL_RGBA;
     }
@@ -35,7 +37,10 @@ static gl_uint make_texture(const glssao__gl *gl, gl_enum format, int width, int
     gl->ActiveTexture(GL_TEXTURE0);
     gl->BindTexture(GL_TEXTURE_2D, texture);
     gl->TexImage2D(GL_TEXTURE_2D, 0, (gl_int)format, width, height, 0, channels_of(format),
-                   rgba8 ? GL_UNSIGNED_BYTE : GL_FLOAT, rgba8);
+                   rgba8                 ? GL_UNSIGNED_BYTE
+                   : format == GL_RG32UI ? GL_UNSIGNED_INT
+                                         : GL_FLOAT,
+                   rgba8);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
