@@ -27,7 +27,7 @@ static void set_up(setup *s, fixture *f, analytic_projection projection, const a
     float *normals;
     *s = (setup){.width = width, .height = height};
     analytic_render(&view, shapes, shape_count, width, height, &s->depth, &normals);
-    s->effect = fixture_effect(f, width, height);
+    s->effect = fixture_drawn_effect(f, width, height);
     s->frame = fixture_maps_frame(&view, width, height, GL_DEPTH_COMPONENT32F, s->depth, normals);
     s->sky = view.clip_zero_to_one ? 0.0f : 1.0f;
     s->settings = glssao_default_settings(GLSSAO_RAYS, GLSSAO_HIGH);
