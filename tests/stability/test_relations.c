@@ -5,6 +5,8 @@
  */
 #include "techniques.h"
 
+#include <math.h>
+
 static int stride = 1;
 
 enum { W = 96, H = 96 };
@@ -214,13 +216,14 @@ TEST_GL(greater_radius_never_brightens_the_mean)
     for_each_configuration(state, check_radius);
 }
 
-/* Later rounds of the planar blur weigh neighbours by likeness, which a power changes: by less than half the share of a
- * sample, and never in the mean. */
+/* Later rounds of the planar blur weigh neighbours by likeness, which a power changes: each by less than half the
+ * difference at which a neighbour counts no more (BLUR_ALIKE), and never in the mean. */
 static void check_power(fixture *f, const configuration *c, const picture *first)
 {
     picture before = *first, after;
     const bool weighs = c->settings.blur == GLSSAO_BLUR_PLANAR && c->settings.blur_rounds > 1;
-    const float most = weighs ? 0.5f / (float)c->settings.sample_count : 1.01f / 65535.0f;
+    const float a_round = 0.5f * 0.2f / sqrtf((float)c->settings.sample_count);
+    const float most = weighs ? (float)(c->settings.blur_rounds - 1) * a_round : 1.01f / 65535.0f;
     for (float power = 2.0f; power <= 64.0f; power *= 4.0f) {
         glssao_settings s = c->settings;
         s.power = power;
