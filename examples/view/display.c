@@ -16,16 +16,8 @@ static const double quick_seconds = 0.1; /* with a filled Mesa cache it takes 0.
 
 static GLuint make_target(GLenum format, int width, int height, GLuint depth, GLuint *out_framebuffer)
 {
-    GLuint texture;
-    gl.GenTextures(1, &texture);
-    gl.BindTexture(GL_TEXTURE_2D, texture);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)format, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-    gl.BindTexture(GL_TEXTURE_2D, 0);
-    gl.GenFramebuffers(1, out_framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, *out_framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
+    const GLuint texture = gl_make_texture(format, GL_RGBA, GL_UNSIGNED_BYTE, width, height, NULL);
+    (void)gl_make_framebuffer(texture, depth, out_framebuffer);
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     return texture;
 }

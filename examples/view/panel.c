@@ -54,8 +54,8 @@ static void draw_show(viewer *v)
         gui_slider("line", "of the width", &v->split, 0, 1, false, 0.5f);
     if (viewer_shows_truth(v)) {
         snprintf(text, sizeof text, "%d of %d rays a pixel", v->truth_shown_rounds * TRUTH_ROUND_RAYS,
-                 TRUTH_ROUNDS * TRUTH_ROUND_RAYS);
-        gui_progress((float)v->truth_shown_rounds / TRUTH_ROUNDS, text);
+                 RAY_ROUNDS * TRUTH_ROUND_RAYS);
+        gui_progress((float)v->truth_shown_rounds / RAY_ROUNDS, text);
         if (v->truth_rmse >= 0) {
             snprintf(text, sizeof text, "RMSE %.4f; full colour at an error of %g", v->truth_rmse, VIEWER_ERROR_RANGE);
             gui_text(text);

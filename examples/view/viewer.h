@@ -8,7 +8,6 @@
 #include "options.h"
 #include "pipeline.h"
 #include "ray_worker.h"
-#include "truth_job.h"
 #include "viewpoint.h"
 
 struct GLFWwindow;
@@ -65,7 +64,7 @@ typedef struct viewer {
     bool rays_asked;        /* it was asked for the rays of this view */
     bool rays_failed;
     int rays_rounds; /* that are shown */
-    truth_job *truth;
+    ray_worker *truth;
     int truth_rounds, truth_shown_rounds;
     float *truth_mean; /* mean of the rounds that were read last */
     double truth_rmse; /* of accessibility; negative: unknown */

@@ -49,8 +49,7 @@ float accessibility_of(PAIRED paired)
 
 // Accessibility is rounded to the 13 bits that are left, about 4 steps of R16 near 1. The floor, which R16 rounds to 0,
 // avoids denormal numbers, which drivers may flush.
-// RAYS: the value comes from the host's rays. It may be missing, which any negative number means, and is linear.
-#define MISSING (-1.0)
+// RAYS: the value comes from the host's rays. It may be missing, and is linear.
 
 vec2 paired_accessibility(float accessibility, float linear, uint code)
 {

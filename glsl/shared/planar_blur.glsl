@@ -7,8 +7,9 @@
 //
 // After the first round the only noise left is that of twice the tile's period. Later rounds remove it in one pass each: a
 // quarter of the pixel and 3/16 of each of the four at three pixels from it, where they lie on a line or in a hollow. In a
-// hollow both sides darken, and the rest of the noise would show along it. What is left of the noise is about the share of one
-// sample, so a neighbour counts less the more it differs, and not at all from twice that share on: such a difference is shade.
+// hollow both sides darken, and the rest of the noise would show along it. What is left of the noise falls with the root of
+// the number of samples. So two opposite neighbours count less the more their mean differs, or one alone the more it
+// differs, and not at all from BLUR_ALIKE on: such a difference is shade.
 // BRANCHES 1: a branch that all pixels of a warp take alike spares work.
 
 float line_tolerance(float linear)
@@ -117,7 +118,11 @@ CONTENTS blurred_wide(PAIRED left, PAIRED below, PAIRED center, PAIRED above, PA
     float own = accessibility_of(center);
     vec4 taps = vec4(accessibility_of(left), accessibility_of(below), accessibility_of(above), accessibility_of(right));
 #if !RAYS
-    vec4 apart = (taps - own) * (float(gSampleCount) / BLUR_ALIKE);
+    vec4 apart = (taps - own) * (sqrt(float(gSampleCount)) / BLUR_ALIKE);
+    // Of two opposite taps the mean counts: on a slope of shade they differ, one up and one down.
+    vec2 pair = 0.5 * (apart.xy + apart.wz);
+    apart.xw = joins.x && joins.w ? pair.xx : apart.xw;
+    apart.yz = joins.y && joins.z ? pair.yy : apart.yz;
     weights *= max(vec4(0.0), 1.0 - apart * apart);
 #endif
     float mean = weighted_mean(own, 0.25, taps, weights);
