@@ -171,8 +171,8 @@ static void check_estimate(setup *s, const char *what)
     /* A filter of few bits may put a random vector or a texel's border a step off, and no model sees which. */
     const bool is_exact = s->input.filter_error < 1e-5;
     assert_true(wrong * 500 <= (is_exact ? 0 : width * height));
-    assert_true(wide * 20 < width * height);      /* less than 5 % of pixels are undecided */
-    assert_true(occluded * 200 > width * height); /* more than 0.5 % of pixels are occluded */
+    assert_true(wide * (is_exact ? 20 : 12) < width * height); /* less than 5 or 8 % of pixels are undecided */
+    assert_true(occluded * 200 > width * height);              /* more than 0.5 % of pixels are occluded */
 }
 
 /* `least_change`: the least that the blur must change somewhere, so that a blur that does nothing fails. */
