@@ -98,7 +98,7 @@ row() {
         END { printf "%s\t%s\t%.2f\t%.2f\t%.0f\n", file, program, s, p, m / 1024 }' "times-$3"
 }
 
-loads() {
+load_seconds() {
     awk -F'[:,]' '/"load"/ { for (i = 1; i < NF; i++) if ($i ~ /"load"/) printf "%.2f\n", $(i + 1) / 1000 }' stats.json
 }
 
@@ -112,7 +112,7 @@ loads() {
             run 0 f3d --no-render $file
             run 1 xvfb-run -a f3d $file --output=f3d.png --resolution=640,360
             run 2 "$render" -s 640x360 --no-ao --no-shadows -o a.png --stats stats.json $file
-            loads >>loads
+            load_seconds >>loads
             run 3 xvfb-run -a f3d --ssao $file --output=f3d.png --resolution=640,360
             run 4 "$render" -s 640x360 --no-shadows -o a.png $file
             run 5 "$render" -s 640x360 -o a.png $file

@@ -12,7 +12,7 @@ peers=$docs/../tests/bench/peers
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 width=480 height=270
-list="three-gtao three-ssao three-sao n8ao postprocessing-ssao"
+list="three-gtao three-ssao three-sao n8ao postprocessing-ssao babylon-ssao2"
 
 "$build/tests/bench/glssao-bench" --peers "$modules" --scenes "$scenes" --pick cornell-box --only "${list// /,}" --most-rays 0 --rays 16 \
     --size ${width}x$height --split-seeds 0 --frames 0 --sequence-frames 0 --cache "$work/cache" --out "$work" 2>/dev/null

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # make-performance.sh FOLDER BUILD [SIZE...]: writes FOLDER/passes.tsv, frames and passes by fragment and by compute shaders at
 # each size (1920x1080 if none is given), and FOLDER/bandwidth.tsv, the least that a pass can take. BUILD: the build folder.
-# FRAMES in the environment: how many are timed, 20 by default.
+# FRAMES in the environment: how many are timed, 20 by default. LEVELS there: not all levels, but these.
 set -euo pipefail
 [ $# -ge 2 ] || { sed -n 3,5p "$0"; exit 2; }
 folder=$1 build=$(realpath "$2")
@@ -13,11 +13,11 @@ bench=$build/tests/bench
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$folder"
-levels="classic-high horizon-low horizon-medium horizon-high horizon-ultra"
+levels=${LEVELS:-classic-high horizon-low horizon-medium horizon-high horizon-ultra}
 # On a software rasteriser glssao-cost times these.
 alone="horizon-low-depth horizon-medium-depth horizon-high-depth horizon-ultra-depth"
 
-"$bench/glssao-bandwidth" egl >"$work/bandwidth"
+"$bench/glssao-bandwidth" egl $((frames < 7 ? frames : 7)) >"$work/bandwidth"
 renderer=$(head -n 1 "$work/bandwidth")
 head() { # the columns' names
     printf '# %s\n# context=%s\tsoftware=%d\tframes=%d\n' "$command" "$renderer" "$software" "$frames"

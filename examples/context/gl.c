@@ -9,7 +9,8 @@
 
 struct gl_functions gl;
 
-bool gl_load(void *(*load)(const char *name, void *user), void *user, char *error, size_t error_size)
+bool gl_load_table(struct gl_functions *table, void *(*load)(const char *name, void *user), void *user, char *error,
+                   size_t error_size)
 {
     void *address;
 /* ISO C has no cast from an object pointer to a function pointer; POSIX guarantees the same representation. */
@@ -19,10 +20,15 @@ bool gl_load(void *(*load)(const char *name, void *user), void *user, char *erro
         snprintf(error, error_size, "the context has no function gl" #name);                                           \
         return false;                                                                                                  \
     }                                                                                                                  \
-    memcpy(&gl.name, &address, sizeof address);
+    memcpy(&table->name, &address, sizeof address);
     GL_FUNCTIONS(GL_LOAD)
 #undef GL_LOAD
     return true;
+}
+
+bool gl_load(void *(*load)(const char *name, void *user), void *user, char *error, size_t error_size)
+{
+    return gl_load_table(&gl, load, user, error, error_size);
 }
 
 GLuint gl_make_texture(GLenum internal_format, GLenum format, GLenum type, int width, int height, const void *data)

@@ -48,7 +48,10 @@ struct gl_functions {
 
 extern struct gl_functions gl; /* functions of the context that gl_load was last called for */
 
-/* Fills the table. False, with the name in `error`, if `load` does not find a function. */
+/* Fills a table. False, with the name in `error`, if `load` does not find a function. */
+bool gl_load_table(struct gl_functions *table, void *(*load)(const char *name, void *user), void *user, char *error,
+                   size_t error_size);
+/* Fills `gl`. */
 bool gl_load(void *(*load)(const char *name, void *user), void *user, char *error, size_t error_size);
 
 /* A texture of one level, read without filtering; `data` may be NULL. Leaves no texture bound. */

@@ -6,36 +6,21 @@
 #include "engine.h"
 
 #include "context.h"
+#include "gl.h"
 #include "reach.h"
 
-#include <GL/glcorearb.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A table for each engine, because the one of gl.h is shared by all threads.
- * X(type suffix of PFNGL...PROC, name without gl) */
-#define ENGINE_FUNCTIONS(X)                                                                                            \
-    X(BINDTEXTURE, BindTexture)                                                                                        \
-    X(DELETETEXTURES, DeleteTextures)                                                                                  \
-    X(FINISH, Finish)                                                                                                  \
-    X(GENTEXTURES, GenTextures)                                                                                        \
-    X(GETERROR, GetError)                                                                                              \
-    X(GETTEXIMAGE, GetTexImage)                                                                                        \
-    X(TEXIMAGE2D, TexImage2D)
-
 struct engine {
     context *context;
     glssao_effect *effect; /* NULL until the first picture */
     uint32_t seed;
-    int width, height; /* of the effect */
-    struct {
-#define ENGINE_MEMBER(type, name) PFNGL##type##PROC name;
-        ENGINE_FUNCTIONS(ENGINE_MEMBER)
-#undef ENGINE_MEMBER
-    } gl;
-    char line[512]; /* the first error that the library logged during a call */
+    int width, height;      /* of the effect */
+    struct gl_functions gl; /* its own, because the one of gl.h is shared by all threads */
+    char line[512];         /* the first error that the library logged during a call */
 };
 
 static void keep_first_error(glssao_log_level level, const char *message, void *user)
@@ -54,21 +39,10 @@ engine *engine_create(uint32_t seed, char *error, size_t error_size)
     }
     e->seed = seed;
     e->context = context_create(&(context_options){.kind = CONTEXT_AUTO}, error, error_size);
-    if (!e->context) {
+    if (!e->context || !gl_load_table(&e->gl, context_load, e->context, error, error_size)) {
         engine_destroy(e);
         return NULL;
     }
-    void *address;
-#define ENGINE_LOAD(type, name)                                                                                        \
-    address = context_load("gl" #name, e->context);                                                                    \
-    if (!address) {                                                                                                    \
-        snprintf(error, error_size, "the context has no function gl" #name);                                           \
-        engine_destroy(e);                                                                                             \
-        return NULL;                                                                                                   \
-    }                                                                                                                  \
-    memcpy(&e->gl.name, &address, sizeof address);
-    ENGINE_FUNCTIONS(ENGINE_LOAD)
-#undef ENGINE_LOAD
     return e;
 }
 

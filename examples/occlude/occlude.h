@@ -7,8 +7,7 @@
  * Errors: a call that fails writes one line to `error` and leaves everything usable.
  * Arrays hold rows from the top of the picture to its bottom, each from left to right.
  */
-#ifndef GLSSAO_EXAMPLES_OCCLUDE_H
-#define GLSSAO_EXAMPLES_OCCLUDE_H
+#pragma once
 
 #include <glssao/glssao.h>
 #include <stddef.h>
@@ -54,5 +53,3 @@ float occlude_extent(const occlude_input *input);
  * `solid` should be true. */
 bool occlude_look_down(const float *heights, int width, int height, float spacing, float *out_depth,
                        float out_projection[16], char *error, size_t error_size);
-
-#endif

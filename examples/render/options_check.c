@@ -198,8 +198,8 @@ static bool check_together(const options *o, bool is_viewer, failure *why)
                          words_at(OPTIONS_MAP_WORDS, o->debug_map).text);
     if (o->debug_map == OPTIONS_MAP_BENT && !is_viewer && !asks_for_bent_normals(o))
         return fault_set(why, "--debug-map bent: needs -t horizon, and --bent-normals or --set bent-normals=on");
-    if (o->bent_normals && (!asks_for_bent_normals(o) || o->rays > 0 || o->history > 0))
-        return fault_set(why, "--bent-normals: needs -t horizon, without --rays and --history");
+    if (o->bent_normals && (!asks_for_bent_normals(o) || o->history > 0))
+        return fault_set(why, "--bent-normals: needs -t horizon, without --history");
     if (o->bent_normals && o->no_ao)
         return fault_set(why, "--no-ao and --bent-normals cannot be used together");
     if (o->debug_map && !o->output && !is_viewer)

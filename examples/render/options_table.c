@@ -133,7 +133,7 @@ static const option table[] = {
          "apply normal maps before occlusion is estimated (default: only the mesh's normals count)"),
     FLAG(0, "specular-occlusion", SCOPE_PICTURE, specular_occlusion, "let occlusion darken reflections by their lobe"),
     FLAG(0, "multi-bounce", SCOPE_PICTURE, multi_bounce, "tint occluded light with the surface's colour"),
-    FLAG(0, "bent-normals", SCOPE_RENDERED, bent_normals,
+    FLAG(0, "bent-normals", SCOPE_PICTURE, bent_normals,
          "horizon: take ambient light from where surfaces are open, and let their open cone darken reflections"),
     FILE_NAME("environment", "FILE", SCOPE_PICTURE, environment, ".hdr|.pic|.png|.jpg|.jpeg",
               "light the scene with an equirectangular picture (.hdr, .png, .jpg), which is also the sky"),

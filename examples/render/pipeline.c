@@ -47,7 +47,7 @@ glssao_settings pipeline_settings_at(const options *o, float radius)
         settings.blur_rounds = o->blur_rounds;
     if (o->history >= 0)
         settings.history = o->history;
-    settings.bent_normals = o->bent_normals;
+    settings.bent_normals = o->bent_normals && settings.technique == GLSSAO_HORIZON;
     if (o->set) {
         setting_apply(o->set, &settings, &(failure){0}); /* options_parse made sure that it is valid */
     }
@@ -173,7 +173,7 @@ bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_us
                                            .mapped_normals = o->mapped_normals,
                                            .specular_occlusion = o->specular_occlusion,
                                            .multi_bounce = o->multi_bounce,
-                                           .bent = o->bent_normals && wants.ao,
+                                           .bent = o->bent_normals && p->settings.bent_normals && wants.ao,
                                            .left_out = o->intensity.given ? 1 - o->intensity.value : 0,
                                            .layers = wants.ao && o->layers == 2,
                                            .motion = wants.motion,

@@ -32,14 +32,19 @@ typedef struct work {
     void *stopped_user;
 } work;
 
-static void trace_one(work *w, uint64_t number, const trace_point *point)
+static void trace_one(const work *w, uint64_t number, const trace_point *point)
 {
     const float open =
         trace_point_accessibility(w->trace, &w->samples, w->radius, number, point, w->take, w->take_user);
     if (w->out) {
         w->out[number] = open;
     }
-    atomic_fetch_add_explicit(&w->rays, (uint_fast64_t)w->samples.count, memory_order_relaxed);
+}
+
+/* Once a job: a counter that every thread writes for every point leaves no core its copy of the members beside it. */
+static void count_points(work *w, int points)
+{
+    atomic_fetch_add_explicit(&w->rays, (uint_fast64_t)points * (uint_fast64_t)w->samples.count, memory_order_relaxed);
 }
 
 /* What the pixel's centre sees. */
@@ -74,11 +79,13 @@ static void trace_tile(size_t tile, void *user)
         return;
     }
     const int left = (int)(tile % w->tiles_across) * TILE, bottom = (int)(tile / w->tiles_across) * TILE;
+    int points = 0;
     for (int y = bottom; y < bottom + TILE && y < w->height; y++) {
         for (int x = left; x < left + TILE && x < w->width; x++) {
             const size_t pixel = (size_t)y * (size_t)w->width + (size_t)x;
             trace_point point;
             const bool seen = find_point(w, x, y, &point);
+            points += seen;
             if (seen) {
                 trace_one(w, pixel, &point);
             } else if (w->out) {
@@ -89,11 +96,13 @@ static void trace_tile(size_t tile, void *user)
             }
         }
     }
+    count_points(w, points);
 }
 
 static void trace_run_of_points(size_t job, void *user)
 {
     work *w = user;
+    int points = 0;
     for (size_t i = job * POINTS_A_JOB; i < (job + 1) * POINTS_A_JOB && i < w->count; i++) {
         trace_point point;
         for (int k = 0; k < 3; k++) {
@@ -101,7 +110,9 @@ static void trace_run_of_points(size_t job, void *user)
             point.origin[k] = (double)w->positions[i][k] + (double)w->offset * point.normal[k];
         }
         trace_one(w, i, &point);
+        points++;
     }
+    count_points(w, points);
 }
 
 static bool run(work *w, trace_distribution distribution, const trace_options *o, size_t jobs,

@@ -16,16 +16,8 @@ static const double quick_seconds = 0.1; /* with a filled Mesa cache it takes 0.
 
 static GLuint make_target(GLenum format, int width, int height, GLuint depth, GLuint *out_framebuffer)
 {
-    GLuint texture;
-    gl.GenTextures(1, &texture);
-    gl.BindTexture(GL_TEXTURE_2D, texture);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)format, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-    gl.BindTexture(GL_TEXTURE_2D, 0);
-    gl.GenFramebuffers(1, out_framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, *out_framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
+    const GLuint texture = gl_make_texture(format, GL_RGBA, GL_UNSIGNED_BYTE, width, height, NULL);
+    (void)gl_make_framebuffer(texture, depth, out_framebuffer);
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     return texture;
 }
@@ -114,6 +106,25 @@ static bool find_view(viewer *v)
     return found;
 }
 
+bool viewer_lights_bent(const viewer *v)
+{
+    return v->options.bent_normals && v->settings.bent_normals;
+}
+
+/* Without occlusion there are no bent normals to light by. */
+static bool choose_light(viewer *v, bool occludes)
+{
+    pipeline *p = &v->pipeline;
+    const bool bent = occludes && viewer_lights_bent(v);
+    if (p->draw_options.bent == bent)
+        return true;
+    p->draw_options.bent = bent;
+    if (scene_renderer_configure(p->renderer, &p->lighting, &p->draw_options, v->error, sizeof v->error))
+        return true;
+    viewer_say(v, true, "%s", v->error);
+    return false;
+}
+
 static bool draw_frame(viewer *v)
 {
     stopwatch times = {.finish = true};
@@ -126,6 +137,8 @@ static bool draw_frame(viewer *v)
     stopwatch_start(&times);
     /* If compiling takes long, a picture without occlusion comes first. */
     v->pipeline.wants.ao = v->updates > 0 || compiles_quickly(v);
+    if (!choose_light(v, v->pipeline.wants.ao))
+        return false;
     if (!pipeline_draw(&v->pipeline, &v->view, &times, FAULT(v->error))) {
         viewer_say(v, true, "%s", v->error);
         return false;
@@ -150,6 +163,8 @@ static bool draw_off(viewer *v)
     const options_map corner = p->debug_map;
     const GLuint on = p->color_framebuffer;
     bool done = true;
+    if (!choose_light(v, false))
+        return false;
     if (!v->off_color)
         v->off_color = make_target(GL_SRGB8_ALPHA8, v->width, v->height, p->depth, &v->off_framebuffer);
     if (corner == OPTIONS_MAP_AO || corner == OPTIONS_MAP_TILES || corner == OPTIONS_MAP_BENT)

@@ -54,8 +54,8 @@ static void draw_show(viewer *v)
         gui_slider("line", "of the width", &v->split, 0, 1, false, 0.5f);
     if (viewer_shows_truth(v)) {
         snprintf(text, sizeof text, "%d of %d rays a pixel", v->truth_shown_rounds * TRUTH_ROUND_RAYS,
-                 TRUTH_ROUNDS * TRUTH_ROUND_RAYS);
-        gui_progress((float)v->truth_shown_rounds / TRUTH_ROUNDS, text);
+                 RAY_ROUNDS * TRUTH_ROUND_RAYS);
+        gui_progress((float)v->truth_shown_rounds / RAY_ROUNDS, text);
         if (v->truth_rmse >= 0) {
             snprintf(text, sizeof text, "RMSE %.4f; full colour at an error of %g", v->truth_rmse, VIEWER_ERROR_RANGE);
             gui_text(text);
@@ -77,6 +77,10 @@ static void draw_drawing(viewer *v)
     changed = gui_check("apply normal maps before occlusion (K)", &o->mapped_normals) || changed;
     changed = gui_check("specular occlusion (L)", &o->specular_occlusion) || changed;
     changed = gui_check("multi-bounce tint (B)", &o->multi_bounce) || changed;
+    if (v->settings.technique == GLSSAO_HORIZON && gui_check("light by bent normals", &o->bent_normals)) {
+        v->settings.bent_normals = o->bent_normals;
+        changed = true;
+    }
     changed = gui_slider("strength of occlusion", "", &intensity, 0, 1, false, 1) || changed;
     changed = gui_choice("map in the corner (I)", &o->debug_map, OPTIONS_MAP_WORDS) || changed;
     o->no_shadows = !shadows;

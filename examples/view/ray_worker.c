@@ -16,8 +16,8 @@ struct ray_worker {
     atomic_uint asked;    /* number of the newest request; every change ends the tracing for an older one */
     pthread_mutex_t lock; /* protects the members below */
     pthread_cond_t changed;
-    ray_request next; /* surfaces: NULL where there is none */
-    bool is_ending;
+    ray_request next;
+    bool has_next, is_ending;
     int rounds;  /* of the current request; -1: failed */
     float *mean; /* of them */
     size_t count;
@@ -49,6 +49,17 @@ static void fail(ray_worker *w, const char *error)
     w->wake();
 }
 
+static bool trace_from_surfaces(round_job *j, const trace_scene *t, const trace_options *options, char *error,
+                                size_t error_size)
+{
+    const trace_seen seen = {.rows = (const float(*const *)[4])j->rows, .step = j->request.step, .depth_step = 0x1p-24};
+    trace_picture *p = trace_picture_begin(t, &j->request.view, &seen, NULL, options, j->values, error, error_size);
+    if (!p)
+        return false;
+    trace_picture_feed(p, j->height);
+    return trace_picture_end(p, NULL);
+}
+
 /* False where the request is outdated or failed. */
 static bool trace_round(round_job *j, const trace_scene *t, int round)
 {
@@ -61,15 +72,13 @@ static bool trace_round(round_job *j, const trace_scene *t, int round)
                                    .threads = cores > 2 ? (int)cores - 1 : 1, /* one is left for the window */
                                    .stopped = is_outdated,
                                    .stopped_user = j};
-    const trace_seen seen = {.rows = (const float(*const *)[4])j->rows, .step = j->request.step, .depth_step = 0x1p-24};
-    trace_picture *p = trace_picture_begin(t, &j->request.view, &seen, NULL, &options, j->values, error, sizeof error);
-    if (!p) {
-        fail(w, error);
+    if (!(j->request.surfaces ? trace_from_surfaces(j, t, &options, error, sizeof error)
+                              : trace_accessibility(t, &j->request.view, &options, j->values, NULL, &(trace_stats){0},
+                                                    error, sizeof error))) {
+        if (!is_outdated(j))
+            fail(w, error);
         return false;
     }
-    trace_picture_feed(p, j->height);
-    if (!trace_picture_end(p, NULL))
-        return false;
     pthread_mutex_lock(&w->lock);
     const bool is_wanted = !is_outdated(j);
     for (size_t i = 0; is_wanted && i < (size_t)j->width * (size_t)j->height; i++)
@@ -100,7 +109,7 @@ static void trace_request(round_job *j, const trace_scene *t)
         w->mean = mean;
         w->count = count;
         pthread_mutex_unlock(&w->lock);
-        for (int y = 0; y < j->height; y++)
+        for (int y = 0; j->request.surfaces && y < j->height; y++)
             j->rows[y] = (const float(*)[4])(j->request.surfaces + (size_t)y * (size_t)j->width);
         for (int round = 0; round < RAY_ROUNDS && trace_round(j, t, round); round++) {
         }
@@ -119,12 +128,13 @@ static void *run(void *argument)
         fail(w, error);
     pthread_mutex_lock(&w->lock);
     while (t && !w->is_ending) {
-        if (!w->next.surfaces) {
+        if (!w->has_next) {
             pthread_cond_wait(&w->changed, &w->lock);
             continue;
         }
         round_job j = {.worker = w, .number = atomic_load(&w->asked), .request = w->next};
         w->next.surfaces = NULL;
+        w->has_next = false;
         pthread_mutex_unlock(&w->lock);
         trace_request(&j, t);
         pthread_mutex_lock(&w->lock);
@@ -157,6 +167,7 @@ static void replace(ray_worker *w, const ray_request *request, bool is_ending)
     atomic_fetch_add(&w->asked, 1);
     free(w->next.surfaces);
     w->next = request ? *request : (ray_request){.surfaces = NULL};
+    w->has_next = request != NULL;
     w->is_ending = is_ending;
     w->rounds = w->rounds > 0 ? 0 : w->rounds;
     pthread_cond_signal(&w->changed);

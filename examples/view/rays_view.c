@@ -15,8 +15,7 @@ static bool is_wanted(const viewer *v)
 
 bool rays_view_applies(const viewer *v)
 {
-    return is_wanted(v) && !viewer_averages(v) && v->shown != SHOWN_RAW && !v->settings.bent_normals &&
-           !v->settings.radius_in_pixels;
+    return is_wanted(v) && !viewer_averages(v) && v->shown != SHOWN_RAW && !v->settings.radius_in_pixels;
 }
 
 void rays_view_drop(viewer *v)

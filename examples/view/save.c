@@ -170,8 +170,9 @@ bool viewer_command_line(const viewer *v, char *out, size_t out_size)
         add(&l, " --no-shadows");
     if (o->shadow_size && !o->no_shadows)
         add(&l, " --shadow-size %d", o->shadow_size);
-    add(&l, "%s%s%s", o->mapped_normals ? " --mapped-normals" : "",
-        o->specular_occlusion ? " --specular-occlusion" : "", o->multi_bounce ? " --multi-bounce" : "");
+    add(&l, "%s%s%s%s", o->mapped_normals ? " --mapped-normals" : "",
+        o->specular_occlusion ? " --specular-occlusion" : "", o->multi_bounce ? " --multi-bounce" : "",
+        viewer_lights_bent(v) && v->mode != MODE_OFF ? " --bent-normals" : "");
     if (o->intensity.given)
         add(&l, " --intensity %.9g", (double)o->intensity.value);
     if (o->environment) {

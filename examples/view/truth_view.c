@@ -17,7 +17,7 @@ bool viewer_shows_truth(const viewer *v)
 
 void viewer_drop_truth(viewer *v)
 {
-    truth_job_stop(v->truth);
+    ray_worker_stop(v->truth);
     v->truth = NULL;
     v->truth_rounds = v->truth_shown_rounds = 0;
     v->truth_rmse = -1;
@@ -28,14 +28,16 @@ void viewer_drop_truth(viewer *v)
 static bool start(viewer *v)
 {
     v->truth_mean = malloc((size_t)v->width * (size_t)v->height * sizeof *v->truth_mean);
-    v->truth = v->truth_mean ? truth_job_start(v->scene, &v->view,
-                                               v->settings.radius_in_pixels ? camera_suggest_radius(v->scene)
-                                                                            : v->settings.radius,
-                                               v->options.seed, glfwPostEmptyEvent)
-                             : NULL;
-    if (!v->truth)
+    v->truth = v->truth_mean ? ray_worker_start(v->scene, glfwPostEmptyEvent) : NULL;
+    if (!v->truth) {
         viewer_say(v, true, "ray tracing could not start: out of memory or threads");
-    return v->truth;
+        return false;
+    }
+    const float radius = v->settings.radius_in_pixels ? camera_suggest_radius(v->scene) : v->settings.radius;
+    ray_worker_ask(
+        v->truth, &(ray_request){
+                      .view = v->view, .step = 1, .radius = radius, .rays = TRUTH_ROUND_RAYS, .seed = v->options.seed});
+    return true;
 }
 
 /* Paints the truth in grey, or the error in colours. */
@@ -65,7 +67,7 @@ void viewer_draw_truth(viewer *v)
         v->shown = SHOWN_PICTURE;
         return;
     }
-    v->truth_rounds = truth_job_read(v->truth, NULL, FAULT(v->error));
+    v->truth_rounds = ray_worker_read(v->truth, NULL, FAULT(v->error));
     if (v->truth_rounds < 0) {
         viewer_say(v, true, "ray tracing failed: %s", v->error);
         viewer_drop_truth(v);
@@ -76,7 +78,7 @@ void viewer_draw_truth(viewer *v)
     float *ao = pipeline_read_ao(&v->pipeline, PIXELS_FLOAT);
     uint8_t(*pixels)[4] = calloc(count, sizeof *pixels);
     if (ao && pixels && v->truth_rounds > 0) {
-        truth_job_read(v->truth, v->truth_mean, FAULT(v->error));
+        ray_worker_read(v->truth, v->truth_mean, FAULT(v->error));
         paint(v, ao, pixels);
     }
     if (ao && pixels) { /* black until the first round is done */

@@ -8,7 +8,6 @@
 #include "options.h"
 #include "pipeline.h"
 #include "ray_worker.h"
-#include "truth_job.h"
 #include "viewpoint.h"
 
 struct GLFWwindow;
@@ -65,7 +64,7 @@ typedef struct viewer {
     bool rays_asked;        /* it was asked for the rays of this view */
     bool rays_failed;
     int rays_rounds; /* that are shown */
-    truth_job *truth;
+    ray_worker *truth;
     int truth_rounds, truth_shown_rounds;
     float *truth_mean; /* mean of the rounds that were read last */
     double truth_rmse; /* of accessibility; negative: unknown */
@@ -112,6 +111,8 @@ void viewer_display(viewer *v);
 /* What the user sees without the panel: RGBA, rows bottom to top. The caller frees it. */
 void *viewer_read_shown(viewer *v);
 
+/* Whether ambient light comes from where surfaces are open. */
+bool viewer_lights_bent(const viewer *v);
 /* Whether a frame is averaged from several, each of which needs its own depth. */
 bool viewer_averages(const viewer *v);
 

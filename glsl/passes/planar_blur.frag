@@ -10,6 +10,7 @@
 uniform sampler2D u_ambient_map;
 #if CORRECTS == 2
 uniform sampler2D u_rays_map;
+const float MOST_GROWTH = 1.5; // of the hidden vector: where little was hidden, its direction is noise
 #endif
 #if !WIDE
 #if !FLAT
@@ -17,6 +18,19 @@ uniform int gHorizontalBlur; // 0 or 1
 #endif
 #endif
 #define RESULT AMBIENT
+
+#if CORRECTS == 2
+// The estimate's contents with other accessibility. Rays say how much is hidden and not where: that grows as occlusion does, as
+// far as its direction is known.
+CONTENTS corrected(CONTENTS estimate, float before, float after)
+{
+#if BENT
+    return vec4(after, min((1.0 - after) / max(1.0 - before, 1e-3), MOST_GROWTH) * estimate.yzw);
+#else
+    return after;
+#endif
+}
+#endif
 
 PAIRED paired_at(vec2 uv)
 {
@@ -39,9 +53,11 @@ RESULT result()
                                 paired_at(uv + 2.0 * by), way);
 #endif
 #if CORRECTS == 2
-    float difference = contents < 0.0 ? 0.0 : 2.0 * contents - 1.0;
-    float estimate = accessibility_of(textureLod(u_rays_map, uv, 0.0).rg);
-    contents = clamp(pow(estimate, 1.0 / gPower) + difference, 0.0, 1.0);
+    float blurred = accessibility_in(contents);
+    float difference = blurred < 0.0 ? 0.0 : 2.0 * blurred - 1.0;
+    CONTENTS estimate = contents_of(PAIRED(textureLod(u_rays_map, uv, 0.0)));
+    float before = pow(accessibility_in(estimate), 1.0 / gPower);
+    contents = corrected(estimate, before, clamp(before + difference, 0.0, 1.0));
 #endif
     return ambient(contents, center.y, normal_code(center));
 }

@@ -49,8 +49,7 @@ float accessibility_of(PAIRED paired)
 
 // Accessibility is rounded to the 13 bits that are left, about 4 steps of R16 near 1. The floor, which R16 rounds to 0,
 // avoids denormal numbers, which drivers may flush.
-// RAYS: the value comes from the host's rays. It may be missing, which any negative number means, and is linear.
-#define MISSING (-1.0)
+// RAYS: the value comes from the host's rays. It may be missing, and is linear.
 
 vec2 paired_accessibility(float accessibility, float linear, uint code)
 {
@@ -73,6 +72,11 @@ CONTENTS contents_of(PAIRED paired)
 {
     float y = roundEven(paired.w * (1.0 / 4096.0));
     return vec4(accessibility_of(paired), paired.z, y, paired.w - 4096.0 * y);
+}
+
+float accessibility_in(CONTENTS contents)
+{
+    return contents.x;
 }
 
 // Whether both have the same contents, so that averaging them changes nothing.
@@ -104,6 +108,11 @@ CONTENTS contents_of(PAIRED paired)
     return accessibility_of(paired);
 }
 
+float accessibility_in(CONTENTS contents)
+{
+    return contents;
+}
+
 bool is_same(PAIRED a, PAIRED b)
 {
     return a.x == b.x;
@@ -131,22 +140,25 @@ float finished(float accessibility)
 #endif
 }
 
+#if BENT
+CONTENTS finished(CONTENTS contents)
+{
+    return vec4(finished(contents.x), contents.yzw);
+}
+#endif
+
 #if OUTPUT == OUTPUT_PAIRED
 #define AMBIENT PAIRED
 AMBIENT ambient(CONTENTS contents, float linear, uint code)
 {
-#if BENT
-    return paired(contents, linear, code);
-#else
     return paired(finished(contents), linear, code);
-#endif
 }
 #elif OUTPUT == OUTPUT_BENT
 #define AMBIENT vec4
 AMBIENT ambient(CONTENTS contents, float linear, uint code)
 {
     vec2 full_uv = (floor(pixel_center()) * float(gFactor) + 0.5) * gFullTexel;
-    return delivered(contents, linear == linear_from_distance(FAR_AWAY), normal_view_at_uv(full_uv));
+    return delivered(finished(contents), linear == linear_from_distance(FAR_AWAY), normal_view_at_uv(full_uv));
 }
 #else
 #define AMBIENT float

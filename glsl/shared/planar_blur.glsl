@@ -7,8 +7,9 @@
 //
 // After the first round the only noise left is that of twice the tile's period. Later rounds remove it in one pass each: a
 // quarter of the pixel and 3/16 of each of the four at three pixels from it, where they lie on a line or in a hollow. In a
-// hollow both sides darken, and the rest of the noise would show along it. What is left of the noise is about the share of one
-// sample, so a neighbour counts less the more it differs, and not at all from twice that share on: such a difference is shade.
+// hollow both sides darken, and the rest of the noise would show along it. What is left of the noise falls with the root of
+// the number of samples. So two opposite neighbours count less the more their mean differs, or one alone the more it
+// differs, and not at all from BLUR_ALIKE on: such a difference is shade.
 // BRANCHES 1: a branch that all pixels of a warp take alike spares work.
 
 float line_tolerance(float linear)
@@ -73,14 +74,6 @@ CONTENTS blurred(PAIRED before_2, PAIRED before, PAIRED center, PAIRED after, PA
         weights.yz = vec2(joins.y && abs(before.y - center.y) < near ? 1.0 : 0.0,
                           joins.z && abs(after.y - center.y) < near ? 1.0 : 0.0);
     }
-#if BENT
-    // What is left without any tap keeps its noise, which shows where it is dark among bright neighbours.
-    float least =
-        weights.y + weights.z == 0.0 ? min(accessibility_of(before), accessibility_of(after)) - BLUR_ALONE : 0.0;
-    CONTENTS mean = (contents_of(center) + weighted(weights, before_2, before, after, after_2)) /
-                    (1.0 + dot(weights, vec4(1.0)));
-    return vec4(max(mean.x, least), mean.yzw);
-#else
     vec4 taps = vec4(accessibility_of(before_2), accessibility_of(before), accessibility_of(after),
                      accessibility_of(after_2));
     float own = accessibility_of(center);
@@ -88,10 +81,14 @@ CONTENTS blurred(PAIRED before_2, PAIRED before, PAIRED center, PAIRED after, PA
     // What is left without any tap keeps its noise, which shows where it is dark among bright neighbours.
     float least = weights.y + weights.z == 0.0 ? min(taps.y, taps.z) - BLUR_ALONE : 0.0;
 #if RAYS
-    if (own < 0.0)
-        return mean;
+    least = own < 0.0 ? MISSING : least;
 #endif
-    return max(mean, least);
+    mean = max(mean, least);
+#if BENT
+    return vec4(mean, (contents_of(center) + weighted(weights, before_2, before, after, after_2)).yzw /
+                          (1.0 + dot(weights, vec4(1.0))));
+#else
+    return mean;
 #endif
 }
 
@@ -121,7 +118,11 @@ CONTENTS blurred_wide(PAIRED left, PAIRED below, PAIRED center, PAIRED above, PA
     float own = accessibility_of(center);
     vec4 taps = vec4(accessibility_of(left), accessibility_of(below), accessibility_of(above), accessibility_of(right));
 #if !RAYS
-    vec4 apart = (taps - own) * (float(gSampleCount) / BLUR_ALIKE);
+    vec4 apart = (taps - own) * (sqrt(float(gSampleCount)) / BLUR_ALIKE);
+    // Of two opposite taps the mean counts: on a slope of shade they differ, one up and one down.
+    vec2 pair = 0.5 * (apart.xy + apart.wz);
+    apart.xw = joins.x && joins.w ? pair.xx : apart.xw;
+    apart.yz = joins.y && joins.z ? pair.yy : apart.yz;
     weights *= max(vec4(0.0), 1.0 - apart * apart);
 #endif
     float mean = weighted_mean(own, 0.25, taps, weights);

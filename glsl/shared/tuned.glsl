@@ -29,7 +29,7 @@
 #define BLUR_TOLERANCE 0.02   // how far off a line may be
 #define BLUR_NEAR 0.1         // how far off a neighbour may be of a pixel that has no other
 #define BLUR_ALONE 0.5        // how much darker than its neighbours a pixel may be that can't be smoothed
-#define BLUR_ALIKE 2.0        // from this difference on a later round's tap counts no more, in shares of a sample
+#define BLUR_ALIKE 0.2        // from this difference on a later round's taps count no more, over the root of samples
 #define BLUR_HOLLOW 0.1       // how far a later round's line may bend towards the eye at its ends
 
 // The blur of rays (shared/planar_blur.glsl).

@@ -4,6 +4,9 @@
 // Farther than any surface: stands for sky and for depths that are not numbers. Its square still fits a float.
 #define FAR_AWAY 1e15
 
+// Stands for the accessibility of a pixel without rays, as any negative number does.
+#define MISSING (-1.0)
+
 // How the host stores normals.
 #define NORMALS_SIGNED 0
 #define NORMALS_UNSIGNED 1

@@ -2,7 +2,7 @@
  *
  * glssao-bandwidth: the least that a pass can take on this driver: buffers copied, and maps of the effect's formats
  * copied texel by texel, by a draw and by a dispatch. Times are of the GPU, by timestamps around many copies.
- *   glssao-bandwidth [egl|osmesa]
+ *   glssao-bandwidth [egl|osmesa [TURNS]]
  */
 #include "context.h"
 #include "gl.h"
@@ -16,7 +16,9 @@
 #define GROUP 16
 #define LAYOUT(side) "layout(local_size_x = " #side ", local_size_y = " #side ") in;\n"
 #define LAYOUT_OF(side) LAYOUT(side)
-enum { TURNS = 7, WIDTH = 1920, HEIGHT = 1080 };
+enum { MOST_TURNS = 1000, WIDTH = 1920, HEIGHT = 1080 };
+
+static int turns = 7; /* of which the fastest counts */
 
 static const char vertex_source[] = "#version 330\n"
                                     "void main()\n"
@@ -100,7 +102,7 @@ static double least_ms(const job *j, int count)
     double least = 1e9;
     GLuint queries[2];
     gl.GenQueries(2, queries);
-    for (int turn = 0; turn < TURNS; turn++) {
+    for (int turn = 0; turn < turns; turn++) {
         GLuint64 at[2];
         gl.Finish();
         gl.QueryCounter(queries[0], GL_TIMESTAMP);
@@ -213,9 +215,10 @@ static void load_newer(context *c)
 int main(int argc, char **argv)
 {
     char error[512] = "";
-    const bool osmesa = argc == 2 && strcmp(argv[1], "osmesa") == 0;
-    if (argc > 2 || (argc == 2 && !osmesa && strcmp(argv[1], "egl") != 0)) {
-        fputs("glssao-bandwidth: want nothing, egl or osmesa\n", stderr);
+    const bool osmesa = argc > 1 && strcmp(argv[1], "osmesa") == 0;
+    turns = argc > 2 ? (int)strtol(argv[2], NULL, 10) : turns;
+    if (argc > 3 || (argc > 1 && !osmesa && strcmp(argv[1], "egl") != 0) || turns < 1 || turns > MOST_TURNS) {
+        fputs("usage: glssao-bandwidth [egl|osmesa [TURNS]]\n", stderr);
         return 2;
     }
     context *c = context_create(&(context_options){.kind = osmesa ? CONTEXT_OSMESA : CONTEXT_EGL}, error, sizeof error);

@@ -29,7 +29,7 @@ static const peer_config best[] = {
     {"three-sao", 0.71, 0.5, 2, false},
     {"n8ao", 1.01, 2, 1, true},
     {"postprocessing-ssao", 1.41, 2, 1.01, false},
-    {"babylon-ssao2", 1.01, 2, 1.01, false},
+    {"babylon-ssao2", 1.01, 0.25, 2, false},
 };
 enum { PEERS = sizeof best / sizeof best[0] };
 

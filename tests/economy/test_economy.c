@@ -319,11 +319,10 @@ static int drawn_normals(fixture *f, const scene *s, bool wanted)
     if (!pipeline_create(&p, s, fixture_load, f->context, &o, wants, FAULT(error)) ||
         !pipeline_draw(&p, &view, &times, FAULT(error)))
         fail_msg("%s", error);
-    float *normals = fixture_read_texture(glssao_map(p.effect, GLSSAO_MAP_NORMAL, NULL, NULL), W, H, 4);
+    SCOPED(memory) float *normals = fixture_read_texture(glssao_map(p.effect, GLSSAO_MAP_NORMAL, NULL, NULL), W, H, 4);
     int drawn = 0;
     for (int i = 0; i < W * H; ++i)
         drawn += normals[4 * i + 2] != 1.0f;
-    free(normals);
     pipeline_destroy(&p);
     return drawn;
 }

@@ -162,7 +162,7 @@ TEST_GL(blur_serves_the_first)
             assert_true(rms(&s, smooth, wanted) < 0.7 * rms(&s, plain, wanted));
         if (count == 16)
             assert_memory_equal(plain, smooth, W * H * sizeof *plain);
-        assert_int_equal(stats(&blurred).passes[GLSSAO_PASS_BLUR].draw_calls, count < 16 ? 2 : 0);
+        assert_true((stats(&blurred).passes[GLSSAO_PASS_BLUR].draw_calls > 0) == (count < 16));
         free(plain);
         free(smooth);
     }

@@ -212,6 +212,113 @@ TEST_GL(groove_is_near_the_rays)
     compare(*state, shapes, 3, false, 2.0, (const limits[LEVELS]){{2.6, 34.0}, {2.5, 33.0}, {2.8, 36.0}, {2.0, 36.0}});
 }
 
+enum { BALL_SIDE = 80, BALL_EDGE = 12 };
+
+/* What rays say of the ball below: no number, all open, what is open by two rays a pixel, and by many. */
+typedef enum said { NO_NUMBER, ALL_OPEN, FEW, MANY, SAID_COUNT } said;
+
+/* A ball that touches a wall, with what is open of each pixel. */
+typedef struct ball {
+    analytic_shape shapes[2];
+    analytic_shot shot;
+    double open[BALL_SIDE * BALL_SIDE], directions[BALL_SIDE * BALL_SIDE][3];
+} ball;
+
+static double open_at(const ball *b, int i, int rays, double out[3])
+{
+    const float *n = b->shot.normals + 3 * i;
+    const double normal[3] = {(double)n[0], (double)n[1], (double)n[2]};
+    double at[3];
+    analytic_position(&b->shot, i % BALL_SIDE, i / BALL_SIDE, at);
+    return analytic_open(b->shapes, 2, at, normal, 1.0, rays, out);
+}
+
+static void set_up_ball(ball *b)
+{
+    b->shapes[0] = (analytic_shape){ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, 0.0, 1.0}};
+    b->shapes[1] = (analytic_shape){ANALYTIC_SPHERE, {0.0, 0.0, -5.3}, {0.7, 0.0, 0.0}};
+    b->shot = analytic_take(b->shapes, 2, PERSPECTIVE, BALL_SIDE, BALL_SIDE);
+    for (int i = 0; i < BALL_SIDE * BALL_SIDE; ++i)
+        b->open[i] = open_at(b, i, 256, b->directions[i]);
+}
+
+/* Of half size. */
+static void bring_rays(ball *b, said what)
+{
+    enum { HALF = BALL_SIDE / 2 };
+    float values[HALF * HALF];
+    for (int i = 0; i < HALF * HALF; ++i) {
+        const int full = 2 * (i / HALF) * BALL_SIDE + 2 * (i % HALF);
+        double ignored[3];
+        values[i] = what == NO_NUMBER  ? NAN
+                    : what == ALL_OPEN ? 1.0f
+                    : what == FEW      ? (float)open_at(b, full, 2, ignored)
+                                       : (float)b->open[full];
+    }
+    gl.DeleteTextures(1, &b->shot.frame.rays_texture);
+    b->shot.frame.rays_texture = fixture_texture(GL_R32F, GL_RED, GL_FLOAT, HALF, HALF, values);
+}
+
+/* Mean angles to the truth and to the normal, degrees, where at most 0.9 is open, off the picture's border. */
+static void measure_ball(const ball *b, const float *got, double *out_error, double *out_turn)
+{
+    int count = 0;
+    *out_error = *out_turn = 0.0;
+    for (int i = 0; i < BALL_SIDE * BALL_SIDE; ++i) {
+        const int x = i % BALL_SIDE, y = i / BALL_SIDE;
+        const float *n = b->shot.normals + 3 * i;
+        const double normal[3] = {(double)n[0], (double)n[1], (double)n[2]};
+        if (b->open[i] > 0.9 || x < BALL_EDGE || y < BALL_EDGE || x >= BALL_SIDE - BALL_EDGE ||
+            y >= BALL_SIDE - BALL_EDGE)
+            continue;
+        *out_error += angle_between(got + 4 * i, b->directions[i]);
+        *out_turn += angle_between(got + 4 * i, normal);
+        ++count;
+    }
+    assert_true(count > 200);
+    *out_error /= count;
+    *out_turn /= count;
+}
+
+/* Rays that say nothing leave directions as they are, rays that find all open turn them back towards the normals, and
+ * those that tell how much is hidden turn them nearer to the truth. Measured, degrees off, and with two rays or many a
+ * half-size pixel: low 5.7, 5.5, 4.0; medium 5.9, 5.5, 4.2; high 5.7, 5.1, 3.9; ultra 3.6, 4.0, 2.1. */
+TEST_GL(rays_correct_how_far_directions_turn)
+{
+    ball b = {.open = {0.0}};
+    set_up_ball(&b);
+    for (int way = GLSSAO_PATH_FRAGMENT; way <= (fixture_hides_newer() ? GLSSAO_PATH_FRAGMENT : GLSSAO_PATH_COMPUTE);
+         ++way) {
+        glssao_config config = fixture_config(*state, BALL_SIDE, BALL_SIDE);
+        config.path = (glssao_path)way;
+        glssao_effect *effect = fixture_effect_of(*state, &config);
+        for (int level = 0; level < LEVELS; ++level) {
+            const glssao_settings settings = level_settings(level, 1.0);
+            double error[SAID_COUNT], turn[SAID_COUNT], own_error, own_turn;
+            gl.DeleteTextures(1, &b.shot.frame.rays_texture);
+            b.shot.frame.rays_texture = 0;
+            assert_int_equal(glssao_compute(effect, &b.shot.frame, &settings), GLSSAO_OK);
+            float *got = read_bent(effect, BALL_SIDE, BALL_SIDE);
+            measure_ball(&b, got, &own_error, &own_turn);
+            free(got);
+            for (int what = 0; what < SAID_COUNT; ++what) {
+                bring_rays(&b, (said)what);
+                assert_int_equal(glssao_compute(effect, &b.shot.frame, &settings), GLSSAO_OK);
+                got = read_bent(effect, BALL_SIDE, BALL_SIDE);
+                measure_ball(&b, got, &error[what], &turn[what]);
+                free(got);
+            }
+            print_message("%s: %.2f degrees off; by few rays %.2f, by many %.2f; turned by %.2f, by open ones %.2f\n",
+                          level_names[level], own_error, error[FEW], error[MANY], own_turn, turn[ALL_OPEN]);
+            assert_true(fabs(error[NO_NUMBER] - own_error) < 0.01 && fabs(turn[NO_NUMBER] - own_turn) < 0.01);
+            assert_true(turn[ALL_OPEN] < 0.6 * own_turn);
+            assert_true(error[FEW] < 1.2 * own_error && error[MANY] < 0.75 * own_error);
+        }
+        glssao_destroy(effect);
+    }
+    analytic_free_shot(&b.shot);
+}
+
 /* The closed form must agree with the rays that judge the rest, and with a value worked out by hand. */
 TEST(closed_form_agrees_with_rays)
 {

@@ -18,7 +18,7 @@ TEST_GL(normals_are_in_view_space)
     camera c = {.eye = {2, 1, 2}, .up = {0, 1, 0}, .fov_y_rad = 0.6f, .near_plane = 1, .far_plane = 9};
     const scene_view view = camera_view(&c, FRAME_SIZE, FRAME_SIZE);
     const scene_lighting lighting = scene_default_lighting();
-    frame f = frame_draw(s, &view, &lighting, 0);
+    SCOPED(drawn) frame f = frame_draw(s, &view, &lighting, 0);
     assert_true(frame_is_drawn(&f, FRAME_MIDDLE));
     for (int i = 0; i < 3; i++)
         assert_float_equal(f.normals[4 * FRAME_MIDDLE + i], view.view_from_world[8 + i], 1e-5f);
@@ -26,7 +26,6 @@ TEST_GL(normals_are_in_view_space)
     assert_float_equal(f.normals[4 * FRAME_MIDDLE + 0], -0.70711f, 1e-4f);
     assert_float_equal(f.normals[4 * FRAME_MIDDLE + 1], -0.23570f, 1e-4f);
     assert_float_equal(f.normals[4 * FRAME_MIDDLE + 2], 0.66667f, 1e-4f);
-    frame_free(&f);
     free(s);
 }
 
@@ -45,7 +44,7 @@ TEST_GL(instances_have_the_normals_of_baked_triangles)
         small_scene *b = small_scene_baked(s);
         const camera c = camera_frame_scene(&s->scene, 1);
         const scene_view view = camera_view(&c, FRAME_SIZE, FRAME_SIZE);
-        frame f = frame_draw(s, &view, &lighting, 0), g = frame_draw(b, &view, &lighting, 0);
+        SCOPED(drawn) frame f = frame_draw(s, &view, &lighting, 0), g = frame_draw(b, &view, &lighting, 0);
         int compared = 0, differently_covered = 0;
         double worst = 0;
         for (int i = 0; i < FRAME_SIZE * FRAME_SIZE; i++) {
@@ -59,8 +58,6 @@ TEST_GL(instances_have_the_normals_of_baked_triangles)
         if (compared < 100 || differently_covered > 2 || !(worst < 1e-3))
             fail_msg("scale %zu: %d pixels compared, %d covered by one alone, normals differ by up to %g", k, compared,
                      differently_covered, worst);
-        frame_free(&f);
-        frame_free(&g);
         free(s);
         free(b);
     }
@@ -72,10 +69,9 @@ TEST_GL(normals_of_zero_length_face_the_viewer)
     for (int i = 0; i < 4; i++)
         memset(s->vertices[i].normal, 0, sizeof s->vertices[i].normal);
     const scene_lighting lighting = scene_default_lighting();
-    frame f = frame_draw(s, &frame_front, &lighting, 0);
+    SCOPED(drawn) frame f = frame_draw(s, &frame_front, &lighting, 0);
     const float facing[4] = {0, 0, 1, 0};
     assert_memory_equal(f.normals + 4 * FRAME_MIDDLE, facing, sizeof facing);
-    frame_free(&f);
     free(s);
 }
 
@@ -107,10 +103,9 @@ TEST_GL(double_sided_backs_show_normals_that_face_the_viewer)
     const scene_lighting lighting = scene_default_lighting();
     for (int k = 0; k < 4; k++) {
         small_scene *s = frame_one_quad(material, placements[k]);
-        frame f = frame_draw(s, &frame_front, &lighting, 0);
+        SCOPED(drawn) frame f = frame_draw(s, &frame_front, &lighting, 0);
         assert_int_equal(frame_count_drawn(&f, FRAME_SIZE * FRAME_SIZE), FRAME_SIZE * FRAME_SIZE / 4);
         assert_float_equal(f.normals[4 * FRAME_MIDDLE + 2], 1, 1e-6f);
-        frame_free(&f);
         free(s);
     }
 }
@@ -165,7 +160,7 @@ TEST_GL(depth_equal_covers_what_the_prepass_covered)
     const camera c = camera_frame_scene(&s->scene, 1);
     const scene_view view = camera_view(&c, LARGE, LARGE);
     const scene_lighting lighting = {.ambient = {0.5f, 0.5f, 0.5f}, .direction_world = {0, -1, 0}, .sky = {1, 0, 1}};
-    frame f = frame_draw(s, &view, &lighting, 0);
+    SCOPED(drawn) frame f = frame_draw(s, &view, &lighting, 0);
     int differing = 0;
     for (int i = 0; i < LARGE * LARGE; i++)
         differing += frame_is_drawn(&f, i) != (f.color[i][1] != 0);
@@ -173,12 +168,10 @@ TEST_GL(depth_equal_covers_what_the_prepass_covered)
     assert_int_equal(differing, 0);
     /* Without a pre-pass, the main pass finds the same surfaces itself. */
     const scene_draw_options alone = {.no_prepass = true};
-    frame g = frame_draw_with(s, &view, &lighting, &alone, 0);
+    SCOPED(drawn) frame g = frame_draw_with(s, &view, &lighting, &alone, 0);
     assert_memory_equal(f.color, g.color, LARGE * LARGE * sizeof *f.color);
     assert_memory_equal(f.depth, g.depth, LARGE * LARGE * sizeof *f.depth);
     assert_int_equal(g.counts.normals, 0);
-    frame_free(&g);
-    frame_free(&f);
     free(s);
 }
 

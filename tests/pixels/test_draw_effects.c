@@ -66,9 +66,8 @@ TEST_GL(occlusion_is_left_out_by_its_share)
     for (int i = 0; i <= 4; i++) {
         const scene_draw_options options = {.left_out = (float)i / 4};
         const double open = 1 - (1 - i / 4.0) * 0.75, color = 0.5 * open + 0.3 / 3.14159265;
-        frame f = frame_draw_with(s, &frame_front, &lighting, &options, map);
+        SCOPED(drawn) frame f = frame_draw_with(s, &frame_front, &lighting, &options, map);
         frame_assert_color(f.color[FRAME_MIDDLE], color, color, color);
-        frame_free(&f);
     }
     gl.DeleteTextures(1, &map);
     free(s);
@@ -84,9 +83,8 @@ TEST_GL(holes_and_blended_cast_no_shadow)
         roof.base_color_texture = 0;
         small_scene *s = floor_and_roof(roof);
         small_scene_add_texture(s, 1, 1, clear);
-        frame f = frame_draw_with(s, &frame_front, &aslant, &shadowed, 0);
+        SCOPED(drawn) frame f = frame_draw_with(s, &frame_front, &aslant, &shadowed, 0);
         frame_assert_color(f.color[pixel_at(0.5, 0)], lit, lit, lit);
-        frame_free(&f);
         free(s);
     }
 }
@@ -164,9 +162,8 @@ TEST_GL(normal_map_bends_the_light)
         small_scene *s = frame_one_quad(material, NULL);
         small_scene_add_texture(s, 1, 1, texel);
         s->scene.tangents = tangents;
-        frame f = frame_draw_with(s, &frame_front, &lighting, &(scene_draw_options){0}, 0);
+        SCOPED(drawn) frame f = frame_draw_with(s, &frame_front, &lighting, &(scene_draw_options){0}, 0);
         frame_assert_color(f.color[FRAME_MIDDLE], scale ? 0.6 : 0, scale ? 0.6 : 0, 0);
-        frame_free(&f);
         free(s);
     }
 }
@@ -270,7 +267,7 @@ TEST_GL(everything_on_shows_the_same)
     scene_lighting lighting = scene_default_lighting();
     memset(lighting.sky_tilt, 0, sizeof lighting.sky_tilt);
     scene_draw_options options = {.shadows = true, .shadow_size = 64, .specular_occlusion = true, .multi_bounce = true};
-    frame planned = frame_draw_with(s, &frame_front, &lighting, &options, 0);
+    SCOPED(drawn) frame planned = frame_draw_with(s, &frame_front, &lighting, &options, 0);
     options.everything = true;
     frame f = frame_draw_with(s, &frame_front, &lighting, &options, 0);
     for (int i = 0; i < FRAME_SIZE * FRAME_SIZE; i++)
@@ -281,7 +278,6 @@ TEST_GL(everything_on_shows_the_same)
     assert_int_equal(f.counts.main, 3);
     assert_int_equal(f.counts.normals, 3);
     assert_int_equal(f.counts.sky, 1);
-    frame_free(&planned);
     frame_free(&f);
     free(s);
 }

@@ -25,12 +25,11 @@ static void set_normals(small_scene *s, double x, double y, double z)
 /* Linear colour at the middle of the quad; 8 bits resolve about 0.01 of it. */
 static void middle_color(small_scene *s, const scene_lighting *lighting, double out[3])
 {
-    frame f = frame_draw_with(s, &frame_front, lighting, &(scene_draw_options){0}, 0);
+    SCOPED(drawn) frame f = frame_draw_with(s, &frame_front, lighting, &(scene_draw_options){0}, 0);
     for (int i = 0; i < 3; i++) {
         const double c = f.color[FRAME_MIDDLE][i] / 255.0;
         out[i] = c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
     }
-    frame_free(&f);
 }
 
 static void assert_near(double got, double wanted, double tolerance, const char *what)
@@ -128,12 +127,11 @@ static void bent_color(small_scene *s, const scene_lighting *lighting, const dou
     gl.GenTextures(1, &map);
     gl.BindTexture(GL_TEXTURE_2D, map);
     gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, 1, 1, 0, GL_RGBA, GL_FLOAT, texel);
-    frame f = frame_draw_with(s, &frame_front, lighting, &options, map);
+    SCOPED(drawn) frame f = frame_draw_with(s, &frame_front, lighting, &options, map);
     for (int i = 0; i < 3; i++) {
         const double c = f.color[FRAME_MIDDLE][i] / 255.0;
         out[i] = c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
     }
-    frame_free(&f);
 }
 
 /* Matte light of the gradient, whose first harmonic is all that is not even; and the cones of a metal, whose share
@@ -337,7 +335,7 @@ TEST_GL(a_picture_surrounds_the_scene)
                               .near_plane = 0.1f,
                               .far_plane = 9};
             const scene_view view = camera_view(&c, FRAME_SIZE, FRAME_SIZE);
-            frame f = frame_draw_with(s, &view, &lighting, &(scene_draw_options){0}, 0);
+            SCOPED(drawn) frame f = frame_draw_with(s, &view, &lighting, &(scene_draw_options){0}, 0);
             double seen[3], mirrored[3];
             const double facing = (n[0] * eye[0] + n[1] * eye[1] + n[2] * eye[2]) / away;
             for (int k = 0; k < 3; k++)
@@ -351,7 +349,6 @@ TEST_GL(a_picture_surrounds_the_scene)
                 seen[k] = (-side * (double)m[4 * k] - side * (double)m[4 * k + 1] - (double)m[4 * k + 2]) / length;
             assert_gradients(f.color[0], seen, 1, 1, "sky");
             assert_int_equal(f.counts.sky, 1);
-            frame_free(&f);
         }
         free(s);
     }
@@ -401,9 +398,9 @@ TEST_GL(light_follows_up)
     static const float ups[][3] = {{0, 1, 0}, {0, 0, 1}, {0, -2, 0}, {1, 0, 0}, {-1, 2, 0.5f}};
     scene_environment *environments[] = {NULL, load_gradients(false)};
     for (int kind = 0; kind < 2; kind++) {
-        frame wanted = draw_world(ups[0], environments[kind]);
+        SCOPED(drawn) frame wanted = draw_world(ups[0], environments[kind]);
         for (size_t u = 1; u < sizeof ups / sizeof ups[0]; u++) {
-            frame f = draw_world(ups[u], environments[kind]);
+            SCOPED(drawn) frame f = draw_world(ups[u], environments[kind]);
             int apart = 0;
             for (int i = 0; i < FRAME_SIZE * FRAME_SIZE; i++)
                 for (int k = 0; k < 3; k++)
@@ -412,9 +409,7 @@ TEST_GL(light_follows_up)
             if (apart > 3 * FRAME_SIZE * FRAME_SIZE / 100)
                 fail_msg("up %g, %g, %g: %d values differ", (double)ups[u][0], (double)ups[u][1], (double)ups[u][2],
                          apart);
-            frame_free(&f);
         }
-        frame_free(&wanted);
     }
     scene_environment_destroy(environments[1]);
 }

@@ -37,12 +37,11 @@ TEST_GL(blended_adds_colour_but_no_depth_and_no_normal)
     memcpy(material.base_color, (float[4]){0.8f, 0.2f, 0, 0.25f}, sizeof material.base_color);
     small_scene *s = frame_one_quad(material, NULL);
     scene_lighting lighting = {.direction_world = {0, -1, 0}, .sky = {0.1f, 0.5f, 0.9f}};
-    frame f = frame_draw(s, &frame_front, &lighting, 0);
+    SCOPED(drawn) frame f = frame_draw(s, &frame_front, &lighting, 0);
     assert_int_equal(frame_count_drawn(&f, FRAME_SIZE * FRAME_SIZE), 0);
     assert_float_equal(f.depth[FRAME_MIDDLE], 1, 0);
     frame_assert_color(f.color[0], 0.1, 0.5, 0.9);
     frame_assert_color(f.color[FRAME_MIDDLE], 0.25 * 0.8 + 0.75 * 0.1, 0.25 * 0.2 + 0.75 * 0.5, 0.75 * 0.9);
-    frame_free(&f);
     free(s);
 }
 
@@ -61,9 +60,8 @@ TEST_GL(blended_is_drawn_back_to_front)
                    sizeof material.base_color);
             frame_add_quad(s, material, place);
         }
-        frame f = frame_draw(s, &frame_front, &lighting, 0);
+        SCOPED(drawn) frame f = frame_draw(s, &frame_front, &lighting, 0);
         frame_assert_color(f.color[FRAME_MIDDLE], 0.5, 0.25, 0);
-        frame_free(&f);
         free(s);
     }
 }
@@ -78,9 +76,8 @@ TEST_GL(blended_is_hidden_by_opaque_in_front)
     small_scene *s = frame_one_quad(opaque, NULL);
     frame_add_quad(s, blended, behind);
     scene_lighting lighting = {.direction_world = {0, -1, 0}};
-    frame f = frame_draw(s, &frame_front, &lighting, 0);
+    SCOPED(drawn) frame f = frame_draw(s, &frame_front, &lighting, 0);
     frame_assert_color(f.color[FRAME_MIDDLE], 1, 1, 1);
-    frame_free(&f);
     free(s);
 }
 
@@ -143,12 +140,11 @@ TEST_GL(texels_are_where_the_uvs_say)
         memcpy(material.base_color_uv_from_uv, cases[k].transform, sizeof material.base_color_uv_from_uv);
         small_scene *s = frame_one_quad(material, NULL);
         small_scene_add_texture(s, 2, 2, texels);
-        frame f = frame_draw(s, &frame_front, &lighting, 0);
+        SCOPED(drawn) frame f = frame_draw(s, &frame_front, &lighting, 0);
         for (int i = 0; i < 4; i++) {
             const double *color = colors[cases[k].texels[i]];
             frame_assert_color(f.color[at[i]], color[0], color[1], color[2]);
         }
-        frame_free(&f);
         free(s);
     }
 }
@@ -162,9 +158,8 @@ TEST_GL(vertex_colour_multiplies_base_colour)
     for (int i = 0; i < 4; i++)
         memcpy(s->vertices[i].color, (float[4]){0.5f, 0.25f, 0.75f, 1}, sizeof s->vertices[i].color);
     scene_lighting lighting = {.direction_world = {0, -1, 0}};
-    frame f = frame_draw(s, &frame_front, &lighting, 0);
+    SCOPED(drawn) frame f = frame_draw(s, &frame_front, &lighting, 0);
     frame_assert_color(f.color[FRAME_MIDDLE], 0.25, 0.25, 0.75);
-    frame_free(&f);
     free(s);
 }
 
@@ -173,10 +168,9 @@ TEST_GL(empty_scene_is_all_sky)
     small_scene *s = small_scene_create();
     small_scene_add_material(s, small_scene_material());
     scene_lighting lighting = {.direction_world = {0, -1, 0}, .sky = {0.2f, 0.4f, 0.6f}};
-    frame f = frame_draw(s, &frame_front, &lighting, 0);
+    SCOPED(drawn) frame f = frame_draw(s, &frame_front, &lighting, 0);
     assert_int_equal(frame_count_drawn(&f, FRAME_SIZE * FRAME_SIZE), 0);
     frame_assert_color(f.color[FRAME_MIDDLE], 0.2, 0.4, 0.6);
-    frame_free(&f);
     free(s);
 }
 

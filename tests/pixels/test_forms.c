@@ -160,7 +160,7 @@ TEST_GL(strands_calm_down_over_frames)
 TEST_GL(roll_changes_little)
 {
     enum { ANGLES = 20 };
-    static const double most[LEVELS] = {0.018, 0.016, 0.01, 0.0075};
+    static const double most[LEVELS] = {0.018, 0.016, 0.0075, 0.005};
     double low[LEVELS], high[LEVELS];
     for (int a = 0; a < ANGLES; ++a) {
         const double roll = 2.0 * PI * a / ANGLES, k = sqrt(0.5);

@@ -27,9 +27,10 @@ static const double NEAREST = 0.5, FARTHEST = 40.0;
 static GLuint enlarge(GLuint texture, int channels, const int viewport[4])
 {
     const int width = viewport[2] + 16, height = viewport[3] + 10;
+    SCOPED(memory)
     float *part = channels == 1 ? fixture_read_depth(texture, viewport[2], viewport[3])
                                 : fixture_read_texture(texture, viewport[2], viewport[3], channels);
-    float *all = malloc((size_t)(width * height * channels) * sizeof *all);
+    SCOPED(memory) float *all = malloc((size_t)(width * height * channels) * sizeof *all);
     for (int i = 0; i < width * height * channels; ++i)
         all[i] = 0.25f;
     for (int y = 0; y < viewport[3]; ++y)
@@ -39,29 +40,26 @@ static GLuint enlarge(GLuint texture, int channels, const int viewport[4])
         channels == 1 ? fixture_texture(GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, width, height, all)
                       : fixture_texture(GL_RGBA32F, channels == 3 ? GL_RGB : GL_RGBA, GL_FLOAT, width, height, all);
     gl.DeleteTextures(1, &texture);
-    free(part);
-    free(all);
     return larger;
 }
 
 /* From window depth of the perspective projection, as three.js stores it. */
 static GLuint make_logarithmic(GLuint texture, int width, int height)
 {
-    float *depth = fixture_read_depth(texture, width, height);
+    SCOPED(memory) float *depth = fixture_read_depth(texture, width, height);
     for (int i = 0; i < width * height; ++i) {
         const double distance = NEAREST * FARTHEST / (FARTHEST - (double)depth[i] * (FARTHEST - NEAREST));
         depth[i] = depth[i] < 1.0f ? (float)(log2(distance + 1.0) / log2(FARTHEST + 1.0)) : 1.0f;
     }
     const GLuint made = fixture_texture(GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, width, height, depth);
     gl.DeleteTextures(1, &texture);
-    free(depth);
     return made;
 }
 
 /* Two rays a pixel that say 0.5 in the mean; one pixel in eight has none. */
 static GLuint make_rays(int width, int height, uint32_t noise)
 {
-    float *values = malloc((size_t)(width * height) * sizeof *values);
+    SCOPED(memory) float *values = malloc((size_t)(width * height) * sizeof *values);
     uint32_t random = 12345u + 2654435761u * noise;
     for (int i = 0; i < width * height; ++i) {
         random = random * 1664525u + 1013904223u;
@@ -69,7 +67,6 @@ static GLuint make_rays(int width, int height, uint32_t noise)
         values[i] = roll == 0 ? -1.0f : roll < 3 ? 0.0f : roll < 5 ? 1.0f : roll == 5 ? NAN : 0.5f;
     }
     const GLuint made = fixture_texture(GL_R32F, GL_RED, GL_FLOAT, width, height, values);
-    free(values);
     return made;
 }
 
@@ -140,9 +137,8 @@ static float *read_result(const glssao_effect *effect)
 
 static float *shoot(glssao_effect *effect, const shot *s, const glssao_settings *settings)
 {
-    const glssao_frame frame = take(s);
+    SCOPED(frame) const glssao_frame frame = take(s);
     compute(effect, &frame, settings);
-    fixture_delete_frame(&frame);
     return read_result(effect);
 }
 
@@ -159,7 +155,7 @@ static double rms(const float *a, const float *b, int count)
 /* The technique's own floor: the mean of many estimates at full size, of as many samples as a history has. */
 static float *make_floor(fixture *f, const shot *s, const glssao_settings *settings)
 {
-    glssao_effect *effect = fixture_effect(f, s->width, s->height);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, s->width, s->height);
     glssao_settings plain = *settings;
     plain.history = 0;
     plain.blur = GLSSAO_BLUR_NONE;
@@ -168,18 +164,15 @@ static float *make_floor(fixture *f, const shot *s, const glssao_settings *setti
     if (settings->history > 0 && settings->technique == GLSSAO_HORIZON && plain.sample_count < 24)
         plain.sample_count = 24;
     float *sum = calloc((size_t)N, sizeof *sum);
-    const glssao_frame frame = take(s);
+    SCOPED(frame) const glssao_frame frame = take(s);
     const int count = 32;
     for (int i = 0; i < count; ++i) {
         plain.noise_index = (uint32_t)i;
         compute(effect, &frame, &plain);
-        float *result = read_result(effect);
+        SCOPED(memory) float *result = read_result(effect);
         for (int p = 0; p < N; ++p)
             sum[p] += result[p] / (float)count;
-        free(result);
     }
-    fixture_delete_frame(&frame);
-    glssao_destroy(effect);
     return sum;
 }
 
@@ -195,23 +188,19 @@ TEST_GL(means_over_noise_indices_converge)
         settings.half_resolution = false;
         settings.blur = GLSSAO_BLUR_NONE;
         settings.power = 1.0f;
-        float *floor_map = make_floor(f, &s, &settings), *mean = calloc((size_t)N, sizeof *mean);
+        SCOPED(memory) float *floor_map = make_floor(f, &s, &settings), *mean = calloc((size_t)N, sizeof *mean);
         double errors[17] = {0};
-        glssao_effect *effect = fixture_effect(f, W, H);
+        SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
         for (int i = 0; i < 16; ++i) {
             settings.noise_index = 100 + (uint32_t)i;
-            float *result = shoot(effect, &s, &settings);
+            SCOPED(memory) float *result = shoot(effect, &s, &settings);
             for (int p = 0; p < N; ++p)
                 mean[p] += (result[p] - mean[p]) / (float)(i + 1);
             errors[i + 1] = rms(mean, floor_map, N);
-            free(result);
         }
         assert_true(errors[1] > 0.005);
         assert_true(errors[8] < 0.5 * errors[1]);
         assert_true(errors[16] < errors[1] / 3.0);
-        glssao_destroy(effect);
-        free(floor_map);
-        free(mean);
     }
 }
 
@@ -221,20 +210,16 @@ TEST_GL(index_0_is_the_pattern_without_an_index)
     const shot s = first_shot(PERSPECTIVE);
     for (int t = GLSSAO_CLASSIC; t <= GLSSAO_HORIZON; ++t) {
         glssao_settings settings = make_settings((glssao_technique)t, GLSSAO_HIGH, 0);
-        glssao_effect *effect = fixture_effect(f, W, H);
-        float *zero = shoot(effect, &s, &settings);
+        SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
+        SCOPED(memory) float *zero = shoot(effect, &s, &settings);
         settings.noise_index = 7;
-        float *seven = shoot(effect, &s, &settings);
+        SCOPED(memory) float *seven = shoot(effect, &s, &settings);
         settings.noise_index = 0;
-        float *again = shoot(effect, &s, &settings);
+        SCOPED(memory) float *again = shoot(effect, &s, &settings);
         int width, height;
         (void)glssao_map(effect, GLSSAO_MAP_AMBIENT, &width, &height);
         assert_memory_equal(zero, again, (size_t)(width * height) * sizeof *zero);
         assert_memory_not_equal(zero, seven, (size_t)(width * height) * sizeof *zero);
-        free(zero);
-        free(seven);
-        free(again);
-        glssao_destroy(effect);
     }
 }
 
@@ -249,18 +234,16 @@ TEST_GL(rest_converges_in_every_projection)
             shot s = first_shot((analytic_projection)p);
             s.depth_alone = depth_alone;
             glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
-            float *floor_map = make_floor(f, &s, &settings);
-            glssao_effect *effect = fixture_effect(f, W, H);
+            SCOPED(memory) float *floor_map = make_floor(f, &s, &settings);
+            SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
             float *single = shoot(effect, &s, &settings), *last = NULL;
             for (int i = 1; i < FRAMES; ++i) {
                 free(last);
                 last = shoot(effect, &s, &settings);
             }
             assert_true(rms(last, floor_map, N) < 0.75 * rms(single, floor_map, N));
-            free(floor_map);
             free(single);
             free(last);
-            glssao_destroy(effect);
         }
 }
 
@@ -271,7 +254,7 @@ TEST_GL(motion_keeps_the_history)
     fixture *f = *state;
     for (int p = 0; p < PROJECTION_COUNT; ++p) {
         const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
-        glssao_effect *effect = fixture_effect(f, W, H), *other = fixture_effect(f, W, H);
+        SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H), *other = fixture_effect(f, W, H);
         shot s = first_shot((analytic_projection)p);
         float *last = NULL;
         for (int i = 0; i < FRAMES; ++i) {
@@ -280,13 +263,9 @@ TEST_GL(motion_keeps_the_history)
             free(last);
             last = shoot(effect, &s, &settings);
         }
-        float *floor_map = make_floor(f, &s, &settings), *single = shoot(other, &s, &settings);
+        SCOPED(memory) float *floor_map = make_floor(f, &s, &settings), *single = shoot(other, &s, &settings);
         assert_true(rms(last, floor_map, N) < 0.85 * rms(single, floor_map, N));
-        free(floor_map);
-        free(single);
         free(last);
-        glssao_destroy(effect);
-        glssao_destroy(other);
     }
 }
 
@@ -298,11 +277,11 @@ TEST_GL(first_frames_and_cuts_stand_alone)
     plain.history = 0;
     shot a = first_shot(PERSPECTIVE), b = a;
     b.x = 1.5;
-    glssao_effect *effect = fixture_effect(f, W, H), *other = fixture_effect(f, W, H);
-    float *fresh = shoot(other, &b, &settings);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H), *other = fixture_effect(f, W, H);
+    SCOPED(memory) float *fresh = shoot(other, &b, &settings);
     for (int i = 0; i < 4; ++i)
         free(shoot(effect, &a, &settings));
-    glssao_frame frame = take(&b);
+    SCOPED(frame) glssao_frame frame = take(&b);
     frame.cut = true;
     compute(effect, &frame, &settings);
     float *cut = read_result(effect);
@@ -327,11 +306,7 @@ TEST_GL(first_frames_and_cuts_stand_alone)
     compute(effect, &frame, &settings);
     cut = read_result(effect);
     assert_memory_equal(cut, fresh, N * sizeof *cut);
-    fixture_delete_frame(&frame);
     free(cut);
-    free(fresh);
-    glssao_destroy(effect);
-    glssao_destroy(other);
 }
 
 /* The single frame is that of today: of a level that estimates at full size, to a step of R16 and what pairing rounds.
@@ -341,15 +316,12 @@ TEST_GL(single_frame_is_as_good_as_without_history)
     fixture *f = *state;
     const shot s = first_shot(PERSPECTIVE);
     glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_ULTRA, 16);
-    glssao_effect *effect = fixture_effect(f, W, H);
-    float *with = shoot(effect, &s, &settings);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
+    SCOPED(memory) float *with = shoot(effect, &s, &settings);
     settings.history = 0;
-    float *without = shoot(effect, &s, &settings);
+    SCOPED(memory) float *without = shoot(effect, &s, &settings);
     for (int i = 0; i < N; ++i)
         assert_true(fabs((double)with[i] - (double)without[i]) < 1e-3);
-    free(with);
-    free(without);
-    glssao_destroy(effect);
 }
 
 TEST_GL(same_frames_give_the_same_bits)
@@ -358,14 +330,13 @@ TEST_GL(same_frames_give_the_same_bits)
     const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
     float *results[2] = {NULL, NULL};
     for (int k = 0; k < 2; ++k) {
-        glssao_effect *effect = fixture_effect(f, W, H);
+        SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
         shot s = first_shot(PERSPECTIVE);
         for (int i = 0; i < 6; ++i) {
             s.x = 0.05 * i;
             free(results[k]);
             results[k] = shoot(effect, &s, &settings);
         }
-        glssao_destroy(effect);
     }
     assert_memory_equal(results[0], results[1], N * sizeof *results[0]);
     free(results[0]);
@@ -379,9 +350,9 @@ TEST_GL(accumulating_leaves_the_history)
     const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
     float *results[2];
     for (int between = 0; between < 2; ++between) {
-        glssao_effect *effect = fixture_effect(f, W, H);
+        SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
         const shot s = first_shot(PERSPECTIVE);
-        const glssao_frame frame = take(&s);
+        SCOPED(frame) const glssao_frame frame = take(&s);
         for (int i = 0; i < 5; ++i) {
             compute(effect, &frame, &settings);
             for (int k = 0; k < 2 * between; ++k)
@@ -389,8 +360,6 @@ TEST_GL(accumulating_leaves_the_history)
         }
         compute(effect, &frame, &settings);
         results[between] = read_result(effect);
-        fixture_delete_frame(&frame);
-        glssao_destroy(effect);
     }
     assert_memory_equal(results[0], results[1], N * sizeof *results[0]);
     free(results[0]);
@@ -403,28 +372,24 @@ TEST_GL(no_number_is_forgotten)
     fixture *f = *state;
     const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
     const shot s = first_shot(PERSPECTIVE);
-    glssao_effect *effect = fixture_effect(f, W, H);
-    glssao_frame frame = take(&s);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
+    SCOPED(frame) glssao_frame frame = take(&s);
     static float normals[N * 3], depth[N], motion[N * 2];
     for (int i = 0; i < N; ++i) {
         normals[3 * i] = normals[3 * i + 1] = normals[3 * i + 2] = i % 3 ? NAN : INFINITY;
         depth[i] = i % 5 == 0 ? NAN : i % 5 == 1 ? -INFINITY : 3.0f;
         motion[2 * i] = motion[2 * i + 1] = i % 2 ? NAN : 1e30f;
     }
-    glssao_frame broken = frame;
+    SCOPED(frame) glssao_frame broken = frame;
     broken.depth_kind = GLSSAO_DEPTH_VIEW_DISTANCE;
     broken.depth_texture = fixture_texture(GL_R32F, GL_RED, GL_FLOAT, W, H, depth);
     broken.normal_texture = fixture_normal_texture(W, H, normals);
     broken.motion_texture = fixture_texture(GL_RG32F, GL_RG, GL_FLOAT, W, H, motion);
     for (int i = 0; i < 3; ++i)
         compute(effect, i == 1 ? &broken : &frame, &settings);
-    float *result = read_result(effect);
+    SCOPED(memory) float *result = read_result(effect);
     for (int i = 0; i < N; ++i)
         assert_true(result[i] >= 0.0f && result[i] <= 1.0f);
-    free(result);
-    fixture_delete_frame(&broken);
-    fixture_delete_frame(&frame);
-    glssao_destroy(effect);
 }
 
 /* How far the result is from that of an effect that saw nothing else, in the mean over pixels that change by more than
@@ -432,9 +397,9 @@ TEST_GL(no_number_is_forgotten)
 static double left_over(fixture *f, glssao_quality quality, double from, double to, int frames)
 {
     const glssao_settings settings = make_settings(GLSSAO_HORIZON, quality, 16);
-    glssao_effect *effect = fixture_effect(f, W, H), *other = fixture_effect(f, W, H);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H), *other = fixture_effect(f, W, H);
     shot s = first_shot(PERSPECTIVE);
-    float *before = NULL, *last = NULL, *never = NULL;
+    SCOPED(memory) float *before = NULL, *last = NULL, *never = NULL;
     for (int i = 0; i < FRAMES + frames; ++i) {
         s.box_x = i < FRAMES ? from : to;
         float **to_keep = i < FRAMES ? &before : &last;
@@ -453,11 +418,6 @@ static double left_over(fixture *f, glssao_quality quality, double from, double 
             changed += 1;
         }
     assert_true(changed > 10);
-    free(before);
-    free(last);
-    free(never);
-    glssao_destroy(effect);
-    glssao_destroy(other);
     print_message("%d frames after: off by %.4f\n", frames, sum / changed);
     return sum / changed;
 }
@@ -482,7 +442,7 @@ TEST_GL(dispatches_do_as_draws)
     for (int k = 0; k < 2; ++k) {
         glssao_config config = fixture_config(f, W, H);
         config.path = k ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT;
-        glssao_effect *effect;
+        SCOPED(effect) glssao_effect *effect = NULL;
         const glssao_result made = glssao_create(&config, &effect);
         if (made == GLSSAO_UNSUPPORTED_CONTEXT) {
             fixture_clear_log(f);
@@ -494,7 +454,6 @@ TEST_GL(dispatches_do_as_draws)
             free(results[k]);
             results[k] = shoot(effect, &s, &settings);
         }
-        glssao_destroy(effect);
     }
     if (results[1])
         assert_true(rms(results[0], results[1], N) < 5e-4);
@@ -512,14 +471,14 @@ TEST_GL(motion_texture_keeps_the_history_of_what_moves)
     const double step = 3.0;
     double errors[2] = {0.0, 0.0};
     for (int with = 0; with < 2; ++with) {
-        glssao_effect *effect = fixture_effect(f, W, H);
+        SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
         shot s = first_shot(ORTHOGRAPHIC);
         const analytic_view view = analytic_make_view(ORTHOGRAPHIC, (double)W / H, 0.5, 40.0, 1.0);
         const double pixel = 2.0 / (W * (double)view.projection[0]);
         static float motion[2 * N];
         for (int i = 0; i < N; ++i)
             motion[2 * i] = (float)(-step / W);
-        const GLuint texture = fixture_texture(GL_RG32F, GL_RG, GL_FLOAT, W, H, motion);
+        SCOPED(texture) const GLuint texture = fixture_texture(GL_RG32F, GL_RG, GL_FLOAT, W, H, motion);
         float *last = NULL;
         for (int i = 0; i < FRAMES; ++i) {
             s.x = step * pixel * i;
@@ -532,12 +491,9 @@ TEST_GL(motion_texture_keeps_the_history_of_what_moves)
             free(last);
             last = read_result(effect);
         }
-        float *floor_map = make_floor(f, &s, &settings);
+        SCOPED(memory) float *floor_map = make_floor(f, &s, &settings);
         errors[with] = rms(last, floor_map, N);
         free(last);
-        free(floor_map);
-        gl.DeleteTextures(1, &texture);
-        glssao_destroy(effect);
     }
     assert_true(errors[1] < 0.85 * errors[0]);
 }
@@ -632,7 +588,7 @@ TEST_GL(means_of_rays_converge)
             glssao_settings settings = make_settings(alone ? GLSSAO_RAYS : GLSSAO_HORIZON, GLSSAO_MEDIUM, 16);
             settings.half_resolution = half;
             settings.power = 2.0f;
-            glssao_effect *effect = fixture_effect(f, W, H);
+            SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
             double errors[2];
             float *result = NULL;
             for (int i = 0; i < FRAMES; ++i) {
@@ -650,7 +606,6 @@ TEST_GL(means_of_rays_converge)
                           half ? "half size" : "full size", errors[0], errors[1]);
             assert_true(errors[1] < 0.7 * errors[0]);
             free(result);
-            glssao_destroy(effect);
         }
 }
 
@@ -665,7 +620,7 @@ TEST_GL(every_technique_size_and_margin_runs)
             s.margin = k & 4 ? 8 : 0;
             glssao_settings settings = make_settings((glssao_technique)t, GLSSAO_MEDIUM, 8);
             settings.half_resolution = true;
-            glssao_effect *effect = fixture_effect(f, s.width, s.height);
+            SCOPED(effect) glssao_effect *effect = fixture_effect(f, s.width, s.height);
             for (int i = 0; i < 6; ++i) {
                 s.x = 0.1 * i;
                 free(shoot(effect, &s, &settings));
@@ -678,7 +633,6 @@ TEST_GL(every_technique_size_and_margin_runs)
             (void)glssao_map(effect, GLSSAO_MAP_AMBIENT, &width, &height);
             assert_int_equal(width, s.width - 2 * s.margin);
             assert_int_equal(height, s.height - 2 * s.margin);
-            glssao_destroy(effect);
         }
 }
 
@@ -688,8 +642,8 @@ TEST_GL(bad_views_are_refused_by_name)
     fixture *f = *state;
     const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
     const shot s = first_shot(PERSPECTIVE);
-    glssao_effect *effect = fixture_effect(f, W, H);
-    glssao_frame frame = take(&s);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
+    SCOPED(frame) glssao_frame frame = take(&s);
     frame.view[5] = NAN;
     fixture_refused(f, glssao_compute(effect, &frame, &settings), "frame.view[5]");
     memset(frame.view, 0, sizeof frame.view);
@@ -707,8 +661,6 @@ TEST_GL(bad_views_are_refused_by_name)
     plain.history = 64;
     fixture_refused(f, glssao_compute(effect, &frame, &plain), "settings.history = 64");
     frame.motion_texture = 0;
-    fixture_delete_frame(&frame);
-    glssao_destroy(effect);
 }
 
 TEST_MAIN(NULL, fixture_setup, fixture_teardown)

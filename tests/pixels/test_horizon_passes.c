@@ -36,7 +36,7 @@ static void set_up(setup *s, fixture *f, analytic_projection projection, int bit
     analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, width, height, &s->depth, &s->normals);
     for (int i = 0; bits == 16 && i < width * height; ++i)
         s->depth[i] = roundf(s->depth[i] * 65535.0f) / 65535.0f;
-    s->effect = fixture_effect(f, width, height);
+    s->effect = fixture_drawn_effect(f, width, height);
     s->frame = fixture_maps_frame(&view, width, height, bits == 16 ? GL_DEPTH_COMPONENT16 : GL_DEPTH_COMPONENT32F,
                                   s->depth, s->normals);
     s->orthographic = view.projection[11] == 0.0f;
@@ -45,7 +45,7 @@ static void set_up(setup *s, fixture *f, analytic_projection projection, int bit
     s->settings.blur_rounds = 1;
     s->settings.radius = 0.8f;
     horizon_read_pass_constants(&s->blur, &s->upsample);
-    s->blur.wide_alike /= s->settings.sample_count;
+    s->blur.wide_alike /= sqrt(s->settings.sample_count);
     pass_constants *in_radius[] = {&s->blur, &s->upsample};
     for (int i = 0; i < 2; ++i) {
         in_radius[i]->tolerance *= (double)s->settings.radius;

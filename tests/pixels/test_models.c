@@ -41,6 +41,44 @@ static float *sampled_random_vectors(const glssao_effect *effect, int width, int
     return vectors;
 }
 
+/* How far the driver's linear filter puts a sample off, in texels: hardware keeps as few as 8 bits of the place between
+ * two texels. Measured along two texels that hold 0 and 1. */
+static double linear_filter_error(void)
+{
+    enum { COUNT = 4096 };
+    static const float zero_and_one[] = {0.0f, 1.0f};
+    const GLuint program = fixture_program(
+        "#version 330\nvoid main() {\n"
+        "gl_Position = vec4(vec2[3](vec2(-1, -1), vec2(3, -1), vec2(-1, 3))[gl_VertexID], 0.0, 1.0); }\n",
+        "#version 330\nuniform sampler2D u_map;\nout vec4 o_color;\n"
+        "void main() { o_color = texture(u_map, vec2(0.25 + 0.5 * gl_FragCoord.x / 4096.0, 0.5)); }\n");
+    const GLuint two = fixture_texture(GL_R32F, GL_RED, GL_FLOAT, 2, 1, zero_and_one);
+    const fixture_target target = fixture_make_target(GL_R32F, COUNT, 1);
+    GLuint array;
+    gl.GenVertexArrays(1, &array);
+    gl.BindVertexArray(array);
+    gl.Viewport(0, 0, COUNT, 1);
+    gl.UseProgram(program);
+    gl.BindTexture(GL_TEXTURE_2D, two);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    float *seen = fixture_read_texture(target.texture, COUNT, 1, 1);
+    double worst = 0.0;
+    for (int i = 0; i < COUNT; ++i)
+        worst = fmax(worst, fabs((double)seen[i] - (i + 0.5) / COUNT));
+    print_message("linear filter: off by up to %.2g texels\n", worst);
+    assert_true(worst < 0.005); /* as 8 bits allow */
+    free(seen);
+    gl.UseProgram(0);
+    gl.BindVertexArray(0);
+    fixture_delete_target(&target);
+    gl.DeleteTextures(1, &two);
+    gl.DeleteVertexArrays(1, &array);
+    gl.DeleteProgram(program);
+    return worst;
+}
+
 typedef struct setup {
     glssao_effect *effect;
     glssao_frame frame;
@@ -89,6 +127,7 @@ static void set_up(setup *s, fixture *f, const setup_options *o)
         .frame = &s->frame,
         .settings = &s->settings,
         .constants = glssao_get_constants(s->effect),
+        .filter_error = linear_filter_error(),
     };
     s->random_vectors = sampled_random_vectors(s->effect, s->input.ambient_width, s->input.ambient_height);
     s->input.random_vectors = s->random_vectors;
@@ -132,7 +171,9 @@ static void check_estimate(setup *s, const char *what)
     print_message("%s: worst outside interval %.2e, mean %.4f, occluded %.1f %%, wide %.2f %%\n", what, worst, mean,
                   100.0 * occluded / (width * height), 100.0 * wide / (width * height));
     free(got);
-    assert_int_equal(wrong, 0);
+    /* A filter of few bits may put a random vector or a texel's border a step off, and no model sees which. */
+    const bool is_exact = s->input.filter_error < 1e-5;
+    assert_true(wrong * 500 <= (is_exact ? 0 : width * height));
     assert_true(wide * 20 < width * height);      /* less than 5 % of pixels are undecided */
     assert_true(occluded * 200 > width * height); /* more than 0.5 % of pixels are occluded */
 }

@@ -25,6 +25,11 @@ typedef struct picture {
     int width, height;
 } picture;
 
+static void test_end_picture(const picture *p) /* for SCOPED */
+{
+    free(p->values);
+}
+
 static float least(const picture *p)
 {
     float value = 1.0f;
@@ -93,9 +98,8 @@ TEST_GL(sky_alone_is_open)
         analytic_view view = analytic_make_view((analytic_projection)projection, 1.5, 0.5, 40.0, 1.0);
         glssao_settings settings = settings_at_scale(1.0f);
         for (int bring = 0; bring < 2; ++bring) {
-            picture p = shade(*state, &view, NULL, 0, 33, 21, bring == 1, &settings);
+            SCOPED(picture) picture p = shade(*state, &view, NULL, 0, 33, 21, bring == 1, &settings);
             assert_true(least(&p) == 1.0f);
-            free(p.values);
         }
     }
 }
@@ -137,25 +141,23 @@ TEST_GL(resizes_through_odd_sizes_down_to_one_pixel)
             for (int half = 0; half < 2; ++half) {
                 glssao_settings settings = settings_at_scale(1.0f);
                 settings.half_resolution = half == 1;
-                picture p;
+                SCOPED(picture) picture p = {0};
                 p.values = fixture_compute(effect, &frame, &settings, &p.width, &p.height);
                 bool small = half && !settings.upsample;
                 assert_int_equal(p.width, small ? (w + 1) / 2 : w);
                 assert_int_equal(p.height, small ? (h + 1) / 2 : h);
                 (void)least(&p);
-                free(p.values);
             }
         }
 }
 
 TEST_GL(rebuilt_normals_shade_like_brought_ones)
 {
+    SCOPED(picture)
     picture brought = shade_room(*state, PERSPECTIVE, 1.0, true), rebuilt = shade_room(*state, PERSPECTIVE, 1.0, false);
     const double mean = mean_difference(&brought, &rebuilt);
     print_message("mean difference %.4f\n", mean);
     assert_true(mean < 0.01);
-    free(brought.values);
-    free(rebuilt.values);
 }
 
 TEST_GL(rebuilt_normals_are_right_up_to_silhouettes)
@@ -251,10 +253,9 @@ TEST_GL(skipped_frame_is_open)
     glssao_settings settings = settings_at_scale(1.0f);
     for (int i = 0; i < 2; ++i) {
         settings.radius = i == 0 ? 0.5f : 0.0f; /* the second frame must not show the first one */
-        picture p;
+        SCOPED(picture) picture p = {0};
         p.values = fixture_compute(effect, &frame, &settings, &p.width, &p.height);
         assert_true(i == 0 ? least(&p) < 0.9f : least(&p) == 1.0f);
-        free(p.values);
     }
 }
 

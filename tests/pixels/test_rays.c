@@ -27,7 +27,7 @@ static void set_up(setup *s, fixture *f, analytic_projection projection, const a
     float *normals;
     *s = (setup){.width = width, .height = height};
     analytic_render(&view, shapes, shape_count, width, height, &s->depth, &normals);
-    s->effect = fixture_effect(f, width, height);
+    s->effect = fixture_drawn_effect(f, width, height);
     s->frame = fixture_maps_frame(&view, width, height, GL_DEPTH_COMPONENT32F, s->depth, normals);
     s->sky = view.clip_zero_to_one ? 0.0f : 1.0f;
     s->settings = glssao_default_settings(GLSSAO_RAYS, GLSSAO_HIGH);
@@ -409,6 +409,82 @@ TEST_GL(corrections_reach_open_tiles)
         free(results[0]);
         free(results[1]);
         s.settings.upsample = false;
+    }
+    tear_down(&s);
+}
+
+/* Rays of which all are open but a few in some tiles, near their middles or borders, and some are missing. Returns for
+ * each tile of 16 x 16 pixels of the estimate whether one of its rays is blocked. */
+static bool *bring_few_blocked(setup *s, bool half, int factor, int out_tiles[2])
+{
+    const int width = half ? (s->width + 1) / 2 : s->width, height = half ? (s->height + 1) / 2 : s->height;
+    const int step = half ? 1 : factor, pixels = 16 * (half ? 1 : factor);
+    float *values = malloc((size_t)(width * height) * sizeof *values);
+    out_tiles[0] = (width + pixels - 1) / pixels;
+    out_tiles[1] = (height + pixels - 1) / pixels;
+    bool *blocked = calloc((size_t)(out_tiles[0] * out_tiles[1]), sizeof *blocked);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const int tile = y / pixels * out_tiles[0] + x / pixels, dx = x - (30 + 97 * (x / 97)), dy = y - 37;
+            float *value = &values[y * width + x];
+            *value = (x * 7 + y * 5) % 11 == 0 ? -1.0f : 1.0f;
+            if (dx * dx + dy * dy < 10)
+                *value = 0.25f * (float)((x + y) % 4);
+            if (*value >= 0.0f && *value < 1.0f && x % step == 0 && y % step == 0)
+                blocked[tile] = true;
+        }
+    bring(s, GL_R32F, half, values);
+    free(values);
+    return blocked;
+}
+
+/* Alone, tiles are drawn exactly where a ray is blocked and as far as the blur carries it. */
+static void check_drawn_tiles(const setup *s, const bool *blocked, const int tiles[2])
+{
+    int width, height, open = 0;
+    const uint32_t map = glssao_map(s->effect, GLSSAO_MAP_TILES, &width, &height);
+    float *rings = fixture_read_texture(map, width, height, 1);
+    assert_true(width == tiles[0] && height == tiles[1]);
+    for (int i = 0; i < width * height; ++i) {
+        assert_true((rings[i] == 0.0f) == blocked[i]);
+        open += rings[i] * 16.0f > 2.5f;
+    }
+    assert_true(open > 0);
+    free(rings);
+}
+
+/* Leaving out tiles whose rays are open, and whose estimate is where they correct one, changes no pixel. */
+TEST_GL(tiles_of_open_rays_are_left_out)
+{
+    setup s;
+    set_up_room(&s, *state, PERSPECTIVE, 449, 322);
+    for (int i = 0; i < 12; ++i) {
+        const glssao_technique technique = i % 4 < 2 ? GLSSAO_RAYS : i % 4 == 2 ? GLSSAO_HORIZON : GLSSAO_CLASSIC;
+        const int factor = i % 3 == 0 ? 1 : 2;
+        int tiles[2], counts[2];
+        float *results[2];
+        s.settings = glssao_default_settings(technique, GLSSAO_HIGH);
+        s.settings.radius = 0.2f;
+        s.settings.half_resolution = factor == 2;
+        s.settings.upsample = i % 3 == 1;
+        s.settings.blur_rounds = i == 4 ? 0 : 1 + i / 4; /* 1 to 3 */
+        s.settings.power = i == 7 ? 2.0f : 1.0f;
+        s.frame.margin = i >= 10 ? 16 : 0;
+        bool *blocked = bring_few_blocked(&s, factor == 2 && i % 2 == 0, factor, tiles);
+        for (int on = 0; on < 2; ++on) {
+            s.settings.tiles = on ? GLSSAO_TILES_ON : GLSSAO_TILES_OFF;
+            results[on] = compute(&s, &counts[on]);
+        }
+        if (technique == GLSSAO_RAYS)
+            check_drawn_tiles(&s, blocked, tiles);
+        assert_int_equal(counts[0], counts[1]);
+        for (int k = 0; k < counts[0]; ++k)
+            if (!(fabsf(results[0][k] - results[1][k]) <= 1.01f / 65535.0f))
+                fail_msg("case %d: pixel %d is %g with tiles, %g without", i, k, (double)results[1][k],
+                         (double)results[0][k]);
+        free(blocked);
+        free(results[0]);
+        free(results[1]);
     }
     tear_down(&s);
 }

@@ -157,7 +157,7 @@ size="-s 65x37"
     want 2 "--debug-map" --debug-map ao --no-ao -o b.png
     want 2 "--debug-map" --debug-map ao --ao b.png
     want 2 "bent-normals=on" --debug-map bent -o b.png
-    for options in "-t classic" "--rays 2" "--set bent-normals=off" "--history 4 --frames 2"; do
+    for options in "-t classic" "--set bent-normals=off" "--history 4 --frames 2"; do
         want 2 "--bent-normals: needs -t horizon" --bent-normals -o b.png $options
     done
     want 2 "--no-ao and --bent-normals" --bent-normals --no-ao -o b.png

@@ -154,3 +154,8 @@ picture subject_shade(fixture *f, int width, int height, const glssao_frame *fra
 {
     return subject_shade_by(f, fixture_shared_effect(f, width, height), frame, settings);
 }
+
+void test_end_picture(const picture *p)
+{
+    free(p->values);
+}

@@ -50,6 +50,9 @@ typedef struct picture {
 
 subject subject_of(const analytic_view *view, const analytic_shape *shapes, int count, int width, int height);
 void subject_free(subject *s);
+/* For SCOPED. */
+#define test_end_subject subject_free
+void test_end_picture(const picture *p);
 
 /* Textures of the subject. fixture_delete_frame deletes them. */
 glssao_frame subject_frame(const subject *s, depth_store depth, normal_store normal);

@@ -146,7 +146,8 @@ TEST_GL(viewports_are_crops)
         glssao_frame plain = subject_frame(&s, (depth_store)depth, NORMAL_32F);
         glssao_frame other = subject_frame(&large, (depth_store)depth, NORMAL_32F);
         memcpy(other.viewport, (const int[4]){X, Y, W, H}, sizeof other.viewport);
-        assert_same(*state, &plain, &other, 0.0);
+        assert_same(*state, &plain, &other,
+                    1e-4); /* a copy holds floats, which hardware filters otherwise than DEPTH24 */
         fixture_delete_frame(&plain);
         fixture_delete_frame(&other);
     }

@@ -101,9 +101,8 @@ static glssao_frame room_frame(analytic_projection kind, int width, int height, 
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     analytic_room(room, 1.0);
     const analytic_view view = analytic_make_view(kind, (double)width / height, 0.5, 40.0, 1.0);
-    subject s = subject_of(&view, room, ANALYTIC_ROOM_SHAPES, width, height);
+    SCOPED(subject) subject s = subject_of(&view, room, ANALYTIC_ROOM_SHAPES, width, height);
     const glssao_frame frame = subject_frame(&s, depth, normal);
-    subject_free(&s);
     return frame;
 }
 
@@ -218,7 +217,7 @@ TEST_WITH(margins_layers_and_viewports_agree, end_ways)
 {
     const analytic_shape wall[] = {{ANALYTIC_PLANE, {0.0, 0.0, -9.0}, {0.0, 0.0, 1.0}}};
     const analytic_view view = analytic_make_view(PERSPECTIVE, 90.0 / 70.0, 0.5, 40.0, 1.0);
-    subject behind = subject_of(&view, wall, 1, 90, 70);
+    SCOPED(subject) subject behind = subject_of(&view, wall, 1, 90, 70);
     SCOPED(frame) glssao_frame second = subject_frame(&behind, DEPTH_32F, NORMAL_NONE);
     SCOPED(frame) glssao_frame frame = room_frame(PERSPECTIVE, 90, 70, DEPTH_32F, NORMAL_32F);
     for (int i = 0; i < 8; ++i) {
@@ -239,7 +238,6 @@ TEST_WITH(margins_layers_and_viewports_agree, end_ways)
         memcpy(changed.viewport, (const int[4]){3, 5, 80, 60}, sizeof changed.viewport);
         assert_alike(*state, "viewport", 80, 60, &changed, &s);
     }
-    subject_free(&behind);
 }
 
 /* Rays alone and as a correction, at each size of rays and estimate. */
@@ -358,10 +356,9 @@ TEST_WITH(refused_compute_shaders_are_done_without, end_ways)
                                   : glssao_prepare(effect, &frame, &s),
                          GLSSAO_OK);
         assert_true(effect != NULL && glssao_plan_frame(effect, &frame, &s).path == GLSSAO_PATH_FRAGMENT);
-        picture p = subject_shade_by(f, effect, &frame, &s);
+        SCOPED(picture) picture p = subject_shade_by(f, effect, &frame, &s);
         assert_true(picture_least(&p) < 0.99);
         assert_string_equal(f->log, "");
-        free(p.values);
     }
     SCOPED(effect) glssao_effect *required = NULL;
     assert_int_equal(make(&h, GLSSAO_PATH_COMPUTE, 64, 48, &required), GLSSAO_OK);

@@ -50,6 +50,7 @@ static void assert_same(fixture *f, const glssao_frame *plain, const glssao_fram
         configuration c = configuration_of(numbers[i / PATHS]);
         c.settings = settings_scaled(&c.settings, 2.0);                    /* more occlusion */
         c.settings.tiles = i % PATHS ? GLSSAO_TILES_OFF : GLSSAO_TILES_ON; /* the bounds of tiles read distances too */
+        SCOPED(picture)
         picture a = subject_shade_by(f, effect, plain, &c.settings),
                 b = subject_shade_by(f, effect, other, &c.settings);
         assert_true(a.width == b.width && a.height == b.height && picture_mean(&a) < 0.999);
@@ -58,8 +59,6 @@ static void assert_same(fixture *f, const glssao_frame *plain, const glssao_fram
             apart += fabs((double)a.values[k] - (double)b.values[k]) / (a.width * a.height);
         if (apart > most)
             fail_msg("%s, %s, %s: %g apart", what, c.name, i % PATHS ? "dispatched" : "drawn", apart);
-        free(a.values);
-        free(b.values);
     }
 }
 
@@ -92,14 +91,13 @@ TEST_GL(turned_cameras_see_the_same)
     static const analytic_projection kinds[] = {PERSPECTIVE_OFF_CENTRE, ORTHOGRAPHIC};
     for (int i = 0; i < 4; ++i)
         for (int normals = 0; normals < 2; ++normals) {
-            subject s = room(kinds[i % 2]);
+            SCOPED(subject) subject s = room(kinds[i % 2]);
             SCOPED(frame)
             glssao_frame plain = subject_frame(&s, DEPTH_32F, normals ? NORMAL_32F : NORMAL_NONE), turned = {0};
             turn_frame(&s, degrees[i], normals ? NORMAL_32F : NORMAL_NONE, &turned);
             char what[32];
             snprintf(what, sizeof what, "%g degrees", degrees[i]);
             assert_same(*state, &plain, &turned, 5e-4, what);
-            subject_free(&s);
         }
 }
 
@@ -107,14 +105,13 @@ TEST_GL(turned_cameras_see_the_same)
 TEST_GL(rebuilt_normals_are_in_view_space)
 {
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
-    subject s = room(PERSPECTIVE);
+    SCOPED(subject) subject s = room(PERSPECTIVE);
     glssao_frame frames[2] = {subject_frame(&s, DEPTH_32F, NORMAL_NONE)};
     turn_frame(&s, 30.0, NORMAL_NONE, &frames[1]);
     float *maps[2];
     for (int i = 0; i < 2; ++i) {
-        picture p = subject_shade_by(*state, effects[0], &frames[i], &settings);
+        free(subject_shade_by(*state, effects[0], &frames[i], &settings).values);
         maps[i] = fixture_read_rebuilt(effects[0], W, H, 2);
-        free(p.values);
     }
     const double c = cos(PI / 6.0), n = sin(PI / 6.0);
     int off = 0, on_surfaces = 0;
@@ -131,7 +128,6 @@ TEST_GL(rebuilt_normals_are_in_view_space)
         free(maps[i]);
         fixture_delete_frame(&frames[i]);
     }
-    subject_free(&s);
 }
 
 /* ---- normals in world space ---- */
@@ -207,7 +203,7 @@ TEST_GL(views_are_checked_where_they_count)
 {
     fixture *f = *state;
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
-    subject s = room(PERSPECTIVE);
+    SCOPED(subject) subject s = room(PERSPECTIVE);
     SCOPED(frame) glssao_frame frame = subject_frame(&s, DEPTH_32F, NORMAL_32F);
     static const double flat[3] = {1.0, 0.0, 1.0}, plain[3] = {1.0, 1.0, 1.0};
     static const char *const wanted[] = {"frame.view is singular", "frame.view is singular", "frame.view[5] = nan",
@@ -225,7 +221,6 @@ TEST_GL(views_are_checked_where_they_count)
         frame.world_normals = false; /* not read */
         assert_int_equal(glssao_compute(effects[0], &frame, &settings), GLSSAO_OK);
     }
-    subject_free(&s);
 }
 
 /* ---- rounding ---- */
@@ -235,14 +230,13 @@ TEST_GL(residues_change_nothing)
     static const analytic_projection kinds[] = {PERSPECTIVE, PERSPECTIVE_INFINITE_REVERSED_ZERO_TO_ONE, ORTHOGRAPHIC};
     static const int entries[] = {1, 2, 3, 4, 6, 7};
     for (int i = 0; i < 3; ++i) {
-        subject s = room(kinds[i]);
+        SCOPED(subject) subject s = room(kinds[i]);
         glssao_frame plain = subject_frame(&s, DEPTH_32F, NORMAL_NONE), other = plain;
         for (int k = 0; k < 6; ++k) /* infinite reversed depth has a third row of 0, and so none of its own */
             if (i != 1 || entries[k] % 4 != 2)
                 other.projection[entries[k]] = (k % 2 ? -2.7e-8f : 2.7e-8f) * (i == 2 ? 0.01f : 1.0f);
         assert_same(*state, &plain, &other, 0.0, "residues");
         fixture_delete_frame(&plain);
-        subject_free(&s);
     }
 }
 
@@ -253,14 +247,13 @@ TEST_GL(eyes_behind_the_near_plane_see_the_same)
     static const double moves[] = {4.0, 60.0, -5000.0}; /* into the scene, behind it, far before it */
     for (int i = 0; i < 3; ++i)
         for (int reversed = 0; reversed < 2; ++reversed) {
-            subject s = room(reversed ? ORTHOGRAPHIC_REVERSED : ORTHOGRAPHIC);
+            SCOPED(subject) subject s = room(reversed ? ORTHOGRAPHIC_REVERSED : ORTHOGRAPHIC);
             glssao_frame plain = subject_frame(&s, DEPTH_32F, i == 1 ? NORMAL_NONE : NORMAL_32F), other = plain;
             other.projection[14] -= (float)moves[i] * other.projection[10];
             char what[48];
             snprintf(what, sizeof what, "an eye that is %g farther%s", moves[i], reversed ? ", reversed" : "");
             assert_same(*state, &plain, &other, 1e-3, what);
             fixture_delete_frame(&plain);
-            subject_free(&s);
         }
 }
 
@@ -269,18 +262,18 @@ TEST_GL(far_fades_follow_the_hosts_eye)
 {
     static const double moves[] = {2.0, -5000.0};
     for (int i = 0; i < 4; ++i) {
-        subject s = room(ORTHOGRAPHIC);
+        SCOPED(subject) subject s = room(ORTHOGRAPHIC);
         SCOPED(frame) glssao_frame frame = subject_frame(&s, DEPTH_32F, NORMAL_32F);
         glssao_settings settings = glssao_default_settings(i % 2 ? GLSSAO_HORIZON : GLSSAO_HEMISPHERE, GLSSAO_HIGH);
         settings.radius = 2.0f;
-        picture without = subject_shade_by(*state, effects[0], &frame, &settings);
+        SCOPED(picture) picture without = subject_shade_by(*state, effects[0], &frame, &settings);
         settings.fade_far_start = 5.0f;
         settings.fade_far_end = 9.0f;
-        picture plain = subject_shade_by(*state, effects[0], &frame, &settings);
+        SCOPED(picture) picture plain = subject_shade_by(*state, effects[0], &frame, &settings);
         frame.projection[14] -= (float)moves[i / 2] * frame.projection[10];
         settings.fade_far_start -= (float)moves[i / 2];
         settings.fade_far_end -= (float)moves[i / 2];
-        picture moved = subject_shade_by(*state, effects[0], &frame, &settings);
+        SCOPED(picture) picture moved = subject_shade_by(*state, effects[0], &frame, &settings);
         double apart = 0.0, faded = 0.0;
         for (int k = 0; k < W * H; ++k) {
             apart = fmax(apart, fabs((double)plain.values[k] - (double)moved.values[k]));
@@ -288,10 +281,6 @@ TEST_GL(far_fades_follow_the_hosts_eye)
         }
         if (!(faded > 0.05 && apart < 0.01))
             fail_msg("case %d: %g faded, %g apart", i, faded, apart);
-        free(without.values);
-        free(plain.values);
-        free(moved.values);
-        subject_free(&s);
     }
 }
 
@@ -328,12 +317,11 @@ TEST_GL(oblique_near_planes_change_nothing)
     static const double planes[][4] = {{0.0, 0.3, -0.9539, -1.0}, {0.4, -0.1, -0.9110, -1.2}};
     static const depth_store stores[] = {DEPTH_32F, DEPTH_24};
     for (int i = 0; i < 4; ++i) {
-        subject s = room(i < 2 ? PERSPECTIVE : PERSPECTIVE_OFF_CENTRE);
+        SCOPED(subject) subject s = room(i < 2 ? PERSPECTIVE : PERSPECTIVE_OFF_CENTRE);
         SCOPED(frame) glssao_frame plain = subject_frame(&s, DISTANCE_32F, i % 2 ? NORMAL_NONE : NORMAL_32F);
         make_oblique(&s, planes[i % 2], i == 3);
         SCOPED(frame) glssao_frame other = subject_frame(&s, stores[i / 2], i % 2 ? NORMAL_NONE : NORMAL_32F);
         assert_same(*state, &plain, &other, 2e-3, "an oblique near plane");
-        subject_free(&s);
     }
 }
 
@@ -345,7 +333,7 @@ TEST_GL(planes_stay_open)
     const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.1, 100.0, 1.0);
     const analytic_view box = analytic_make_view(ORTHOGRAPHIC, (double)W / H, 0.1, 100.0, 0.2);
     for (int i = 0; i < 3; ++i) {
-        subject s = subject_of(i == 1 ? &box : &view, &plane, 1, W, H);
+        SCOPED(subject) subject s = subject_of(i == 1 ? &box : &view, &plane, 1, W, H);
         if (i == 2)
             make_oblique(&s, near_plane, false);
         for (int normals = 0; normals < 2; ++normals) {
@@ -355,13 +343,11 @@ TEST_GL(planes_stay_open)
                 frame.projection[14] -= 10.0f * frame.projection[10]; /* the plane lies behind the eye */
             for (int number = 1; number < CONFIGURATIONS; number += 3) {
                 const configuration c = configuration_of(number);
-                picture p = subject_shade_by(*state, effects[0], &frame, &c.settings);
+                SCOPED(picture) picture p = subject_shade_by(*state, effects[0], &frame, &c.settings);
                 if (picture_least(&p) < 0.995)
                     fail_msg("case %d, %s: %g", i, c.name, picture_least(&p));
-                free(p.values);
             }
         }
-        subject_free(&s);
     }
 }
 
@@ -372,7 +358,7 @@ TEST_GL(doubts_are_told_once)
     fixture *f = *state;
     static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
-    subject s = room(PERSPECTIVE);
+    SCOPED(subject) subject s = room(PERSPECTIVE);
     glssao_frame frame = subject_frame(&s, DEPTH_32F, NORMAL_NONE), bad = frame;
     SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
     for (int i = 0; i < 2; ++i) {
@@ -391,7 +377,6 @@ TEST_GL(doubts_are_told_once)
     assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_OK);
     assert_string_equal(f->log, "");
     fixture_delete_frame(&frame);
-    subject_free(&s);
 }
 
 TEST_MAIN(NULL, setup, teardown)

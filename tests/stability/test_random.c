@@ -112,10 +112,9 @@ static void random_walk(fixture *f, uint64_t *s, const glssao_frame *start, cons
         frame.view[5] = frame.view[15] = 1.0f;
         for (int k = 0; k < 3; ++k)
             frame.view[12 + k] = (float)between(s, -far, far);
-        picture p = subject_shade(f, width, height, &frame, &with_history);
+        SCOPED(picture) picture p = subject_shade(f, width, height, &frame, &with_history);
         if (!picture_is_sound(&p))
             fail_msg("seed %llu, frame %d: not sound", (unsigned long long)seed, i);
-        free(p.values);
     }
 }
 
@@ -127,7 +126,7 @@ static void random_case(fixture *f, uint64_t seed)
     const analytic_view view = random_view(&s, width, height, scale);
     analytic_shape shapes[ANALYTIC_ROOM_SHAPES];
     const int count = random_shapes(&s, shapes, scale);
-    subject seen = subject_of(&view, shapes, count, width, height);
+    SCOPED(subject) subject seen = subject_of(&view, shapes, count, width, height);
     const size_t texels = (size_t)width * (size_t)height;
     if (below(&s, 4) == 0)
         spoil(&s, seen.depth, texels, true);
@@ -151,7 +150,6 @@ static void random_case(fixture *f, uint64_t seed)
     free(again.values);
     if (below(&s, 3) == 0)
         random_walk(f, &s, &frame, &settings, width, height, scale, seed);
-    subject_free(&seen);
 }
 
 TEST_GL(random_cases)

@@ -40,6 +40,9 @@ typedef struct apply_target {
 
 apply_target apply_make_target(GLenum format, int width, int height);
 void apply_delete_target(apply_target *t);
+/* For SCOPED. */
+#define test_end_room apply_close_room
+#define test_end_applied apply_delete_target
 void apply_clear(const apply_target *t);
 /* What the texels hold, without decoding sRGB. The caller frees. */
 float *apply_read_target(const apply_target *t);

@@ -33,6 +33,7 @@ frame frame_draw_with(const small_scene *s, const scene_view *view, const scene_
 /* The same by a renderer that the caller keeps. */
 frame frame_draw_by(scene_renderer *r, const scene_view *view, const scene_lighting *lighting, unsigned ambient_map);
 void frame_free(frame *f);
+#define test_end_drawn frame_free /* for SCOPED */
 
 /* Whether the pre-pass drew that pixel; the number of pixels it drew. */
 bool frame_is_drawn(const frame *f, int pixel);

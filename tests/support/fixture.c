@@ -77,6 +77,12 @@ bool fixture_hides_newer(void)
     return wanted && strcmp(wanted, "3.3") == 0;
 }
 
+bool fixture_is_software(void)
+{
+    const char *renderer = (const char *)gl.GetString(GL_RENDERER);
+    return renderer && (strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe"));
+}
+
 void *fixture_load(const char *name, void *user)
 {
     return fixture_hides_newer() && !fixture_is_of_3_3(name) ? NULL : context_load(name, user);
@@ -98,6 +104,13 @@ glssao_config fixture_config(fixture *f, int width, int height)
 glssao_effect *fixture_effect(fixture *f, int width, int height)
 {
     const glssao_config config = fixture_config(f, width, height);
+    return fixture_effect_of(f, &config);
+}
+
+glssao_effect *fixture_drawn_effect(fixture *f, int width, int height)
+{
+    glssao_config config = fixture_config(f, width, height);
+    config.path = GLSSAO_PATH_FRAGMENT;
     return fixture_effect_of(f, &config);
 }
 

@@ -33,12 +33,16 @@ void fixture_log(glssao_log_level level, const char *message, void *user);
 bool fixture_is_of_3_3(const char *name);
 /* GLSSAO_TEST_LOADER=3.3: fixture_load finds no newer function, so no effect dispatches. */
 bool fixture_hides_newer(void);
+/* Whether the processor rasterises, which is as exact as IEEE 754. */
+bool fixture_is_software(void);
 /* The loader for code under test; `user` is the context. */
 void *fixture_load(const char *name, void *user);
 
 /* A config for the fixture's context that keeps the log. */
 glssao_config fixture_config(fixture *f, int width, int height);
 glssao_effect *fixture_effect(fixture *f, int width, int height);
+/* One that draws every pass also on a GPU: for tests that look between passes, which one dispatch may join. */
+glssao_effect *fixture_drawn_effect(fixture *f, int width, int height);
 glssao_effect *fixture_effect_of(fixture *f, const glssao_config *config);
 /* The group's own effect, resized to this size. Its shaders compile once; the teardown destroys it. */
 glssao_effect *fixture_shared_effect(fixture *f, int width, int height);

@@ -202,7 +202,7 @@ enum { ON_ROW, ON_COLUMN, JOINS_AROUND, WIDE_TESTS = JOINS_AROUND + 4 };
 /* The fifth tap is the pixel's own; opposite pairs are 0 and 1, 2 and 3. */
 typedef struct cross {
     texel taps[5];
-    double alike; /* difference from which on a tap counts no more */
+    double alike; /* difference from which on taps count no more */
 } cross;
 
 static double blurred_wide(const truth *t, const void *user)
@@ -212,7 +212,8 @@ static double blurred_wide(const truth *t, const void *user)
     double sum = taps[4].value / 4.0, total = 1.0 / 4.0;
     for (int i = 0; i < 4; ++i)
         if (t[i < 2 ? ON_ROW : ON_COLUMN] && t[JOINS_AROUND + i]) {
-            const double apart = (taps[i].value - taps[4].value) / c->alike;
+            const int opposite = t[JOINS_AROUND + (i ^ 1)] ? i ^ 1 : i;
+            const double apart = ((taps[i].value + taps[opposite].value) / 2.0 - taps[4].value) / c->alike;
             const double weight = 3.0 / 16.0 * fmax(1.0 - apart * apart, 0.0);
             sum += weight * taps[i].value;
             total += weight;

@@ -17,7 +17,7 @@ typedef struct paired_map {
 typedef struct pass_constants {
     double tolerance, near, hollow; /* scene units; used by the last of the later blur rounds only */
     double alone;                   /* accessibility that a pixel without taps may be darker by than its neighbours */
-    double wide_alike;              /* values that differ by so much do not count in a later round */
+    double wide_alike;              /* taps that differ by so much do not count in a later round */
     double chord;                   /* between two unit normals on different sides of a crease */
     double normal_step;
     int apart;            /* pixels between neighbours of the first round; 0: 1 */

@@ -100,14 +100,26 @@ static int texel_of(int pixel, int ambient_size, int full_size)
     return (int)floor((pixel + 0.5) / ambient_size * full_size - 0.25);
 }
 
-/* How much nearer and farther a distance read at uv may come out in float arithmetic, if uv is off by 2^-22 of the map,
- * depth by 3 steps of 2^-24, and distance by 4. */
+/* A place, those `off` beside it, and the texel's centre if it is as near: there a linear filter's slope changes. */
+static void places_within(double place, double off, int size, double out_places[4])
+{
+    const double center = (floor(place * size) + 0.5) / size;
+    out_places[0] = place;
+    out_places[1] = place - off;
+    out_places[2] = place + off;
+    out_places[3] = fabs(center - place) < off ? center : place;
+}
+
+/* How much nearer and farther a distance read at uv may come out, if uv is off by 2^-22 of the map or by the error of
+ * the driver's filter, depth by 3 steps of 2^-24, and distance by 4. */
 static void distance_errors(const model_input *in, double u, double v, double *out_nearer, double *out_farther)
 {
     double distance = distance_from_depth(in, depth_at(in, u, v)), low = distance, high = distance;
-    for (int i = 0; i < 4; ++i) {
-        double du = i % 2 ? 0x1p-22 : -0x1p-22, dv = i / 2 ? 0x1p-22 : -0x1p-22;
-        double seen = depth_at(in, u + du, v + dv), step = 3.0 * 0x1p-24 * fmax(1.0, fabs(seen));
+    double us[4], vs[4];
+    places_within(u, fmax(0x1p-22, in->filter_error / in->width), in->width, us);
+    places_within(v, fmax(0x1p-22, in->filter_error / in->height), in->height, vs);
+    for (int i = 0; i < 16; ++i) {
+        double seen = depth_at(in, us[i % 4], vs[i / 4]), step = 3.0 * 0x1p-24 * fmax(1.0, fabs(seen));
         for (int k = -1; k <= 1; k += 2) {
             double depth = seen + k * step;
             if (in->frame->depth_kind == GLSSAO_DEPTH_WINDOW)

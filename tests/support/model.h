@@ -20,6 +20,7 @@ typedef struct model_input {
     const glssao_frame *frame;
     const glssao_settings *settings;
     const glssao_constants *constants;
+    double filter_error;         /* how far the driver's linear filter puts a sample off, in texels */
     const float *depth_step;     /* step of the depth format at distance t: coefficients of 1, t, t^2 */
     const float (*kernel)[4];    /* hemisphere: sample positions about +z */
     const float (*rotations)[4]; /* hemisphere: the 4x4 tile, row by row from the bottom */

@@ -17,6 +17,7 @@ typedef struct guest {
 
 guest guest_open(fixture *f, glssao_path path);
 void guest_close(guest *g);
+#define test_end_guest guest_close /* for SCOPED */
 
 /* As fixture_setup, with a context of the compatibility profile. */
 int guest_setup_compatibility(void **state);

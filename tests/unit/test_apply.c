@@ -96,7 +96,7 @@ static void check_picture(const apply_room *r, const glssao_apply_options *o, co
 TEST_GL(each_option_follows_its_formula)
 {
     for (int path = GLSSAO_PATH_FRAGMENT; path <= apply_last_path(); ++path) {
-        apply_room r = apply_open_room(*state, (glssao_path)path);
+        SCOPED(room) apply_room r = apply_open_room(*state, (glssao_path)path);
         glssao_apply_options options[8];
         for (int i = 0; i < 8; ++i)
             options[i] = glssao_default_apply_options();
@@ -113,7 +113,7 @@ TEST_GL(each_option_follows_its_formula)
         memcpy(options[7].rectangle, (const int[4]){0, 0, W, H}, sizeof options[7].rectangle);
         for (int k = 0; k < FORMATS; ++k)
             for (int i = 0; i < 8; ++i) {
-                apply_target t = apply_make_target(formats[k].format, W, H);
+                SCOPED(applied) apply_target t = apply_make_target(formats[k].format, W, H);
                 char what[64];
                 snprintf(what, sizeof what, "path %d, options %d", path, i);
                 options[i].framebuffer = t.framebuffer;
@@ -125,10 +125,8 @@ TEST_GL(each_option_follows_its_formula)
                 SCOPED(memory) float *got = apply_read_target(&t);
                 /* GL_FRAMEBUFFER_SRGB is off: what is stored is multiplied, and was cleared so. */
                 check_picture(&r, &options[i], &formats[k], true, got, what);
-                apply_delete_target(&t);
             }
         assert_string_equal(r.f->log, "");
-        apply_close_room(&r);
     }
 }
 
@@ -136,12 +134,12 @@ TEST_GL(each_option_follows_its_formula)
 TEST_GL(sRGB_framebuffers_multiply_light_while_the_host_has_them_on)
 {
     for (int path = GLSSAO_PATH_FRAGMENT; path <= apply_last_path(); ++path) {
-        apply_room r = apply_open_room(*state, (glssao_path)path);
+        SCOPED(room) apply_room r = apply_open_room(*state, (glssao_path)path);
         glssao_apply_options options = glssao_default_apply_options();
         memcpy(options.color, (const float[3]){0.0f, 0.25f, 0.5f}, sizeof options.color);
         for (int i = 0; i < 2; ++i) {
             gl.Enable(GL_FRAMEBUFFER_SRGB);
-            apply_target t = apply_make_target(GL_SRGB8_ALPHA8, W, H);
+            SCOPED(applied) apply_target t = apply_make_target(GL_SRGB8_ALPHA8, W, H);
             options.framebuffer = t.framebuffer;
             if (i == 0)
                 memset(options.color, 0, sizeof options.color);
@@ -152,9 +150,7 @@ TEST_GL(sRGB_framebuffers_multiply_light_while_the_host_has_them_on)
             gl.Disable(GL_FRAMEBUFFER_SRGB);
             SCOPED(memory) float *got = apply_read_target(&t);
             check_picture(&r, &options, &formats[FORMATS - 1], false, got, "sRGB on");
-            apply_delete_target(&t);
         }
-        apply_close_room(&r);
     }
 }
 
@@ -172,8 +168,8 @@ TEST_GL(bounces_brighten_with_albedo)
 TEST_GL(show_replaces_the_picture)
 {
     for (int path = GLSSAO_PATH_FRAGMENT; path <= apply_last_path(); ++path) {
-        apply_room r = apply_open_room(*state, (glssao_path)path);
-        apply_target t = apply_make_target(GL_RGBA32F, W, H);
+        SCOPED(room) apply_room r = apply_open_room(*state, (glssao_path)path);
+        SCOPED(applied) apply_target t = apply_make_target(GL_RGBA32F, W, H);
         glssao_apply_options options = glssao_default_apply_options();
         options.framebuffer = t.framebuffer;
         options.show = true;
@@ -185,16 +181,14 @@ TEST_GL(show_replaces_the_picture)
                 assert_float_equal(got[4 * i + k], r.access[i], 1e-5f);
             assert_float_equal(got[4 * i + 3], apply_before[3], 0.0f);
         }
-        apply_delete_target(&t);
-        apply_close_room(&r);
     }
 }
 
 /* A strength texture with another swizzle and base level reads as if it had none, and keeps both. */
 TEST_GL(parameters_of_the_strength_texture_are_lent)
 {
-    apply_room r = apply_open_room(*state, GLSSAO_PATH_FRAGMENT);
-    apply_target t = apply_make_target(GL_RGBA32F, W, H);
+    SCOPED(room) apply_room r = apply_open_room(*state, GLSSAO_PATH_FRAGMENT);
+    SCOPED(applied) apply_target t = apply_make_target(GL_RGBA32F, W, H);
     PFNGLGETTEXPARAMETERIVPROC get;
     guest_load(r.f, "glGetTexParameteriv", &get);
     gl.BindTexture(GL_TEXTURE_2D, r.strength);
@@ -213,8 +207,6 @@ TEST_GL(parameters_of_the_strength_texture_are_lent)
     get(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, &base);
     gl.BindTexture(GL_TEXTURE_2D, 0);
     assert_true(red == GL_ZERO && base == 3);
-    apply_delete_target(&t);
-    apply_close_room(&r);
 }
 
 /* ---- pictures that a compute shader can't write are drawn ---- */

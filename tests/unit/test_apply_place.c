@@ -85,6 +85,7 @@ TEST_GL(four_views_in_one_framebuffer)
             strengths[i] = (float)(i % 13) / 12.0f;
         SCOPED(texture) const GLuint atlas = fixture_depth_texture(GL_DEPTH_COMPONENT32F, 2 * W, 2 * H, depth);
         SCOPED(texture) const GLuint strength = apply_make_texture(GL_R32F, 2 * W, 2 * H, GL_RED, strengths);
+        SCOPED(applied)
         apply_target plain = apply_make_target(GL_RGBA32F, 2 * W, 2 * H),
                      weighted = apply_make_target(GL_RGBA32F, 2 * W, 2 * H);
         float *wanted[4];
@@ -109,8 +110,6 @@ TEST_GL(four_views_in_one_framebuffer)
             }
         for (int i = 0; i < 4; ++i)
             free(wanted[i]);
-        apply_delete_target(&plain);
-        apply_delete_target(&weighted);
     }
 }
 
@@ -118,12 +117,12 @@ TEST_GL(four_views_in_one_framebuffer)
 TEST_GL(margin_shifts_the_strength_texture)
 {
     enum { M = 8, PW = W - 2 * M, PH = H - 2 * M };
-    apply_room r = apply_open_room(*state, GLSSAO_PATH_FRAGMENT);
+    SCOPED(room) apply_room r = apply_open_room(*state, GLSSAO_PATH_FRAGMENT);
     r.frame.margin = M;
     int w, h;
     SCOPED(memory) float *inner = fixture_compute(r.effect, &r.frame, &r.settings, &w, &h);
     assert_true(w == PW && h == PH);
-    apply_target t = apply_make_target(GL_RGBA32F, W, H);
+    SCOPED(applied) apply_target t = apply_make_target(GL_RGBA32F, W, H);
     glssao_apply_options options = glssao_default_apply_options();
     options.framebuffer = t.framebuffer;
     options.strength_texture = r.strength;
@@ -134,8 +133,6 @@ TEST_GL(margin_shifts_the_strength_texture)
     }
     SCOPED(memory) float *got = apply_read_target(&t);
     check_place(got, W, H, (const int[4]){0, 0, PW, PH}, inner, "margin");
-    apply_delete_target(&t);
-    apply_close_room(&r);
 }
 
 /* ---- the host's tests ---- */
@@ -162,7 +159,7 @@ static void add_stencil(const fixture *f, const apply_target *t, GLuint *out_ren
 TEST_GL(tests_of_the_host_are_kept_on_request_and_ignored_once_told)
 {
     for (int path = GLSSAO_PATH_FRAGMENT; path <= apply_last_path(); ++path) {
-        apply_room r = apply_open_room(*state, (glssao_path)path);
+        SCOPED(room) apply_room r = apply_open_room(*state, (glssao_path)path);
         apply_target t = apply_make_target(GL_RGBA32F, W, H);
         GLuint stencil;
         add_stencil(r.f, &t, &stencil);
@@ -194,14 +191,13 @@ TEST_GL(tests_of_the_host_are_kept_on_request_and_ignored_once_told)
         gl.DeleteRenderbuffers(1, &stencil);
         apply_delete_target(&t);
         fixture_clear_log(r.f);
-        apply_close_room(&r);
     }
 }
 
 TEST_GL(other_state_that_has_no_effect_is_told_once)
 {
-    apply_room r = apply_open_room(*state, GLSSAO_PATH_FRAGMENT);
-    apply_target t = apply_make_target(GL_RGBA32F, 2 * W, H);
+    SCOPED(room) apply_room r = apply_open_room(*state, GLSSAO_PATH_FRAGMENT);
+    SCOPED(applied) apply_target t = apply_make_target(GL_RGBA32F, 2 * W, H);
     glssao_apply_options placed = glssao_default_apply_options();
     placed.framebuffer = t.framebuffer;
     memcpy(placed.rectangle, (const int[4]){0, 0, W, H}, sizeof placed.rectangle);
@@ -219,8 +215,6 @@ TEST_GL(other_state_that_has_no_effect_is_told_once)
     assert_int_equal(apply_count_lines(r.f->log, "\n"), 2);
     gl.Viewport(0, 0, W, H);
     fixture_clear_log(r.f);
-    apply_delete_target(&t);
-    apply_close_room(&r);
 }
 
 /* ---- what can't be ---- */

@@ -50,6 +50,7 @@ static void delete_host(host *h)
     gl.DeleteFramebuffers(1, &h->framebuffer);
     gl.DeleteRenderbuffers(1, &h->renderbuffer);
 }
+#define test_end_host delete_host /* for SCOPED */
 
 static glssao_frame make_frame(void)
 {
@@ -88,13 +89,12 @@ TEST_GL(every_depth_format_arrives)
     memcpy(frame.viewport, (const int[4]){0, 0, W, H}, sizeof frame.viewport);
     for (size_t i = 0; i < sizeof formats / sizeof *formats; ++i)
         for (int samples = 0; samples <= 4; samples += 4) {
-            host h = make_host(&formats[i], samples, W, H);
+            SCOPED(host) host h = make_host(&formats[i], samples, W, H);
             for (int again = 0; again < 2; ++again) {
                 if (glssao_compute_framebuffer(effect, h.framebuffer, &frame, &settings) != GLSSAO_OK)
                     fail_msg("%s, %d samples: %s", formats[i].name, samples, ((fixture *)*state)->log);
                 check_depth(effect, W, H, SPLIT, formats[i].name);
             }
-            delete_host(&h);
         }
 }
 
@@ -119,7 +119,7 @@ TEST_GL(the_result_is_that_of_the_depth_as_a_texture)
     fixture *f = *state;
     SCOPED(frame) glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
     const GLuint normals = frame.normal_texture;
-    host h = make_host(&formats[4], 0, 2 * W, 2 * H);
+    SCOPED(host) host h = make_host(&formats[4], 0, 2 * W, 2 * H);
     put_depth(frame.depth_texture, &h, W, H / 2);
     const glssao_settings settings = make_settings();
     for (int i = 0; i < 2; ++i) {
@@ -137,7 +137,6 @@ TEST_GL(the_result_is_that_of_the_depth_as_a_texture)
         assert_memory_equal(got, wanted, W * H * sizeof *got);
     }
     frame.normal_texture = normals;
-    delete_host(&h);
 }
 
 /* glViewport says which part, the effect takes its size, and glssao_apply covers it. */
@@ -146,7 +145,7 @@ TEST_GL(viewport_and_size_of_the_host_are_followed)
     SCOPED(effect) glssao_effect *effect = fixture_effect(*state, 8, 8);
     const glssao_settings settings = make_settings();
     const glssao_frame frame = make_frame();
-    host h = make_host(&formats[2], 0, W, H);
+    SCOPED(host) host h = make_host(&formats[2], 0, W, H);
     SCOPED(texture) const GLuint color = fixture_texture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, W, H, NULL);
     gl.BindFramebuffer(GL_FRAMEBUFFER, h.framebuffer);
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
@@ -177,7 +176,6 @@ TEST_GL(viewport_and_size_of_the_host_are_followed)
     }
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     gl.Viewport(0, 0, W, H);
-    delete_host(&h);
 }
 
 /* ---- what is refused ---- */
@@ -195,7 +193,7 @@ TEST_GL(bad_arguments_are_named)
     fixture *f = *state;
     SCOPED(effect) glssao_effect *effect = fixture_effect(f, 8, 8);
     const glssao_settings settings = make_settings();
-    host h = make_host(&formats[2], 0, W, H);
+    SCOPED(host) host h = make_host(&formats[2], 0, W, H);
     glssao_frame good = make_frame(), frame;
     memcpy(good.viewport, (const int[4]){0, 0, W, H}, sizeof good.viewport);
 #define REFUSED(member, value, text)                                                                                   \
@@ -225,7 +223,6 @@ TEST_GL(bad_arguments_are_named)
     glssao_map(effect, GLSSAO_MAP_NORMAL, &w, &height);
     assert_true(w == 8 && height == 8); /* nothing has changed */
     assert_int_equal(glssao_compute_framebuffer(effect, h.framebuffer, &frame, &settings), GLSSAO_OK);
-    delete_host(&h);
 }
 
 TEST_GL(framebuffers_that_hold_no_depth_are_named)
@@ -254,7 +251,7 @@ TEST_GL(framebuffers_that_hold_no_depth_are_named)
     check_refused(f, glssao_compute_framebuffer(effect, empty, &frame, &settings), GLSSAO_FRAMEBUFFER_ERROR, text);
 
     /* The effect's own copy, handed back to it. */
-    host h = make_host(&formats[1], 0, W, H);
+    SCOPED(host) host h = make_host(&formats[1], 0, W, H);
     assert_int_equal(glssao_compute_framebuffer(effect, h.framebuffer, &frame, &settings), GLSSAO_OK);
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D,
@@ -262,7 +259,6 @@ TEST_GL(framebuffers_that_hold_no_depth_are_named)
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     check_refused(f, glssao_compute_framebuffer(effect, framebuffer, &frame, &settings), GLSSAO_INVALID_ARGUMENT,
                   "its depth buffer is the effect's own copy");
-    delete_host(&h);
     gl.DeleteFramebuffers(1, &framebuffer);
     gl.DeleteFramebuffers(1, &empty);
     gl.DeleteRenderbuffers(1, &color);
@@ -341,7 +337,7 @@ TEST_GL(drivers_that_refuse_the_blit_copy_texels)
     const glssao_settings settings = make_settings();
     glssao_frame frame = make_frame();
     memcpy(frame.viewport, (const int[4]){5, 3, W, H}, sizeof frame.viewport);
-    host h = make_host(&formats[1], 0, W + 9, H + 9);
+    SCOPED(host) host h = make_host(&formats[1], 0, W + 9, H + 9);
     for (int i = REFUSES_NOTHING; i <= REFUSES_ALL; ++i) {
         SCOPED(effect) glssao_effect *effect = effect_of_a_driver(f, false);
         driver = i;
@@ -360,7 +356,6 @@ TEST_GL(drivers_that_refuse_the_blit_copy_texels)
                                          : copies == 3);
         driver = REFUSES_NOTHING;
     }
-    delete_host(&h);
 }
 
 /* An error that the host had is there afterwards; later copies don't ask for errors. */
@@ -373,7 +368,7 @@ TEST_GL(errors_of_the_host_stay)
     const glssao_settings settings = make_settings();
     glssao_frame frame = make_frame();
     memcpy(frame.viewport, (const int[4]){0, 0, W, H}, sizeof frame.viewport);
-    host h = make_host(&formats[1], 0, W, H);
+    SCOPED(host) host h = make_host(&formats[1], 0, W, H);
     cause_error();
     assert_int_equal(glssao_compute_framebuffer(effect, h.framebuffer, &frame, &settings), GLSSAO_OK);
     assert_int_equal(gl.GetError(), GL_INVALID_OPERATION);
@@ -383,7 +378,6 @@ TEST_GL(errors_of_the_host_stay)
     assert_int_equal(glssao_compute_framebuffer(effect, h.framebuffer, &frame, &settings), GLSSAO_OK);
     assert_int_equal(errors_asked, 0);
     assert_int_equal(gl.GetError(), GL_INVALID_ENUM);
-    delete_host(&h);
 }
 
 /* With config.host_restores_state the part is told, not looked up. test_guest_calls counts its queries. */

@@ -126,7 +126,7 @@ TEST_GL(maps_may_stay_bound_when_a_setting_changes)
 
 TEST_GL(every_unit_is_restored)
 {
-    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     GLuint textures[UNITS], samplers[UNITS], multisample;
     SCOPED(target) const fixture_target white = guest_make_white();
     gl.GenTextures(UNITS, textures);
@@ -167,7 +167,6 @@ TEST_GL(every_unit_is_restored)
     gl.DeleteTextures(UNITS, textures);
     gl.DeleteSamplers(UNITS, samplers);
     gl.DeleteTextures(1, &multisample);
-    guest_close(&g);
 }
 
 int main(void)

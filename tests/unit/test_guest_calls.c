@@ -206,6 +206,7 @@ static guest open_watched(void **state)
     glssao_destroy(g.effect);
     glssao_config config = fixture_config(g.f, GUEST_W, GUEST_H);
     config.load = load;
+    config.path = GLSSAO_PATH_FRAGMENT;
     g.effect = NULL;
     assert_int_equal(glssao_create(&config, &g.effect), GLSSAO_OK);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
@@ -227,7 +228,8 @@ static GLuint bind_target(GLuint *out_texture)
     return framebuffer;
 }
 
-/* glssao_apply draws once, with one texture, into one framebuffer: it changes nothing of these. */
+/* Where it can't dispatch, glssao_apply draws once, with one texture, into one framebuffer: it changes nothing of
+ * these. */
 TEST_GL(apply_asks_only_for_what_it_changes)
 {
     static const struct {

@@ -112,7 +112,7 @@ TEST_GL(a_map_without_memory_is_told_as_such)
         {"compute with a margin", GLSSAO_HIGH, 8, false, false, false},
         {"accumulate", GLSSAO_LOW, 0, false, false, true},
     };
-    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     glssao_destroy(g.effect);
     g.effect = NULL;
     driver.to_go = -1;
@@ -122,7 +122,6 @@ TEST_GL(a_map_without_memory_is_told_as_such)
             ++number;
         assert_true(number >= 1);
     }
-    guest_close(&g);
 }
 
 /* ---- a real driver ---- */

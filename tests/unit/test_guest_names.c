@@ -9,7 +9,7 @@
 
 TEST_GL(apply_refuses_a_name_that_is_no_framebuffer)
 {
-    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     assert_int_equal(glssao_compute(g.effect, &g.frame, &settings), GLSSAO_OK);
     SCOPED(target) const fixture_target bound = guest_make_white();
@@ -32,7 +32,6 @@ TEST_GL(apply_refuses_a_name_that_is_no_framebuffer)
     fixture_clear_log(g.f);
     assert_int_equal(glssao_apply(g.effect, bound.framebuffer), GLSSAO_OK);
     assert_true(guest_count_dark(&bound) > 0);
-    guest_close(&g);
 }
 
 /* ---- textures ---- */
@@ -115,7 +114,7 @@ TEST_GL(a_texture_of_another_target_leaves_no_error)
         {GL_TEXTURE_BUFFER, "a buffer texture"},
         {GL_TEXTURE_2D_MULTISAMPLE, "a multisample texture"},
     };
-    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; ++i) {
         GLuint name = make_of_target(g.f, kinds[i].value);
         guest_no_error("making textures");
@@ -132,7 +131,6 @@ TEST_GL(a_texture_of_another_target_leaves_no_error)
     gl.BindTexture(GL_TEXTURE_2D, empty);
     gl.BindTexture(GL_TEXTURE_2D, 0);
     refuse_everywhere(&g, empty, false, "a texture without an image");
-    guest_close(&g);
 }
 
 /* An error of the host's own that nobody asked for yet is the host's to find. */
@@ -140,7 +138,7 @@ TEST_GL(the_hosts_own_error_stays)
 {
     if (GLSSAO_CHECK_GL)
         skip(); /* such builds ask for errors after every pass and take the host's */
-    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     SCOPED(texture) GLuint name = make_of_target(g.f, GL_TEXTURE_3D);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     glssao_frame wrong = g.frame;
@@ -152,7 +150,6 @@ TEST_GL(the_hosts_own_error_stays)
     assert_int_equal(glssao_compute(g.effect, &wrong, &settings), GLSSAO_INVALID_ARGUMENT);
     assert_int_equal(gl.GetError(), GL_INVALID_ENUM);
     assert_int_equal(gl.GetError(), 0);
-    guest_close(&g);
 }
 
 /* ---- programs and pairs ---- */
@@ -160,7 +157,7 @@ TEST_GL(the_hosts_own_error_stays)
 /* GL deletes a program that is current once another becomes current, and no call brings it back. */
 TEST_GL(a_deleted_program_that_is_current_stays_current)
 {
-    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     assert_int_equal(glssao_compute(g.effect, &g.frame, &settings), GLSSAO_OK);
     SCOPED(target) const fixture_target t = guest_make_white();
@@ -189,14 +186,13 @@ TEST_GL(a_deleted_program_that_is_current_stays_current)
     }
     gl.UseProgram(0);
     assert_int_equal(glssao_compute(g.effect, &g.frame, &settings), GLSSAO_OK);
-    guest_close(&g);
 }
 
 /* Either the pairs are undone in any order, or the end that comes too early is refused, changes nothing, and works
  * once the inner pair has ended. */
 TEST_GL(crossed_pairs_give_the_hosts_framebuffer_back)
 {
-    guest a = guest_open(*state, GLSSAO_PATH_AUTO), b = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest a = guest_open(*state, GLSSAO_PATH_AUTO), b = guest_open(*state, GLSSAO_PATH_AUTO);
     SCOPED(target) const fixture_target t = guest_make_white();
     gl.Viewport(3, 5, 17, 19);
     GLuint depth[2];
@@ -225,8 +221,6 @@ TEST_GL(crossed_pairs_give_the_hosts_framebuffer_back)
     assert_true(viewport[0] == 3 && viewport[1] == 5 && viewport[2] == 17 && viewport[3] == 19);
     guest_no_error("crossed pairs");
     gl.DeleteTextures(2, depth);
-    guest_close(&a);
-    guest_close(&b);
 }
 
 int main(void)

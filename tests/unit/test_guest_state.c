@@ -32,7 +32,7 @@ TEST_GL(clamped_fragment_colours_change_nothing)
     void(APIENTRY * clamp_color)(GLenum, GLenum);
     if (!guest_is_compatibility())
         return; /* the core profile has no such state */
-    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     guest_load(g.f, "glClampColor", &clamp_color);
     static const glssao_technique techniques[] = {GLSSAO_CLASSIC, GLSSAO_HEMISPHERE, GLSSAO_HORIZON};
     glssao_frame bare = g.frame; /* rebuilt normals are negative, distances above 1 */
@@ -49,7 +49,6 @@ TEST_GL(clamped_fragment_colours_change_nothing)
         guest_same_picture(got, wanted, "with GL_CLAMP_FRAGMENT_COLOR");
         assert_int_equal(now, GL_TRUE);
     }
-    guest_close(&g);
 }
 
 /* Scale, bias and maps change texels on their way in (the random vectors) and out (the error of accumulation). */
@@ -68,7 +67,7 @@ TEST_GL(pixel_transfer_changes_nothing)
     void(APIENTRY * pixel_map)(GLenum, GLsizei, const GLfloat *);
     if (!guest_is_compatibility() || fixture_hides_newer()) /* the core profile's functions alone can't set it */
         return;
-    guest calm = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest calm = guest_open(*state, GLSSAO_PATH_AUTO);
     guest_load(calm.f, "glPixelTransferf", &pixel_transfer);
     guest_load(calm.f, "glPixelMapfv", &pixel_map);
     const double wanted_error = error_of_accumulation(&calm);
@@ -85,7 +84,7 @@ TEST_GL(pixel_transfer_changes_nothing)
             pixel_transfer(RED_SCALE, 0.5f);
             pixel_transfer(RED_BIAS, 0.25f);
         }
-        guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+        SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
         const glssao_frame own = g.frame; /* uploaded by this test, with the transfer on */
         g.frame = calm.frame;
         const double error = error_of_accumulation(&g);
@@ -105,9 +104,7 @@ TEST_GL(pixel_transfer_changes_nothing)
         if (error != wanted_error)
             fail_msg("with %s, the error of accumulation is %g instead of %g", what, error, wanted_error);
         assert_true(scale == (i ? 1.0f : 0.5f) && bias == (i ? 0.0f : 0.25f) && map == (float)i);
-        guest_close(&g);
     }
-    guest_close(&calm);
 }
 
 /* Without fragments there is no result, and leaving these modes would empty the host's buffer: refused. */
@@ -118,7 +115,7 @@ TEST_GL(feedback_and_selection_are_refused)
     void(APIENTRY * select_buffer)(GLsizei, GLuint *);
     if (!guest_is_compatibility())
         return;
-    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     guest_load(g.f, "glRenderMode", &render_mode);
     guest_load(g.f, "glFeedbackBuffer", &feedback_buffer);
     guest_load(g.f, "glSelectBuffer", &select_buffer);
@@ -143,7 +140,6 @@ TEST_GL(feedback_and_selection_are_refused)
         SCOPED(memory) float *const got = guest_picture(&g, &g.frame, &settings);
         guest_same_picture(got, wanted, what);
     }
-    guest_close(&g);
 }
 
 /* ---- conditional rendering and transform feedback ---- */
@@ -173,7 +169,7 @@ TEST_GL(a_frame_under_conditional_rendering_harms_no_later_one)
 {
     PFNGLBEGINCONDITIONALRENDERPROC begin;
     PFNGLENDCONDITIONALRENDERPROC end;
-    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     guest_load(g.f, "glBeginConditionalRender", &begin);
     guest_load(g.f, "glEndConditionalRender", &end);
     const GLuint query = query_without_samples();
@@ -198,7 +194,6 @@ TEST_GL(a_frame_under_conditional_rendering_harms_no_later_one)
     assert_int_equal(glssao_compute(other, &sky, &settings), GLSSAO_OK);
     check_all_one(other, "an effect made under conditional rendering");
     gl.DeleteQueries(1, &query);
-    guest_close(&g);
 }
 
 /* Another program can't be taken while it is active (OpenGL 3.3, section 2.15). */

@@ -107,17 +107,6 @@ TEST_GL(parameters_of_host_textures_change_nothing)
 
 /* ---- formats ---- */
 
-static GLuint make_texture(GLenum internal_format, GLenum format, GLenum type)
-{
-    GLuint name;
-    gl.GenTextures(1, &name);
-    gl.BindTexture(GL_TEXTURE_2D, name);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)internal_format, GUEST_W, GUEST_H, 0, format, type, NULL);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-    gl.BindTexture(GL_TEXTURE_2D, 0);
-    return name;
-}
-
 TEST_GL(integer_formats_are_refused)
 {
     static const struct {
@@ -131,10 +120,12 @@ TEST_GL(integer_formats_are_refused)
     };
     static const char *const fields[] = {"frame.depth_texture", "frame.normal_texture", "frame.back_texture",
                                          "frame.second_texture", "frame.normal_texture"};
-    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
     for (size_t i = 0; i < sizeof formats / sizeof *formats; ++i) {
-        SCOPED(texture) GLuint texture = make_texture(formats[i].internal_format, formats[i].format, formats[i].type);
+        SCOPED(texture)
+        GLuint texture =
+            fixture_texture(formats[i].internal_format, formats[i].format, formats[i].type, GUEST_W, GUEST_H, NULL);
         guest_no_error(formats[i].name);
         for (int k = 0; k < 5; ++k) {
             char what[96];
@@ -154,7 +145,6 @@ TEST_GL(integer_formats_are_refused)
             guest_refused(&g, result, fields[k], what);
         }
     }
-    guest_close(&g);
 }
 
 int main(void)

@@ -95,7 +95,7 @@ TEST(lines_and_points_are_drawn_over_what_is_behind_them)
                  {SCENE_POINTS, -0.5f, 0, 0}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         small_scene *s = with_thin(cases[i].topology, cases[i].z);
-        frame f = frame_draw(s, &frame_front, &lighting, 0);
+        SCOPED(drawn) frame f = frame_draw(s, &frame_front, &lighting, 0);
         const int blue = count_blue(&f);
         if (blue < cases[i].least || blue > cases[i].most)
             fail_msg("case %zu: %d blue pixels", i, blue);
@@ -103,7 +103,6 @@ TEST(lines_and_points_are_drawn_over_what_is_behind_them)
         assert_int_equal(frame_count_drawn(&f, FRAME_SIZE * FRAME_SIZE), FRAME_SIZE * FRAME_SIZE / 4);
         assert_int_equal(f.counts.normals, 1);
         assert_int_equal(f.counts.main, 2);
-        frame_free(&f);
         free(s);
     }
 }
@@ -130,9 +129,8 @@ TEST(each_map_reads_its_uv_set)
                     uv[1] = 0.5f;
                 }
             s->scene.more_uvs = more_uvs;
-            frame f = frame_draw(s, &frame_front, &lighting, 0);
+            SCOPED(drawn) frame f = frame_draw(s, &frame_front, &lighting, 0);
             assert_int_equal(f.color[FRAME_MIDDLE][0], white ? 255 : 0);
-            frame_free(&f);
             free(s);
         }
     }
@@ -157,17 +155,15 @@ TEST(spending_renderer_frees_opaque_texels)
         const float place[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, i ? 0.5f : -0.5f, 0, 0, 1};
         frame_add_quad(s, material, place);
     }
-    frame before = frame_draw(s, &frame_front, &lighting, 0);
+    SCOPED(drawn) frame before = frame_draw(s, &frame_front, &lighting, 0);
     char error[512];
     scene_renderer *r = scene_renderer_create_spending(&s->scene, NULL, error, sizeof error);
     assert_non_null(r);
     assert_null(s->images[0].rgba);
     assert_ptr_equal(s->images[1].rgba, texels[1]);
-    frame after = frame_draw_by(r, &frame_front, &lighting, 0);
+    SCOPED(drawn) frame after = frame_draw_by(r, &frame_front, &lighting, 0);
     assert_memory_equal(before.color, after.color, FRAME_SIZE * FRAME_SIZE * sizeof *before.color);
     scene_renderer_destroy(r);
-    frame_free(&before);
-    frame_free(&after);
     free(texels[1]);
     free(s);
 }

@@ -523,6 +523,7 @@ static void delete_host(host *h)
     gl.DeleteBuffers(4, h->buffers);
     gl.DeleteTextures(2, h->images);
 }
+#define test_end_host delete_host /* for SCOPED */
 
 /* Whatever state the host has set, glssao_apply reaches every pixel of framebuffers with depth, stencil and samples. */
 static void check_apply(fixture *f, const inputs *in, const host *h, const float *accessibility)
@@ -554,7 +555,7 @@ static void check_all(fixture *f)
     inputs in = make_inputs();
     double calm_error, error;
     SCOPED(memory) float *calm_picture = walk(f, &in, NULL, GLSSAO_PATH_FRAGMENT, &calm_error);
-    host h;
+    SCOPED(host) host h = {0};
     make_host(&h);
     const int last_path = fixture_hides_newer() ? GLSSAO_PATH_FRAGMENT : GLSSAO_PATH_COMPUTE;
     for (int path = GLSSAO_PATH_FRAGMENT; path <= last_path; ++path) {
@@ -564,7 +565,6 @@ static void check_all(fixture *f)
             assert_float_equal(picture[i], calm_picture[i], path == GLSSAO_PATH_FRAGMENT ? 0.0f : 1.6e-5f);
     }
     check_apply(f, &in, &h, calm_picture);
-    delete_host(&h);
     fixture_delete_frame(&in.frame);
     gl.DeleteTextures(1, &in.spare_depth);
 }
@@ -580,7 +580,7 @@ TEST_GL(apply_writes_the_first_draw_buffer_alone)
     fixture *f = *state;
     load_newer(f);
     inputs in = make_inputs();
-    host h;
+    SCOPED(host) host h = {0};
     make_host(&h);
     calm();
     gl.BindFramebuffer(GL_FRAMEBUFFER, h.framebuffers[1]);
@@ -600,7 +600,6 @@ TEST_GL(apply_writes_the_first_draw_buffer_alone)
             assert_float_equal(second[4 * i + k], 0.2f * (float)(k + 1), 0.003f);
     }
     assert_true(darkened > 0);
-    delete_host(&h);
     fixture_delete_frame(&in.frame);
     gl.DeleteTextures(1, &in.spare_depth);
 }

@@ -191,6 +191,19 @@ save
 [[ $command = *"--near"* ]] && fail "another scene has the planes of the one before: $command"
 stop
 
+# Light by bent normals, which horizon alone has.
+start -s 320x200 --bent-normals --scene steps -o saved.png
+press g
+save
+[[ $command = *" --bent-normals"* ]] || fail "left out: $command"
+draw -s 320x200 --scene steps -o by-accessibility.png
+different "lit by bent normals" 5000 saved.png by-accessibility.png
+save 2
+press 1
+save Tab
+[[ $command = *bent* ]] && fail "bent normals of another technique: $command"
+stop
+
 # Rays: the view at rest comes near what many rays say. The camera moves and the window closes while others are traced.
 if "$render" -s 320x200 -t rays --rays 64 --scene columns -o many.png 2>rays.err; then
     draw -s 320x200 --scene columns -o none.png

@@ -141,7 +141,7 @@ typedef struct glssao_settings { /* fill with glssao_default_settings() first */
     float fade_far_start, fade_far_end; /* scene units of view distance, 0 <= start <= end: occlusion is full up to
                                     start and fades to nothing at end. 0, 0: never */
     bool radius_in_pixels;       /* radius counts pixels of the full size, as wide as they are where the point lies */
-    bool bent_normals;           /* horizon: also write GLSSAO_MAP_BENT_NORMAL. Not with frame.rays_texture */
+    bool bent_normals;           /* horizon: also write GLSSAO_MAP_BENT_NORMAL */
 } glssao_settings;
 
 /* ---- frame: what the host hands over each time ---------------------------------------------------------- */

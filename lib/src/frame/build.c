@@ -109,10 +109,11 @@ void glssao__build_tiles(const glssao__builder *b, glssao__step *step, int facto
     const bool is_estimate = step->pass == GLSSAO_PASS_ESTIMATE && step->second == MAP_NONE;
     if (!b->c.has_tiles || (b->c.bent && !is_estimate)) /* open tiles have bent normals too */
         return;
-    if (b->c.corrects && step->pass == GLSSAO_PASS_UPSAMPLE) /* rays may see what is not in the picture */
+    const bool corrects = b->c.corrects && (step->pass == GLSSAO_PASS_RAYS || step->pass == GLSSAO_PASS_UPSAMPLE);
+    if (corrects && !b->c.sorts_again) /* rays may see what is not in the picture */
         return;
     step->tiles = (glssao__tile_range){factor * TILE_SIDE, least, most};
-    glssao__build_point(step, UNIT_TILES, MAP_TILE_RINGS);
+    glssao__build_point(step, UNIT_TILES, corrects ? MAP_TILE_RAYS : MAP_TILE_RINGS);
 }
 
 /* The map that holds the value after so many of the passes that draw by turns. */

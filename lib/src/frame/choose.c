@@ -96,8 +96,8 @@ static const char *tiles_refusal(const glssao__choice *c, const glssao__request 
     const int rows = (c->estimate[1] + TILE_SIDE - 1) / TILE_SIDE;
     if (q->settings->tiles == GLSSAO_TILES_OFF)
         return "settings.tiles is off: every pixel is estimated";
-    if (c->is_rays)
-        return "rays may see what is not in the picture";
+    if (c->is_rays && c->has_history)
+        return "the history tells rays that are missing from open ones";
     if (c->compute)
         return "compute shaders leave out open pixels themselves";
     /* Points as large as a block of 4 x 4 tiles, and at full size a viewport that holds all tiles. */
@@ -171,8 +171,11 @@ static void choose_passes(glssao__choice *c, const glssao__request *q)
                                 : "the history begins with this frame");
     const char *refusal = tiles_refusal(c, q);
     c->has_tiles = refusal == NULL;
+    c->sorts_again = c->has_tiles && c->corrects && !c->has_history && !c->bent;
     choose_pass(c, GLSSAO_PASS_TILES, c->has_tiles,
-                refusal ? refusal : "later passes leave out what no occluder can reach");
+                refusal      ? refusal
+                : c->is_rays ? "later passes leave out tiles whose rays are all open"
+                             : "later passes leave out what no occluder can reach");
     for (int i = 0; i < GLSSAO_PASS_COUNT; ++i)
         c->plan.passes[i].compute = c->plan.passes[i].run && c->compute && can_be_dispatched(c, (glssao_pass)i);
 }
@@ -211,6 +214,11 @@ static void choose_inputs(glssao__choice *c, const glssao__request *q)
     c->inputs.values[MACRO_BRANCHES] = !q->can.is_software; /* a software rasteriser takes both sides of a branch */
 }
 
+static int in_tiles(int reach)
+{
+    return (reach + TILE_SIDE - 1) / TILE_SIDE;
+}
+
 static void choose_reach(glssao__choice *c, const glssao_settings *settings)
 {
     const int first = c->is_planar || settings->blur == GLSSAO_BLUR_BOX ? 2 : 5, later = c->is_planar ? 3 : first;
@@ -219,9 +227,16 @@ static void choose_reach(glssao__choice *c, const glssao_settings *settings)
     if (blurs && !c->is_rays)
         c->reach = first + later * (c->blur_rounds - 1);
     c->reach += c->upsamples ? 1 : 0;
-    c->tile_rings = (c->reach + TILE_SIDE - 1) / TILE_SIDE;
-    for (int i = 0; i < c->rays_rounds; ++i) /* in all tiles */
-        c->reach += 2 << glssao__rays_stride(i);
+    const int of_estimate = c->reach;
+    int last = 0;
+    for (int i = 0; i < c->rays_rounds; ++i) {
+        last = 2 << glssao__rays_stride(i);
+        c->reach += last;
+    }
+    /* A pixel at the end of the reach still wants to know where the farthest taps of the last round lie. */
+    c->rays_rings =
+        c->rays_rounds > 0 || c->is_rays ? in_tiles(c->reach - (c->corrects ? of_estimate : 0) + last + 1) : 0;
+    c->tile_rings = c->is_rays ? c->rays_rings : in_tiles(of_estimate);
 }
 
 /* Windows of 4, 8, 16 and 32 pixels. */

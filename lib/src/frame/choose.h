@@ -24,6 +24,7 @@ typedef struct glssao__choice {
     bool corrects;   /* the host's rays correct another estimate */
     bool is_oblique; /* window depth becomes view distance in a copy */
     bool blurs, upsamples, has_tiles;
+    bool sorts_again;  /* tiles are sorted anew for the correction */
     bool has_history;  /* the result is the mean of this frame and earlier ones */
     bool paired;       /* later passes read paired values */
     bool result_apart; /* the result goes to a map of its own */
@@ -35,7 +36,8 @@ typedef struct glssao__choice {
     int blur_rounds;                 /* of the estimate's blur */
     int inner_rounds;                /* rounds of the blur within the dispatch that upsamples */
     int reach;                       /* texels of the estimate beyond a pixel that later passes read */
-    int tile_rings;                  /* the same in tiles, rounded up */
+    int tile_rings;                  /* the same in tiles, rounded up; of the estimate that is corrected */
+    int rays_rings;                  /* the same of the correction */
     gl_uint host_names[HOST_MAPS];   /* as in glssao__schedule */
     bool copies[HOST_MAPS];          /* which of the host's textures are copied, in the order of HOST_DEPTH and so on */
     enum glssao__map depth, normals; /* where the passes after the copying read them */

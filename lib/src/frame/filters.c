@@ -4,6 +4,8 @@
  */
 #include "frame/filters.h"
 
+#include "frame/tiles.h"
+
 /* The step that delivers bent normals reads the surface's own. Others of its pass have no use for them. */
 static void read_normals_for_bent(const glssao__builder *b, glssao__step *step)
 {
@@ -71,6 +73,7 @@ static void set_rays_blur(const glssao__builder *b, glssao__step *step, int i, e
     step->is_horizontal = i % 2 == 0;
     glssao__build_set(step, MACRO_STRIDE, glssao__rays_stride(i / 2));
     glssao__build_set(step, MACRO_RAYS, 1);
+    read_normals_for_bent(b, step);
     glssao__build_finish(b, step);
     set_normals_for_bent(step);
 }
@@ -85,6 +88,7 @@ static void add_rays_blur(glssao__builder *b)
         set_rays_blur(b, step, i, glssao__build_turn_map(b, i));
         if (i + 1 == count && !b->c.has_history)
             glssao__build_set(step, MACRO_RAYS, 2);
+        glssao__build_tiles(b, step, 1, 0, b->c.tile_rings);
     }
 }
 
@@ -148,8 +152,9 @@ void glssao__add_correction(glssao__builder *b)
 {
     const int turns = count_turns(b);
     const enum glssao__map estimate = glssao__build_turn_map(b, turns);
-    for (int i = 0; i < 2; ++i)
-        glssao__build_map(b, (enum glssao__map)(MAP_RAYS_0 + i), "ray difference", GL_RG32F, b->c.estimate);
+    const bool is_result = !b->c.upsamples && !b->c.has_history;
+    if (b->c.sorts_again)
+        glssao__add_correction_tiles(b, estimate, is_result ? b->s->result : glssao__build_turn_map(b, turns + 1));
     const int count = 2 * b->c.rays_rounds;
     for (int i = 0; i < count; ++i) {
         glssao__step *step = glssao__build_step(b, GLSSAO_PASS_RAYS, i == 0 ? SHADER_RAYS : SHADER_PLANAR_BLUR,
@@ -162,7 +167,9 @@ void glssao__add_correction(glssao__builder *b)
             glssao__build_rays(b, step, false);
         } else {
             set_rays_blur(b, step, i - 1, (enum glssao__map)(MAP_RAYS_0 + (i - 1) % 2));
+            glssao__build_set(step, MACRO_BENT, 0); /* a difference has no direction */
         }
+        glssao__build_tiles(b, step, 1, 0, b->c.rays_rings);
     }
     if (b->c.has_history) { /* what rays say without the estimate and the blur */
         glssao__step *raw = glssao__build_step(b, GLSSAO_PASS_RAYS, SHADER_RAYS, MAP_RAW);
@@ -170,12 +177,12 @@ void glssao__add_correction(glssao__builder *b)
         glssao__build_set(raw, MACRO_OUTPUT, OUTPUT_PAIRED);
         glssao__build_rays(b, raw, false);
     }
-    glssao__step *step =
-        glssao__build_turn(b, GLSSAO_PASS_RAYS, SHADER_PLANAR_BLUR, turns + 1, !b->c.upsamples && !b->c.has_history);
+    glssao__step *step = glssao__build_turn(b, GLSSAO_PASS_RAYS, SHADER_PLANAR_BLUR, turns + 1, is_result);
     glssao__build_set(step, MACRO_CORRECTS, 2);
     glssao__build_point(step, UNIT_RAYS, estimate);
     set_rays_blur(b, step, count - 1, (enum glssao__map)(MAP_RAYS_0 + (count - 1) % 2));
     glssao__build_set(step, MACRO_RAYS, b->c.has_history ? 1 : 2);
+    glssao__build_tiles(b, step, 1, 0, b->c.rays_rings);
 }
 
 enum glssao__map glssao__last_turn(const glssao__builder *b)
@@ -210,6 +217,7 @@ void glssao__add_upsample(glssao__builder *b)
     }
     const enum glssao__map from = glssao__last_turn(b);
     const bool compute = b->c.plan.passes[GLSSAO_PASS_UPSAMPLE].compute;
+    const int rings = b->c.corrects ? b->c.rays_rings : b->c.tile_rings;
     if (!compute)
         glssao__build_map(b, MAP_BLOCKS, "block", GL_RGBA16, b->c.estimate);
     if (!compute && b->c.bent)
@@ -226,7 +234,7 @@ void glssao__add_upsample(glssao__builder *b)
         step->second = compute ? MAP_BENT : MAP_BENT_BLOCKS;
     if (!compute) {
         step->region = glssao__region_inner(b->c.estimate, b->c.margin / 2);
-        glssao__build_tiles(b, step, 1, 0, b->c.tile_rings);
+        glssao__build_tiles(b, step, 1, 0, rings);
         step = glssao__build_step(b, GLSSAO_PASS_UPSAMPLE, SHADER_SPREAD, MAP_RESULT);
         glssao__build_point(step, UNIT_AMBIENT, MAP_BLOCKS);
         if (b->c.bent) {
@@ -234,7 +242,7 @@ void glssao__add_upsample(glssao__builder *b)
             glssao__build_set(step, MACRO_BENT, 1);
             step->second = MAP_BENT;
         }
-        glssao__build_tiles(b, step, 2, 0, b->c.tile_rings);
+        glssao__build_tiles(b, step, 2, 0, rings);
     }
     step->origin[0] = b->s->delivered.x;
     step->origin[1] = b->s->delivered.y;

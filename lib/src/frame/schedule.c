@@ -6,6 +6,7 @@
 #include "frame/schedule.h"
 
 #include "frame/filters.h"
+#include "frame/tiles.h"
 #include "input/host_textures.h"
 
 #include <string.h>
@@ -64,89 +65,6 @@ static void add_distance(glssao__builder *b)
     glssao__build_finish(b, step);
 }
 
-/* Whether tiles look occluders up in the depth map: the distance map has other texels, or there is none. */
-static bool reads_depth(const glssao__builder *b)
-{
-    return !b->c.is_horizon || b->c.is_dense;
-}
-
-/* A pass that sorts tiles; `from`: what it reads of those before, or MAP_NONE. */
-static glssao__step *add_tile_pass(glssao__builder *b, enum glssao__shader shader, enum glssao__map from,
-                                   enum glssao__map target)
-{
-    glssao__step *step = glssao__build_step(b, GLSSAO_PASS_TILES, shader, target);
-    glssao__build_surfaces(b, step);
-    if (from != MAP_NONE)
-        glssao__build_point(step, UNIT_AMBIENT, from);
-    glssao__build_set(step, MACRO_FROM_DEPTH, reads_depth(b));
-    glssao__build_set(step, MACRO_PLANES, b->settings->technique != GLSSAO_CLASSIC);
-    glssao__build_finish(b, step);
-    return step;
-}
-
-/* Which tiles need bounds, so that a picture without open planes is sorted at little cost; left in MAP_TILE_CLASS. */
-static void add_tile_preview(glssao__builder *b)
-{
-    glssao__step *step = add_tile_pass(b, SHADER_TILE_CLASS, MAP_NONE, MAP_TILE_CLASS);
-    glssao__build_set(step, MACRO_MIDDLES, 1);
-    add_tile_pass(b, SHADER_TILE_NEAR, MAP_TILE_CLASS, MAP_TILE_RINGS)->is_horizontal = true;
-    add_tile_pass(b, SHADER_TILE_NEAR, MAP_TILE_RINGS, MAP_TILE_CLASS);
-}
-
-/* Makes the tiles of a map 1 that are at least so far from one that needs an estimate. */
-static void add_open_tiles(glssao__builder *b, enum glssao__map map, int factor, int least)
-{
-    glssao__step *step = glssao__build_step(b, GLSSAO_PASS_TILES, SHADER_TILE_FILL, map);
-    if (map == MAP_RESULT) {
-        step->origin[0] = b->s->delivered.x;
-        step->origin[1] = b->s->delivered.y;
-    }
-    glssao__build_tiles(b, step, factor, least, MOST_RINGS);
-}
-
-/* What no later pass draws is 1. The planar blur needs that in what the host can read alone. */
-static void add_open_values(glssao__builder *b)
-{
-    const glssao__choice *c = &b->c;
-    if (c->paired && !c->has_history && !c->corrects) {
-        if (c->bent) /* later passes draw everything */
-            return;
-        add_open_tiles(b, MAP_PAIRED_1, 1, c->blurs ? c->tile_rings + 1 : 0);
-        add_open_tiles(b, b->s->result, c->upsamples ? 2 : 1, c->tile_rings + 1);
-        return;
-    }
-    if (c->has_history && c->upsamples && !c->corrects)
-        add_open_tiles(b, MAP_BLOCKS, 1, c->tile_rings + 1);
-    if (c->has_history)
-        glssao__build_clear(b, GLSSAO_PASS_TILES, MAP_RAW, STEP_CLEAR_TO_OPEN);
-    for (int i = 0; i < 2; ++i)
-        glssao__build_clear(b, GLSSAO_PASS_TILES, (enum glssao__map)((c->paired ? MAP_PAIRED_0 : MAP_AMBIENT_0) + i),
-                            STEP_CLEAR_TO_OPEN);
-    if (c->result_apart && !c->has_history && !c->corrects)
-        glssao__build_clear(b, GLSSAO_PASS_TILES, MAP_RESULT, STEP_CLEAR_TO_OPEN);
-}
-
-static void add_tiles(glssao__builder *b)
-{
-    const int columns = (b->c.estimate[0] + TILE_SIDE - 1) / TILE_SIDE,
-              rows = (b->c.estimate[1] + TILE_SIDE - 1) / TILE_SIDE;
-    const int tiles[2] = {columns, rows}, lines[2] = {columns, reads_depth(b) ? b->c.size[1] : b->c.estimate[1]};
-    const bool planes = b->settings->technique != GLSSAO_CLASSIC;
-    glssao__build_map(b, MAP_TILE_ROWS, "tile row", GL_RGBA32F, lines);
-    glssao__build_map(b, MAP_TILE_BOUNDS, "tile bound", GL_RGBA32F, tiles);
-    glssao__build_map(b, MAP_TILE_CLASS, "tile class", GL_R32F, tiles);
-    glssao__build_map(b, MAP_TILE_RINGS, "tile ring", GL_R32F, tiles);
-    if (planes)
-        add_tile_preview(b);
-    add_tile_pass(b, SHADER_TILE_ROWS, planes ? MAP_TILE_CLASS : MAP_NONE, MAP_TILE_ROWS);
-    glssao__step *bounds = add_tile_pass(b, SHADER_TILE_BOUNDS, MAP_TILE_ROWS, MAP_TILE_BOUNDS);
-    if (planes)
-        glssao__build_point(bounds, UNIT_BACK, MAP_TILE_CLASS);
-    add_tile_pass(b, SHADER_TILE_CLASS, MAP_TILE_BOUNDS, MAP_TILE_CLASS);
-    add_tile_pass(b, SHADER_TILE_RINGS, MAP_TILE_CLASS, MAP_TILE_RINGS);
-    add_open_values(b);
-}
-
 /* Steps a side with a history: a mean over frames takes noise away, not what lies between samples. */
 enum { STEPS_OF_A_MEAN = 12 };
 
@@ -189,6 +107,7 @@ static void add_estimate(glssao__builder *b)
         glssao__build_turn(b, GLSSAO_PASS_ESTIMATE, shader, 0, !b->c.blurs && !glssao__build_has_more(b));
     if (b->c.is_rays) {
         glssao__build_rays(b, step, !b->c.blurs);
+        glssao__build_tiles(b, step, 1, 0, b->c.tile_rings);
         return;
     }
     set_estimate(b, step);
@@ -198,7 +117,7 @@ static void add_estimate(glssao__builder *b)
     /* The values of open pixels that later passes read. */
     step = glssao__build_turn(b, GLSSAO_PASS_ESTIMATE, SHADER_OPEN, 0, false);
     glssao__build_surfaces(b, step);
-    glssao__build_set(step, MACRO_FROM_DEPTH, reads_depth(b));
+    glssao__build_set(step, MACRO_FROM_DEPTH, glssao__tiles_read_depth(b));
     glssao__build_finish(b, step);
     glssao__build_tiles(b, step, 1, 1, b->c.bent ? MOST_RINGS : b->c.tile_rings + 2);
 }
@@ -312,6 +231,8 @@ static void set_results(glssao__builder *b)
         glssao__build_map(b, MAP_BENT, "bent normal", GL_RGBA16F, delivered);
     if (c->has_history)
         glssao__build_map(b, MAP_RAW, "raw ambient", GL_RG32F, c->estimate);
+    for (int i = 0; c->corrects && !c->nothing && i < 2; ++i)
+        glssao__build_map(b, (enum glssao__map)(MAP_RAYS_0 + i), "ray difference", GL_RG32F, c->estimate);
     if (c->has_history && c->upsamples)
         glssao__build_map(b, MAP_BLOCKS, "block", GL_RGBA32F, c->estimate);
     if (c->accumulates)
@@ -339,7 +260,7 @@ void glssao__schedule_make(glssao__schedule *out, const glssao__request *q)
         [GLSSAO_PASS_INPUTS] = add_copies,
         [GLSSAO_PASS_NORMALS] = add_normals,
         [GLSSAO_PASS_DISTANCE] = add_distance,
-        [GLSSAO_PASS_TILES] = add_tiles,
+        [GLSSAO_PASS_TILES] = glssao__add_tiles,
         [GLSSAO_PASS_ESTIMATE] = add_estimate,
         [GLSSAO_PASS_RESOLVE] = add_resolve,
         [GLSSAO_PASS_BLUR] = glssao__add_blur,
@@ -355,7 +276,7 @@ void glssao__schedule_make(glssao__schedule *out, const glssao__request *q)
     out->plan = b.c.plan;
     out->may_use_compute = b.c.compute && q->can.path == GLSSAO_PATH_AUTO;
     out->has_tiles = b.c.has_tiles;
-    out->tile_rings = b.c.tile_rings;
+    out->tile_rings = b.c.tile_rings > b.c.rays_rings ? b.c.tile_rings : b.c.rays_rings;
     memcpy(out->estimate_size, b.c.estimate, sizeof out->estimate_size);
     out->map_factor = b.c.is_dense ? 1 : b.c.factor;
     set_results(&b);

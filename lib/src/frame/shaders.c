@@ -95,7 +95,7 @@ static const struct shader {
                      BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(OUTPUT) | BIT(COMPUTE) | BIT(PERSPECTIVE) |
                          BIT(RAYS) | BIT(CORRECTS) | BIT(DENSE),
                      {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
-                      shader_paired_glsl, shader_rays_frag, shader_entry_glsl}},
+                      shader_paired_glsl, shader_rays_map_glsl, shader_rays_frag, shader_entry_glsl}},
     [SHADER_HISTORY] = {"history",
                         BIT(RADIUS_GROWS) | BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(PERSPECTIVE) | BIT(COMPUTE) |
                             BIT(RAW) | BIT(MOTION) | BIT(RAYS),
@@ -123,6 +123,9 @@ static const struct shader {
                                BIT(VARIES) | BIT(DENSE) | BIT(MIDDLES),
                            {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                             shader_tile_map_glsl, shader_tile_class_frag}},
+    [SHADER_TILE_VALUES] = {"tile-values",
+                            BIT(DEPTH) | BIT(CORRECTS),
+                            {shader_depth_glsl, shader_rays_map_glsl, shader_tile_values_frag}},
     [SHADER_TILE_RINGS] = {"tile-rings", 0, {shader_tile_rings_frag}},
     [SHADER_TILE_NEAR] = {"tile-near", 0, {shader_tile_near_frag}},
     [SHADER_TILE_FILL] = {"tile-fill", 0, {shader_tile_fill_frag}},

@@ -48,8 +48,9 @@ enum glssao__map {
     MAP_DISTANCE,  /* view distance; with layers also thickness and second layer (distance.frag) */
     MAP_TILE_ROWS, /* bounds, as tile_rows.frag writes them */
     MAP_TILE_BOUNDS,
-    MAP_TILE_CLASS, /* 1: needs an estimate */
+    MAP_TILE_CLASS, /* 1: needs an estimate (tile_class.frag), or holds occlusion (tile_values.frag) */
     MAP_TILE_RINGS, /* as tile_rings.frag writes them */
+    MAP_TILE_RAYS,  /* the same for a correction */
     MAP_AMBIENT_0,  /* accessibility */
     MAP_AMBIENT_1,
     MAP_PAIRED_0, /* paired values (paired.glsl) */

@@ -174,9 +174,6 @@ bool glssao__check_frame(const glssao_frame *frame, const glssao_settings *setti
                       "no texture, but the other layer has one");
     if (settings->technique == GLSSAO_RAYS && frame->rays_texture == 0)
         return refuse(log, "frame.rays_texture", 0, "no texture, and the rays technique has no estimate of its own");
-    if (settings->bent_normals && frame->rays_texture != 0)
-        return refuse(log, "settings.bent_normals", 1,
-                      "frame.rays_texture, which knows no directions, can't correct them");
     if (settings->history > 0 && settings->bent_normals)
         return refuse(log, "settings.history", settings->history, "want 0: bent normals are not reused over time");
     return check_margin(frame, size, log) && check_viewport(frame, size, log) && check_logarithm(frame, log) &&

@@ -2,12 +2,20 @@
 // Babylon.js draws through engines. Its null engine draws nothing, so the effect's own objects are asked for shaders,
 // defines and uniforms, in the order in which SSAO2RenderingPipeline adds its passes: estimate, horizontal blur, vertical
 // blur. Its view space looks down +z.
-import { Recording, translate } from "./recording.mjs";
+import { Recording, seedRandom, translate } from "./recording.mjs";
 
 const VERTEX = `attribute vec2 position;
 varying vec2 vUV;
 void main() { vUV = position * 0.5 + 0.5; gl_Position = vec4(position, 0.0, 1.0); }
 `;
+
+// It reads its 8 samples by numbers up to 15. WebGL takes the last one for those beyond; OpenGL leaves open what is read.
+function clampSamples(source) {
+    const clamped = source.replace(/sampleSphere\[(\(.*?)\](?=;)/, "sampleSphere[min($1,SAMPLES-1)]");
+    if (clamped === source)
+        throw new Error("ssao2's shader reads its samples otherwise than was translated");
+    return clamped;
+}
 
 // Stands in for a compiled effect: keeps what it is given.
 class EffectRecorder {
@@ -47,6 +55,7 @@ export async function recordBabylon(job, load) {
     camera.minZ = Math.min(job.near, 0.1 * job.radius); // it shortens the radius near the camera, by minZAspect
     camera.maxZ = job.far;
     camera.fov = 2 * Math.atan(1 / job.clipFromView[5]);
+    seedRandom();
     const pipeline = new ThinSSAO2RenderingPipeline("ssao", scene);
     pipeline.camera = camera;
     pipeline.radius = job.radius * job.radiusScale;
@@ -68,7 +77,7 @@ export async function recordBabylon(job, load) {
         if (input !== null)
             samplers.push(["textureSampler", input]);
         const output = target(...size);
-        recording.pass(recording.program(translate(VERTEX, false, ""), translate(ssao2PixelShader.shader, true, defines)), [output],
+        recording.pass(recording.program(translate(VERTEX, false, ""), translate(clampSamples(ssao2PixelShader.shader), true, defines)), [output],
             [0, 0, ...size], samplers, effect.uniforms);
         return output;
     };

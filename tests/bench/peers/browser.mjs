@@ -7,6 +7,7 @@ import { spawn } from "node:child_process";
 import { basename, dirname, extname, join, resolve } from "node:path";
 
 import { readJobs } from "./jobs.mjs";
+import { seedRandom } from "./recording.mjs";
 
 const [modules, scene, jobs, folder] = process.argv.slice(2);
 if (!folder) {
@@ -20,11 +21,13 @@ const makePage = (job) => `<!doctype html><style>body { margin: 0 } canvas { dis
 import * as THREE from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 const job = ${JSON.stringify(job)};
-const passes = "/modules/three/examples/jsm/postprocessing/";
+const scene = (await new GLTFLoader().loadAsync("/scene/${basename(scene)}")).scene;
+${job.peer === "babylon-ssao2" ? babylonScript : threeScript}</script>`;
+
+const threeScript = `const passes = "/modules/three/examples/jsm/postprocessing/";
 const renderer = new THREE.WebGLRenderer({ antialias: false });
 renderer.setSize(job.width, job.height);
 document.body.append(renderer.domElement);
-const scene = (await new GLTFLoader().loadAsync("/scene/${basename(scene)}")).scene;
 const world = new THREE.Scene();
 world.add(scene);
 const camera = new THREE.PerspectiveCamera(50, job.width / job.height, job.near, job.far);
@@ -78,7 +81,59 @@ else if (job.peer === "postprocessing-ssao") {
 // SSAOPass and SAOPass draw their output into the buffer that they read: null is the screen.
 pass.renderToScreen = true;
 pass.render(renderer, null, pass.constructor.name === "SSAOPass" ? null : read);
-</script>`;
+`;
+
+// three reads the file; Babylon.js draws its triangles in white, mirrored in z as its left-handed space asks for.
+const babylonScript = `const at = "/modules/@babylonjs/core/";
+const load = async (path, name) => (await import(at + path + ".js"))[name];
+const Engine = await load("Engines/engine", "Engine"), Scene = await load("scene", "Scene");
+const FreeCamera = await load("Cameras/freeCamera", "FreeCamera"), Vector3 = await load("Maths/math.vector", "Vector3");
+const Mesh = await load("Meshes/mesh", "Mesh"), VertexData = await load("Meshes/mesh.vertexData", "VertexData");
+const StandardMaterial = await load("Materials/standardMaterial", "StandardMaterial");
+const { Color3, Color4 } = await import(at + "Maths/math.color.js");
+const SSAO2RenderingPipeline = await load("PostProcesses/RenderPipeline/Pipelines/ssao2RenderingPipeline", "SSAO2RenderingPipeline");
+await import(at + "Rendering/geometryBufferRendererSceneComponent.js");
+const canvas = document.createElement("canvas");
+canvas.width = job.width;
+canvas.height = job.height;
+document.body.append(canvas);
+const engine = new Engine(canvas, false, { preserveDrawingBuffer: true });
+engine.getCaps().parallelShaderCompile = undefined;
+const world = new Scene(engine), white = new StandardMaterial("white", world);
+world.clearColor = new Color4(1, 1, 1, 1);
+white.disableLighting = true;
+white.emissiveColor = new Color3(1, 1, 1);
+white.backFaceCulling = false;
+scene.updateMatrixWorld(true);
+scene.traverse((object) => {
+    if (!object.isMesh)
+        return;
+    const geometry = object.geometry.clone().applyMatrix4(object.matrixWorld), data = new VertexData();
+    const mirrored = (name) => Array.from(geometry.attributes[name].array, (value, i) => i % 3 === 2 ? -value : value);
+    data.positions = mirrored("position");
+    data.normals = mirrored("normal");
+    data.indices = geometry.index ? Array.from(geometry.index.array) : data.positions.slice(0, data.positions.length / 3).map((_, i) => i);
+    const mesh = new Mesh("mesh", world);
+    data.applyToMesh(mesh);
+    mesh.material = white;
+});
+const c = new THREE.Matrix4().fromArray(job.viewFromWorld).invert().elements;
+const mirror = (i, sign) => new Vector3(sign * c[i], sign * c[i + 1], -sign * c[i + 2]);
+const camera = new FreeCamera("camera", mirror(12, 1), world);
+camera.upVector = mirror(4, 1);
+camera.setTarget(camera.position.add(mirror(8, -1)));
+camera.minZ = Math.min(job.near, 0.1 * job.radius);
+camera.maxZ = job.far;
+camera.fov = 2 * Math.atan(1 / job.clipFromView[5]);
+(${seedRandom})(); // its samples are random
+const pipeline = new SSAO2RenderingPipeline("ssao", world, { ssaoRatio: 0.5, blurRatio: 1 }, [camera], true);
+pipeline.radius = job.radius;
+pipeline.maxZ = 50 * job.radius;
+pipeline.epsilon = 0.01 * job.radius;
+await world.whenReadyAsync();
+for (let i = 0; i < 4; i++)
+    world.render();
+`;
 
 const types = { ".js": "text/javascript", ".mjs": "text/javascript", ".html": "text/html", ".json": "application/json" };
 let page = "";
@@ -110,8 +165,7 @@ function screenshot(job) {
 
 server.listen(0, "127.0.0.1", async () => {
     for (const job of readJobs(jobs))
-        // Babylon.js would need a loader of its own.
-        if (job.peer !== "babylon-ssao2" && job.radiusScale === 1)
+        if (job.radiusScale === 1)
             await screenshot(job);
     server.close();
 });
