@@ -80,7 +80,8 @@ RESULT result()
     vec2 moments = sums.yz / sums.x;
     float spread = max(moments.y - moments.x * moments.x, 0.0);
     float known = clamp((frames_of(texel.xxxx).x - 1.0) / NARROW, 0.0, 1.0);
-    float keep = known * max(1.0 - SHRINK * spread / max(moments.x * moments.x, 1e-8), 0.0);
+    const float NOISY = RAYS != 0 ? SHRINK_RAYS : SHRINK;
+    float keep = known * max(1.0 - NOISY * spread / max(moments.x * moments.x, 1e-8), 0.0);
     float blurred = float(int((texel.y >> 10) & 2047u));
     float accessibility = clamp((blurred + keep * moments.x) / MEAN_STEPS, 0.0, 1.0);
 #if RAYS

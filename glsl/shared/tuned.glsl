@@ -56,3 +56,4 @@
 #define FORGET 2.0            // frames that count after a larger one
 #define NARROW 4.0            // frames after which all detail counts
 #define SHRINK 0.25           // spread of detail that counts as noise, in units of its square
+#define SHRINK_RAYS 0.5       // the same for rays, which have more noise
