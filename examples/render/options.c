@@ -9,6 +9,11 @@
 
 #include <stdio.h>
 
+const char *options_name(options_program program)
+{
+    return program == OPTIONS_VIEWER ? "glssao-view" : "glssao-render";
+}
+
 /* Prints the options, and the settings of --set. */
 static void print_help(options_program program)
 {
@@ -55,8 +60,8 @@ static options_result parse(int argc, char **argv, options_program program, opti
     }
     if (out->version) {
         const uint32_t v = glssao_version();
-        printf("%s %d.%d.%d (library %u.%u.%u)\n", program == OPTIONS_VIEWER ? "glssao-view" : "glssao-render",
-               GLSSAO_VERSION_MAJOR, GLSSAO_VERSION_MINOR, GLSSAO_VERSION_PATCH, v >> 16, v >> 8 & 255, v & 255);
+        printf("%s %d.%d.%d (library %u.%u.%u)\n", options_name(program), GLSSAO_VERSION_MAJOR, GLSSAO_VERSION_MINOR,
+               GLSSAO_VERSION_PATCH, v >> 16, v >> 8 & 255, v & 255);
         return OPTIONS_DONE;
     }
     if (!options_check_depth_map(&start, out, program, why) || !options_check(out, program, why))

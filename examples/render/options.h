@@ -67,6 +67,8 @@ typedef enum options_program { OPTIONS_RENDER, OPTIONS_JOB, OPTIONS_VIEWER } opt
 /* A value of options.technique after those of glssao_technique. */
 enum { OPTIONS_RAYTRACE = GLSSAO_RAYS + 1 };
 
+enum { OPTIONS_ADAPTIVE_RAYS = 16 }; /* options.rays is at most that with adaptive_rays */
+
 #define OPTIONS_MAP_WORDS "none|ao|normals|depth|random|shadow|tiles|bent"
 /* Values of options.debug_map. The shadow map exists only if the scene has one. */
 typedef enum options_map {

@@ -131,16 +131,18 @@ static bool check_sequence(const options *o, bool is_viewer, failure *why)
 }
 
 /* Options that need or cannot be used together. */
-static bool check_together(const options *o, bool is_viewer, failure *why)
+static bool check_together(const options *o, options_program program, failure *why)
 {
+    const bool is_viewer = program == OPTIONS_VIEWER;
     const bool file_wanted =
         o->output || o->ao || o->normals || o->depth || o->stats || o->bench || o->plan || is_viewer;
     const bool traced = o->technique == OPTIONS_RAYTRACE;
     float angles[2];
     if (traced && !GLSSAO_HAS_EMBREE)
-        return fault_set(why, "--technique raytrace: this glssao-render was built without Embree");
+        return fault_set(why, "--technique raytrace: this %s was built without Embree", options_name(program));
     if ((o->rays || o->technique == GLSSAO_RAYS) && !GLSSAO_HAS_EMBREE)
-        return fault_set(why, "--%s: this glssao-render was built without Embree", o->rays ? "rays" : "technique rays");
+        return fault_set(why, "--%s: this %s was built without Embree", o->rays ? "rays" : "technique rays",
+                         options_name(program));
     if (o->rays && (traced || o->no_ao))
         return fault_set(why, "--rays %d and --%s cannot be used together", o->rays,
                          traced ? "technique raytrace" : "no-ao");
@@ -149,9 +151,9 @@ static bool check_together(const options *o, bool is_viewer, failure *why)
                          o->rays, o->error.given ? "error" : "budget");
     if (o->adaptive_rays && !o->rays && o->technique != GLSSAO_RAYS)
         return fault_set(why, "--adaptive-rays: no rays are traced without --rays or --technique rays");
-    if (o->adaptive_rays && o->rays > 16)
-        return fault_set(why, "--rays %d: at most 16 with --adaptive-rays, which traces up to four times as many",
-                         o->rays);
+    if (o->adaptive_rays && o->rays > OPTIONS_ADAPTIVE_RAYS)
+        return fault_set(why, "--rays %d: at most %d with --adaptive-rays, which traces up to four times as many",
+                         o->rays, (int)OPTIONS_ADAPTIVE_RAYS);
     if (o->technique == GLSSAO_RAYS && o->sample_count)
         return fault_set(why, "--samples %d: --rays sets how many rays are traced", o->sample_count);
     if (traced && o->bench)
@@ -257,6 +259,6 @@ bool options_check(const options *o, options_program program, failure *why)
     if (o->shard_count && program == OPTIONS_RENDER) {
         return fault_set(why, "--shard %d/%d: needs a list, --batch LIST", o->shard_index, o->shard_count);
     }
-    return check_together(o, program == OPTIONS_VIEWER, why) && check_picture(o, program, why) &&
-           check_settings(o, why) && check_samples(o, why) && check_extent(o, why);
+    return check_together(o, program, why) && check_picture(o, program, why) && check_settings(o, why) &&
+           check_samples(o, why) && check_extent(o, why);
 }

@@ -8,6 +8,9 @@
 #include "option.h"
 #include "options.h"
 
+/* options.c: what the program is called. */
+const char *options_name(options_program program);
+
 /* options_table.c: what a program, or a line of a batch, takes. */
 option_set options_set(options_program program);
 

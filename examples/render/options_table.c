@@ -49,7 +49,7 @@ static const option table[] = {
     RANGE(INT, "rays", "N", SCOPE_PICTURE, rays, 1, 64,
           "trace N rays from each pixel of the estimate, 1 to 64: all of it with -t rays (default 2 to 8, by quality), "
           "and a correction with another technique (default none)"),
-    FLAG(0, "adaptive-rays", SCOPE_RENDERED, adaptive_rays,
+    FLAG(0, "adaptive-rays", SCOPE_PICTURE, adaptive_rays,
          "more rays where few neighbours can be averaged, fewer where all say the same; --rays is at most 16 then"),
     RANGE(INT, "blur-rounds", "N", SCOPE_PICTURE, blur_rounds, 0, 16, "rounds of blur, 0 to 16"),
     RANGE(INT, "history", "N", SCOPE_PICTURE, history, 0, 63,

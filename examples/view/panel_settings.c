@@ -108,6 +108,8 @@ static bool draw_rays(viewer *v)
     }
     if (rays_view_applies(v)) {
         char text[64];
+        changed = gui_check("adaptive rays", &v->options.adaptive_rays) || changed;
+        gui_tip("More rays where few neighbours can be averaged, fewer where all say the same.");
         snprintf(text, sizeof text, "rays: %d of %d rounds", v->rays_rounds, (int)RAY_ROUNDS);
         gui_progress((float)v->rays_rounds / (float)RAY_ROUNDS, text);
     }

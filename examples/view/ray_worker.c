@@ -68,6 +68,7 @@ static bool trace_round(round_job *j, const trace_scene *t, int round)
     const long cores = sysconf(_SC_NPROCESSORS_ONLN);
     const trace_options options = {.radius = j->request.radius,
                                    .samples = j->request.rays,
+                                   .adaptive = j->request.adaptive,
                                    .seed = j->request.seed + (uint32_t)round * 7919u,
                                    .threads = cores > 2 ? (int)cores - 1 : 1, /* one is left for the window */
                                    .stopped = is_outdated,

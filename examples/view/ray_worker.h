@@ -19,7 +19,8 @@ typedef struct ray_request {
         *surfaces)[4]; /* as trace_seen has them, row by row; the worker frees them. NULL: rays of the view find them */
     int step;          /* 1, or 2 with surfaces */
     float radius;
-    int rays; /* a texel and round */
+    int rays;      /* a texel and round */
+    bool adaptive; /* about so many: trace_options.adaptive */
     uint32_t seed;
 } ray_request;
 

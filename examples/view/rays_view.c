@@ -68,6 +68,7 @@ void rays_view_ask(viewer *v)
                            .radius = v->settings.radius,
                            .rays = v->settings.technique == GLSSAO_RAYS ? v->settings.sample_count : v->options.rays,
                            .seed = v->options.seed};
+    request.adaptive = v->options.adaptive_rays && request.rays <= OPTIONS_ADAPTIVE_RAYS;
     if (v->ray_worker)
         request.surfaces = pipeline_read_surfaces(&v->pipeline, &v->view, step, FAULT(v->error));
     if (!request.surfaces) {

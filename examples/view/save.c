@@ -130,8 +130,11 @@ static void add_occlusion(line *l, const viewer *v)
         add(l, " --error %.9g", rest_error(v));
     const int rounds = v->rays_rounds > 1 ? v->rays_rounds : 1;
     const int each = v->settings.technique == GLSSAO_RAYS ? v->settings.sample_count : o->rays;
-    if (rays_view_applies(v) && each > 0 && v->mode != MODE_OFF)
+    if (rays_view_applies(v) && each > 0 && v->mode != MODE_OFF) {
         add(l, " --rays %d", each * rounds < 64 ? each * rounds : 64);
+        if (o->adaptive_rays && each * rounds <= OPTIONS_ADAPTIVE_RAYS)
+            add(l, " --adaptive-rays");
+    }
     if (o->budget_ms.given && horizon && v->mode != MODE_OFF)
         add(l, " --budget %.9g", (double)o->budget_ms.value);
     if (o->path)

@@ -88,5 +88,5 @@ RESULT result()
     // Back to the host's view space, in which normals are stored.
     normal.xy = vec2(gRoll.x * normal.x - gRoll.y * normal.y, gRoll.y * normal.x + gRoll.x * normal.y);
 #endif
-    return octahedral(is_sky(stored) || !(dot(normal, normal) < 1e30) ? vec3(0.0, 0.0, 1.0) : normal);
+    return octahedral(dot(normal, normal) < 1e30 && !is_sky(stored) ? normal : vec3(0.0, 0.0, 1.0));
 }

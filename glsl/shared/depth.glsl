@@ -56,7 +56,9 @@ bool is_sky(float depth)
 #if DEPTH == DEPTH_WINDOW
     return depth == gSkyDepth;
 #else
-    return !(abs(depth) < gSkyDepth) || depth == 0.0;
+    // By its bits: a driver may take !(NaN < x) for NaN >= x, which is false. Subnormal numbers count as 0.
+    uint bits = floatBitsToUint(depth) & 0x7fffffffu;
+    return bits >= floatBitsToUint(gSkyDepth) || bits < 0x00800000u;
 #endif
 }
 

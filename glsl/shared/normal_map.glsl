@@ -24,9 +24,8 @@ vec3 normal_view_from_stored(vec3 stored)
 {
     vec3 normal = decoded_normal(stored);
     float length_squared = dot(normal, normal);
-    if (!(length_squared > 1e-20 && length_squared < 1e20))
-        return vec3(0.0);
-    return normal * inversesqrt(length_squared);
+    bool is_usable = length_squared > 1e-20 && length_squared < 1e20;
+    return is_usable ? normal * inversesqrt(length_squared) : vec3(0.0);
 }
 
 // At a full-size texel, which rebuilt normals stand for by twos unless they are DENSE.

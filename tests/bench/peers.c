@@ -184,20 +184,44 @@ static bool run_node(const peer_bench *b, const char *jobs, char *error, size_t 
     return false;
 }
 
+static bool is_recorded(const peer_bench *b, int number, const peer_view *v, char key[64])
+{
+    char path[2048];
+    name_recording(number, v, key);
+    snprintf(path, sizeof path, "%s/%s.peer", b->folder, key);
+    return access(path, R_OK) == 0;
+}
+
+/* Before hours of measuring end at a recording that is not there. */
+static bool all_are_recorded(const peer_bench *b, const int *numbers, int number_count, const peer_view *views,
+                             int count, char *error, size_t error_size)
+{
+    for (int i = 0; i < count * number_count; i++) {
+        const peer_view *v = &views[i / number_count];
+        const scene_view *view = &v->gbuffer->view;
+        char key[64], name[48];
+        if (is_recorded(b, numbers[i % number_count], v, key))
+            continue;
+        peers_name(numbers[i % number_count], name);
+        snprintf(error, error_size, "%s: no recording of %s at %dx%d: it takes glssao-bench --record with this size",
+                 b->folder, name, view->width, view->height);
+        return false;
+    }
+    return true;
+}
+
 bool peers_record(peer_bench *b, const int *numbers, int number_count, const peer_view *views, int count, char *error,
                   size_t error_size)
 {
     char jobs[2048];
     int missing = 0;
     if (!b->modules)
-        return true;
+        return all_are_recorded(b, numbers, number_count, views, count, error, error_size);
     snprintf(jobs, sizeof jobs, "%s/jobs.tsv", b->folder);
     FILE *f = fopen(jobs, "w");
     for (int i = 0; f && i < count * number_count; i++) {
-        char line[2048], key[64], path[2048];
-        name_recording(numbers[i % number_count], &views[i / number_count], key);
-        snprintf(path, sizeof path, "%s/%s.peer", b->folder, key);
-        if (access(path, R_OK) == 0)
+        char line[2048], key[64];
+        if (is_recorded(b, numbers[i % number_count], &views[i / number_count], key))
             continue;
         describe(numbers[i % number_count], &views[i / number_count], 9, line, sizeof line);
         fprintf(f, "%s\t%s\n", key, line);

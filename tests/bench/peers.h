@@ -29,7 +29,8 @@ typedef struct peer_bench {
 bool peers_open(peer_bench *b, const options *o, context *c, char *error, size_t error_size);
 void peers_close(peer_bench *b);
 
-/* Has node record these configurations for these views, except for what was recorded before. */
+/* Has node record these configurations for these views, except for what was recorded before. Without packages all must
+ * have been. */
 bool peers_record(peer_bench *b, const int *numbers, int number_count, const peer_view *views, int count, char *error,
                   size_t error_size);
 /* The same for the peers among r->configs. */

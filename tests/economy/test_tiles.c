@@ -34,10 +34,9 @@ static double left_out(const glssao_effect *effect)
     const uint32_t map = glssao_map(effect, GLSSAO_MAP_TILES, &w, &h);
     if (!map)
         return 0;
-    float *rings = fixture_read_texture(map, w, h, 1);
+    SCOPED(memory) float *rings = fixture_read_texture(map, w, h, 1);
     for (int i = 0; i < w * h; ++i)
         count += rings[i] > 0;
-    free(rings);
     return (double)count / (w * h);
 }
 
@@ -56,10 +55,10 @@ static double assert_same_picture(glssao_effect *effect, const glssao_frame *fra
     glssao_settings s = *settings;
     int w, h;
     s.tiles = GLSSAO_TILES_OFF;
-    float *without = fixture_compute(effect, frame, &s, &w, &h);
+    SCOPED(memory) float *without = fixture_compute(effect, frame, &s, &w, &h);
     assert_int_equal(glssao_map(effect, GLSSAO_MAP_TILES, NULL, NULL), 0);
     s.tiles = GLSSAO_TILES_ON;
-    float *with = fixture_compute(effect, frame, &s, &w, &h);
+    SCOPED(memory) float *with = fixture_compute(effect, frame, &s, &w, &h);
     double worst = 0;
     int at = 0;
     for (int i = 0; i < w * h; ++i)
@@ -70,8 +69,6 @@ static double assert_same_picture(glssao_effect *effect, const glssao_frame *fra
     if (!(worst <= 1.01 * STEP))
         fail_msg("%s, technique %d: pixel %d, %d of %d x %d is off by %.1f steps", what, s.technique, at % w, at / w, w,
                  h, worst / STEP);
-    free(without);
-    free(with);
     return left_out(effect);
 }
 
@@ -79,8 +76,8 @@ static double assert_same_picture(glssao_effect *effect, const glssao_frame *fra
 static double compare_scene(fixture *f, const scene *s, const camera *c, float radius, bool all, const char *name)
 {
     static int turn;
-    glssao_effect *effect = fixture_drawn_effect(f, W, H);
-    const GLuint depth = fixture_depth_texture(GL_DEPTH_COMPONENT24, W, H, NULL);
+    SCOPED(effect) glssao_effect *effect = fixture_drawn_effect(f, W, H);
+    SCOPED(texture) const GLuint depth = fixture_depth_texture(GL_DEPTH_COMPONENT24, W, H, NULL);
     const glssao_frame frame = draw_scene(effect, s, c, depth);
     double most = 0;
     for (int t = 0; t < TECHNIQUES; ++t)
@@ -92,8 +89,6 @@ static double compare_scene(fixture *f, const scene *s, const camera *c, float r
             most = fmax(most, assert_same_picture(effect, &frame, &settings, name));
         }
     turn++;
-    gl.DeleteTextures(1, &depth);
-    glssao_destroy(effect);
     return most;
 }
 
@@ -168,8 +163,9 @@ TEST_GL(every_projection_looks_the_same)
         const double scale = kind % 2 ? 1e3 : 1e-3;
         analytic_shape room[ANALYTIC_ROOM_SHAPES];
         analytic_room(room, scale);
+        SCOPED(frame)
         const glssao_frame frame = shapes_frame((analytic_projection)kind, room, ANALYTIC_ROOM_SHAPES, scale);
-        glssao_effect *effect = fixture_drawn_effect(*state, W, H);
+        SCOPED(effect) glssao_effect *effect = fixture_drawn_effect(*state, W, H);
         for (int t = 0; t < TECHNIQUES; ++t)
             for (int margin = 0; margin <= 34; margin += 34) {
                 glssao_settings settings = glssao_default_settings((glssao_technique)t, GLSSAO_HIGH);
@@ -185,22 +181,18 @@ TEST_GL(every_projection_looks_the_same)
                 settings.thickness = 0.5f;
                 assert_same_picture(effect, &f, &settings, "room with a radius in pixels");
             }
-        glssao_destroy(effect);
-        fixture_delete_frame(&frame);
     }
 }
 
 /* The share of tiles that a technique skips for these shapes. */
 static double share_of(fixture *f, const analytic_shape *shapes, int count, glssao_technique technique, float radius)
 {
-    const glssao_frame frame = shapes_frame(PERSPECTIVE, shapes, count, 1.0);
-    glssao_effect *effect = fixture_drawn_effect(f, W, H);
+    SCOPED(frame) const glssao_frame frame = shapes_frame(PERSPECTIVE, shapes, count, 1.0);
+    SCOPED(effect) glssao_effect *effect = fixture_drawn_effect(f, W, H);
     glssao_settings settings = glssao_default_settings(technique, GLSSAO_HIGH);
     settings.half_resolution = settings.upsample = false; /* smaller tiles */
     set_radius(&settings, radius);
     const double share = assert_same_picture(effect, &frame, &settings, "shapes");
-    glssao_destroy(effect);
-    fixture_delete_frame(&frame);
     return share;
 }
 
@@ -274,8 +266,8 @@ TEST_GL(tiles_beside_estimated_ones_look_the_same)
                              {tile * (5 * (i % 3) - 5 + i / 24.0), tile * (5 * (i / 3) - 2.5 + i / 24.0), -8},
                              {0.05, 0.05, 0.6}};
     const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
-    const glssao_frame frame = fixture_frame(&view, shapes, BUMPS + 1, WIDE, HIGH);
-    glssao_effect *effect = fixture_drawn_effect(*state, WIDE, HIGH);
+    SCOPED(frame) const glssao_frame frame = fixture_frame(&view, shapes, BUMPS + 1, WIDE, HIGH);
+    SCOPED(effect) glssao_effect *effect = fixture_drawn_effect(*state, WIDE, HIGH);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         glssao_settings settings = glssao_default_settings(cases[i].technique, cases[i].quality);
         set_radius(&settings, cases[i].radius);
@@ -284,8 +276,6 @@ TEST_GL(tiles_beside_estimated_ones_look_the_same)
         const double share = assert_same_picture(effect, &frame, &settings, "bumps");
         assert_true(share > 0.3 && share < 0.7);
     }
-    glssao_destroy(effect);
-    fixture_delete_frame(&frame);
 }
 
 enum { IN_DEPTH = 1, IN_NORMALS = 2 };
@@ -297,17 +287,16 @@ static const double INNER = (double)(W / 16 - 2) * (H / 16 - 2) / ((W / 16) * (H
 static double share_of_maps(fixture *f, const float *depth, const float *normals, float power)
 {
     const analytic_view view = analytic_make_view(ORTHOGRAPHIC, (double)W / H, 0.5, 40.0, 1.0);
+    SCOPED(frame)
     glssao_frame frame = {.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, W, H, depth),
                           .normal_texture = fixture_normal_texture(W, H, normals)};
     memcpy(frame.projection, view.projection, sizeof frame.projection);
-    glssao_effect *effect = fixture_drawn_effect(f, W, H);
+    SCOPED(effect) glssao_effect *effect = fixture_drawn_effect(f, W, H);
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     settings.half_resolution = settings.upsample = false;
     settings.power = power;
     set_radius(&settings, 0.05f);
     const double share = assert_same_picture(effect, &frame, &settings, "maps");
-    glssao_destroy(effect);
-    fixture_delete_frame(&frame);
     return share;
 }
 
@@ -321,15 +310,11 @@ static double share_of_valley(fixture *f, double angle_rad, int axis, int where,
     planes[0].size[axis] = sin(angle_rad);
     planes[1].size[axis] = -sin(angle_rad);
     const analytic_view view = analytic_make_view(ORTHOGRAPHIC, (double)W / H, 0.5, 40.0, 1.0);
-    float *depth, *normals, *flat_depth, *flat_normals;
+    SCOPED(memory) float *depth = NULL, *normals = NULL, *flat_depth = NULL, *flat_normals = NULL;
     analytic_render(&view, planes, 2, W, H, &depth, &normals);
     analytic_render(&view, &flat, 1, W, H, &flat_depth, &flat_normals);
     const double share =
         share_of_maps(f, where & IN_DEPTH ? depth : flat_depth, where & IN_NORMALS ? normals : flat_normals, power);
-    free(depth);
-    free(normals);
-    free(flat_depth);
-    free(flat_normals);
     return share;
 }
 
@@ -340,7 +325,7 @@ TEST_GL(a_line_off_a_plane_is_estimated)
     const analytic_view view = analytic_make_view(ORTHOGRAPHIC, (double)W / H, 0.5, 40.0, 1.0);
     for (int axis = 0; axis < 2; ++axis)
         for (int where = IN_DEPTH; where <= IN_NORMALS; ++where) {
-            float *depth, *normals;
+            SCOPED(memory) float *depth = NULL, *normals = NULL;
             analytic_render(&view, &flat, 1, W, H, &depth, &normals);
             for (int i = 0; i < W * H; ++i) {
                 const int at = axis == 0 ? i % W : i / W;
@@ -351,8 +336,6 @@ TEST_GL(a_line_off_a_plane_is_estimated)
             }
             const double share = share_of_maps(*state, depth, normals, 1);
             assert_true(share > 0.5 && share < INNER);
-            free(depth);
-            free(normals);
         }
 }
 
@@ -373,16 +356,14 @@ TEST_GL(a_plane_is_flat_to_0_0015)
 TEST_GL(few_tiles_are_not_sorted)
 {
     const analytic_shape wall = {ANALYTIC_PLANE, {0, 0, -8}, {0, 0, 1}};
-    const glssao_frame frame = shapes_frame(PERSPECTIVE, &wall, 1, 1.0);
-    glssao_effect *effect = fixture_drawn_effect(*state, W, H);
+    SCOPED(frame) const glssao_frame frame = shapes_frame(PERSPECTIVE, &wall, 1, 1.0);
+    SCOPED(effect) glssao_effect *effect = fixture_drawn_effect(*state, W, H);
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     assert_false(glssao_plan_frame(effect, &frame, &settings).passes[GLSSAO_PASS_TILES].run);
     settings.tiles = GLSSAO_TILES_ON;
     assert_true(glssao_plan_frame(effect, &frame, &settings).passes[GLSSAO_PASS_TILES].run);
     settings.tiles = (glssao_tiles)3;
     assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_INVALID_ARGUMENT);
-    glssao_destroy(effect);
-    fixture_delete_frame(&frame);
 }
 
 TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -157,14 +157,12 @@ TEST_GL(blur_serves_the_first)
     for (int count = 1; count <= 16; ++count) {
         accumulate(&s, 1);
         accumulate(&blurred, 1);
-        float *plain = result(&s), *smooth = result(&blurred);
+        SCOPED(memory) float *plain = result(&s), *smooth = result(&blurred);
         if (count == 1)
             assert_true(rms(&s, smooth, wanted) < 0.7 * rms(&s, plain, wanted));
         if (count == 16)
             assert_memory_equal(plain, smooth, W * H * sizeof *plain);
         assert_true((stats(&blurred).passes[GLSSAO_PASS_BLUR].draw_calls > 0) == (count < 16));
-        free(plain);
-        free(smooth);
     }
     free(wanted);
     delete (&reference);

