@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The entry points of a pass that can be drawn or dispatched. The value of result() goes into the framebuffer or, with
 // COMPUTE 1, into an image, for each pixel of gRegion. OUTPUT_BENT: accessibility goes there, and the bent normal with
-// accessibility into a second one.
+// accessibility into a second one. A pass that defines PREPARE has all invocations of a work group run that first.
 
 #if COMPUTE
 layout(local_size_x = GROUP_X, local_size_y = GROUP_Y) in;
@@ -37,6 +37,9 @@ writeonly uniform image2D u_bent_target;
 void main()
 {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+#ifdef PREPARE
+    PREPARE;
+#endif
     if (any(greaterThanEqual(pixel, gRegion.zw)))
         return;
     RESULT value = result();

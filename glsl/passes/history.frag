@@ -136,6 +136,10 @@ RESULT result()
     float noise = NOISE + min(DETAIL * abs(last.x - last.y), NOISE);
     // Where nothing occludes the pixel or its neighbours, there is little noise.
     noise *= min(now.x, now.y) < 1.0 ? 1.0 : 0.5;
+#if !RAW && !RAYS
+    // At full size the blur leaves less. A frame that is darker has found an occluder; a lighter one may have lost it from sight.
+    noise *= change < 0.0 ? QUIET * QUIET : QUIET;
+#endif
     float share_of_noise = abs(change) / noise;
     float jump = clamp(share_of_noise - 1.0, 0.0, 1.0);
     float doubt = clamp(2.0 * share_of_noise - 1.0, 0.0, 1.0);

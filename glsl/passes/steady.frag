@@ -33,16 +33,40 @@ void add_pairs(surface own, uvec2 a, uvec2 b, uvec2 c, uvec2 d, inout vec3 sums)
     sums += vec3(dot(counts, vec4(1.0)), dot(counts, detail), dot(counts, detail * detail));
 }
 
+uvec2 fetched(ivec2 at)
+{
+    return texelFetch(u_history_map, clamp(at, ivec2(0), textureSize(u_history_map, 0) - 1), 0).xy;
+}
+
+#if COMPUTE
+// The texels of the work group and those around them, which spares fetches.
+const int WIDTH = GROUP_X + 2;
+const int TEXELS = WIDTH * (GROUP_Y + 2);
+shared uvec2 tile[TEXELS];
+
+#define PREPARE fetch_tile()
+void fetch_tile()
+{
+    ivec2 corner = ivec2(gl_WorkGroupID.xy) * ivec2(GROUP_X, GROUP_Y) + gRegion.xy + ivec2(gOrigin) - 1;
+    for (int i = int(gl_LocalInvocationIndex); i < TEXELS; i += GROUP_X * GROUP_Y)
+        tile[i] = fetched(corner + ivec2(i % WIDTH, i / WIDTH));
+    barrier();
+}
+
 uvec2 texel_at(int x, int y)
 {
-    return texelFetch(u_history_map, ivec2(x, y), 0).xy;
+    return tile[(int(gl_LocalInvocationID.y) + 1 + y) * WIDTH + int(gl_LocalInvocationID.x) + 1 + x];
 }
+#else
+uvec2 texel_at(int x, int y)
+{
+    return fetched(ivec2(pixel_center()) + ivec2(x, y));
+}
+#endif
 
 RESULT result()
 {
-    ivec2 at = ivec2(pixel_center());
-    ivec2 low = max(at - 1, ivec2(0)), high = min(at + 1, textureSize(u_history_map, 0) - 1);
-    uvec2 texel = texel_at(at.x, at.y);
+    uvec2 texel = texel_at(0, 0);
     surface own;
     own.linear = linear_of(texel.xxxx, 1.0).x;
     // What the history rounds bends lines too.
@@ -51,13 +75,13 @@ RESULT result()
     own.projected = vec2(ivec2((texel.y >> 5) & 31u, texel.y & 31u));
     float detail = details_of(texel.yyyy).x;
     vec3 sums = vec3(1.0, detail, detail * detail);
-    add_pairs(own, texel_at(low.x, at.y), texel_at(high.x, at.y), texel_at(at.x, low.y), texel_at(at.x, high.y), sums);
-    add_pairs(own, texel_at(low.x, low.y), texel_at(high.x, high.y), texel_at(low.x, high.y), texel_at(high.x, low.y),
-              sums);
+    add_pairs(own, texel_at(-1, 0), texel_at(1, 0), texel_at(0, -1), texel_at(0, 1), sums);
+    add_pairs(own, texel_at(-1, -1), texel_at(1, 1), texel_at(-1, 1), texel_at(1, -1), sums);
     vec2 moments = sums.yz / sums.x;
     float spread = max(moments.y - moments.x * moments.x, 0.0);
     float known = clamp((frames_of(texel.xxxx).x - 1.0) / NARROW, 0.0, 1.0);
-    float keep = known * max(1.0 - SHRINK * spread / max(moments.x * moments.x, 1e-8), 0.0);
+    const float NOISY = RAYS != 0 ? SHRINK_RAYS : SHRINK;
+    float keep = known * max(1.0 - NOISY * spread / max(moments.x * moments.x, 1e-8), 0.0);
     float blurred = float(int((texel.y >> 10) & 2047u));
     float accessibility = clamp((blurred + keep * moments.x) / MEAN_STEPS, 0.0, 1.0);
 #if RAYS

@@ -47,11 +47,13 @@
 
 // Reuse of earlier frames (passes/history.frag, passes/steady.frag).
 #define PLANE 0.02            // how far off its plane a surface of the last frame may be, besides a pixel's width
-#define TURN 0.45             // chord of two normals of one surface
+#define TURN 0.7              // chord of two normals of one surface
 #define PICKED 2.5            // weight of a pixel that was estimated itself; the four of a block have 4
 #define LATELY 0.3            // share of a frame in the recent change
 #define NOISE 0.06            // recent change that may be noise
 #define DETAIL 0.7            // more of it where the blur takes out detail, in units of that
+#define QUIET 0.5             // share of that at full size, and once more where the frame is darker
 #define FORGET 2.0            // frames that count after a larger one
 #define NARROW 4.0            // frames after which all detail counts
-#define SHRINK 0.5            // spread of detail that counts as noise, in units of its square
+#define SHRINK 0.25           // spread of detail that counts as noise, in units of its square
+#define SHRINK_RAYS 0.5       // the same for rays, which have more noise

@@ -15,6 +15,7 @@
 #include "scenes.h"
 #include "sequence.h"
 #include "tool.h"
+#include "traced.h"
 #include "truth.h"
 #include "words.h"
 
@@ -41,6 +42,7 @@ typedef struct motion {
     context *context;
     map_reader reader;
     scene_renderer *mover; /* of what moves by itself; NULL: nothing does */
+    host_rays traced;      /* of rays in a scene where only the camera moves */
     shot shots[FRAMES_MAX];
     int count;
     float radius;
@@ -229,9 +231,14 @@ static bool run_config(motion *m, const config *c, bench_path path, float **resu
         glssao_frame frame = gbuffer_frame(&k->gbuffer, false);
         frame.motion_texture = k->motion;
         frame.cut = path == PATH_CUT && i == PATH_EVENT;
+        if (c->settings.technique == GLSSAO_RAYS) {
+            const bench_config traced = {.settings = c->settings, .rays = c->settings.sample_count};
+            done = traced_run(&m->traced, &k->gbuffer, &traced, m->radius, (uint32_t)i, m->error, sizeof m->error);
+            frame.rays_texture = m->traced.rays.texture;
+        }
         gl.Finish();
         const double before = clock_cpu_ms();
-        done = effect && glssao_compute(effect, &frame, &s) == GLSSAO_OK;
+        done = done && effect && glssao_compute(effect, &frame, &s) == GLSSAO_OK;
         gl.Finish();
         f->cpu_ms = i > 0 ? fmin(f->cpu_ms, clock_cpu_ms() - before) : INFINITY;
         if (done)
@@ -275,12 +282,15 @@ static int find_lag(const motion *m, float *const *single, float *const *result)
 static int list_configs(config out[CONFIGS_MAX])
 {
     int n = 0;
-    for (int q = 0; q < 4; q++)
+    for (int q = 0; q < 5; q++)
         for (int h = 0; h < 2; h++) {
             config *c = &out[n++];
-            c->settings = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)q);
+            const bool is_rays = q == 4;
+            const glssao_quality quality = is_rays ? GLSSAO_MEDIUM : (glssao_quality)q;
+            c->settings = glssao_default_settings(is_rays ? GLSSAO_RAYS : GLSSAO_HORIZON, quality);
             c->settings.history = h == 0 ? 0 : 16;
-            snprintf(c->name, sizeof c->name, "%.8s%s", words_at(QUALITY_WORDS, q).text, h == 0 ? "" : "-16");
+            snprintf(c->name, sizeof c->name, "%s%.8s%s", is_rays ? "rays-" : "",
+                     words_at(QUALITY_WORDS, (int)quality).text, h == 0 ? "" : "-16");
         }
     return n;
 }
@@ -307,9 +317,12 @@ static bool run_motion(motion *m, const bench_scene *b, bench_path path)
         figures f = {.lag = 0};
         char label[128];
         const bool reuses = configs[i].settings.history > 0;
-        if (!options_match(m->options.only, configs[i].name))
+        const bool is_rays = configs[i].settings.technique == GLSSAO_RAYS;
+        if (!options_match(m->options.only, configs[i].name) || (is_rays && path_moves_things(path)))
             continue;
-        done = run_config(m, &configs[i], path, results[reuses], &f);
+        if (is_rays && !m->traced.embree)
+            done = traced_open(&m->traced, b, view.width, view.height, m->error, sizeof m->error);
+        done = done && run_config(m, &configs[i], path, results[reuses], &f);
         snprintf(label, sizeof label, "%.60s-%s-%.30s", b->name, path_name(path), configs[i].name);
         if (done && reuses && m->options.check)
             done = write_film(m, label, results[0], results[1]);
@@ -320,6 +333,7 @@ static bool run_motion(motion *m, const bench_scene *b, bench_path path)
                f.new_pixels > 0 ? sqrt(f.new2 / f.new_pixels) : 0, f.lag, f.cpu_ms);
         fflush(stdout);
     }
+    traced_close(&m->traced);
     clear_shots(m);
     for (int i = 0; i < FRAMES_MAX; i++)
         for (int k = 0; k < 2; k++)

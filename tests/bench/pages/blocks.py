@@ -327,20 +327,21 @@ def motion(folder):
     t = load(folder, "motion")
     if not t:
         return None
-    rows, base = [], None
-    for setting in ["ultra"] + t.values("setting"):
+    columns = (("rmse", "rms"), ("ssim", "mean"), ("flip", "mean"), ("frame_change", "rms"), ("new_rmse", "rms"), ("cpu_ms", "mean"))
+    rows = []
+    for setting in t.values("setting"):
         own = [r for r in t.where(setting=setting) if r["motion"] in MOTIONS]
-        lags = [r["lag"] for r in t.where(setting=setting, motion="box")]
-        figures = [combine((r[c] for r in own), how) for c, how in (
-            ("rmse", "rms"), ("ssim", "mean"), ("flip", "mean"), ("frame_change", "rms"), ("new_rmse", "rms"), ("cpu_ms", "mean"))]
-        base = base or figures
-        rmse, ssim, flip, change, new, time = figures
+        motions = {(r["scene"], r["motion"]) for r in own}  # rays have none where things move
+        ultra = [r for r in t.where(setting="ultra") if (r["scene"], r["motion"]) in motions]
+        lags = [r["lag"] for r in t.where(setting=setting, motion="box") if setting.endswith("-16")]
+        rmse, ssim, flip, change, new, time = (combine((r[c] for r in own), how) for c, how in columns)
+        base = [combine((r[c] for r in ultra), how) for c, how in columns]
         rows.append([f"`{setting}`", f"{number(rmse)} ({rmse / base[0]:.2f})", number(ssim, 3), number(flip, 3),
-                     f"{number(change)} ({change / base[3]:.2f})", number(new), f"{max(lags):.0f}" if setting.endswith("-16") else "",
+                     f"{number(change)} ({change / base[3]:.2f})", number(new), f"{max(lags):.0f}" if lags else "",
                      f"{ms(time)} ({time / base[5]:.2f})"])
     head = ["setting", "RMSE (of ultra's)", "SSIM", "FLIP", "frame change (of ultra's)", "RMSE of new pixels", "lag, frames",
             "CPU ms (of ultra's)"]
-    return table(head, rows[1:])
+    return table(head, rows)
 
 
 def motion_command(folder):
