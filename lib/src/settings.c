@@ -39,7 +39,7 @@ static glssao_settings rays_settings(glssao_settings s, glssao_quality quality)
     s.technique = GLSSAO_RAYS;
     s.surface_epsilon = 0.0f;
     s.power = 1.0f;
-    s.sample_count = quality == GLSSAO_LOW ? 2 : quality == GLSSAO_ULTRA ? 8 : 4;
+    s.sample_count = quality == GLSSAO_LOW ? 2 : quality == GLSSAO_HIGH ? 4 : 8;
     s.half_resolution = quality <= GLSSAO_MEDIUM;
     s.upsample = true;
     s.blur = GLSSAO_BLUR_PLANAR;
