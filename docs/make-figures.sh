@@ -44,7 +44,7 @@ glssao-bench "${scenes[@]}" "${peers[@]}" --frames 2 --sequence-frames 4 --split
 glssao-bench "${scenes[@]}" --all-views --only rays,horizon-high,horizon-ultra --out "$work/others" "${options[@]}" --pick "$others" \
   --frames 0 --sequence-frames 0 --split-seeds 0
 glssao-economy "${scenes[@]}" --time-size 1280x720 --frames 2 --time-scene columns --check --out "$work" "${options[@]}" "${cheap[@]}"
-glssao-motion "${scenes[@]}" --only low,high,ultra --out "$work" "${options[@]}" "${moves[@]}" >"$work/motion.tsv"
+glssao-motion "${scenes[@]}" --only low,high,ultra,rays --out "$work" "${options[@]}" "${moves[@]}" >"$work/motion.tsv"
 glssao-cost --frames 3 --out "$work" "${options[@]}"
 FRAMES=${FRAMES:-8} "$root/docs/make-performance.sh" "$work" "$build" "${sizes[@]}"
 cp "$work"/*.tsv "$data"
