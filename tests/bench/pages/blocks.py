@@ -97,15 +97,16 @@ def plain_rays(a):
 
 
 def traced(folder, use="tuning"):
-    """A few rays alone and as corrections, beside screen space and plain ray tracing, from fast to slow."""
+    """A few rays alone and as corrections, beside screen space; where times are known, also plain ray tracing."""
     a = Accuracy(folder, use)
     few = [c for c in a.by_config if data.is_few_rays(c)]
     beside = [f"horizon-{level}" for level in LEVELS if a.has(f"horizon-{level}")]
     if not few:
         return None
     base = a.time("horizon-high", "cpu_ms") if a.has("horizon-high") else None
-    order = sorted(few + beside + plain_rays(a), key=lambda c: (a.time(c, "cpu_ms") or 0, -a.figure(c, "rmse")))
-    timed = any(a.time(c, "cpu_ms") for c in order)
+    timed = any(a.time(c, "cpu_ms") for c in few)
+    plain = plain_rays(a) if timed else []
+    order = sorted(few + beside + plain, key=lambda c: (a.time(c, "cpu_ms") or 0, -a.figure(c, "rmse")))
     rows = []
     for c in order:
         time = a.time(c, "cpu_ms")
