@@ -145,7 +145,7 @@ void write(int from, int row, ivec2 texel)
 #endif
 #elif OUTPUT == OUTPUT_BENT
     vec2 full_uv = ((vec2(texel + gRegion.xy) + gOrigin) * float(gFactor) + 0.5) * gFullTexel;
-    vec4 value = delivered(contents, center.y == linear_from_distance(FAR_AWAY), normal_view_at_uv(full_uv));
+    vec4 value = delivered(contents, is_far(center.y), normal_view_at_uv(full_uv));
     imageStore(u_target, texel + gRegion.xy, value.xxxx);
     imageStore(u_bent_target, texel + gRegion.xy, vec4(normalize(value.yzw), value.x));
 #else

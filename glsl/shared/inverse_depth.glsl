@@ -17,6 +17,12 @@ float linear_from_distance(float distance)
     return orthographic() ? distance : 1.0 / distance;
 }
 
+// Whether it is that of sky, however the driver divides and however a map has rounded it.
+bool is_far(float linear)
+{
+    return orthographic() ? linear > 0.5 * FAR_AWAY : linear < 2.0 / FAR_AWAY;
+}
+
 // The same for a stored depth that is not sky.
 float linear_from_depth(float depth)
 {

@@ -158,7 +158,7 @@ AMBIENT ambient(CONTENTS contents, float linear, uint code)
 AMBIENT ambient(CONTENTS contents, float linear, uint code)
 {
     vec2 full_uv = (floor(pixel_center()) * float(gFactor) + 0.5) * gFullTexel;
-    return delivered(finished(contents), linear == linear_from_distance(FAR_AWAY), normal_view_at_uv(full_uv));
+    return delivered(finished(contents), is_far(linear), normal_view_at_uv(full_uv));
 }
 #else
 #define AMBIENT float
