@@ -17,10 +17,10 @@ float linear_from_distance(float distance)
     return orthographic() ? distance : 1.0 / distance;
 }
 
-// Whether it is that of sky, however the driver divides and however a map has rounded it.
+// Whether it is that of sky, however the driver divides: the division may miss by a few parts in 10^7.
 bool is_far(float linear)
 {
-    return orthographic() ? linear > 0.5 * FAR_AWAY : linear < 2.0 / FAR_AWAY;
+    return orthographic() ? linear == FAR_AWAY : abs(linear) < 1.000001 / FAR_AWAY;
 }
 
 // The same for a stored depth that is not sky.
