@@ -150,6 +150,8 @@ TEST_GL(another_view_starts_anew)
 /* A few estimates need a blur to remove the tile's noise; many leave nothing to blur. */
 TEST_GL(blur_serves_the_first)
 {
+    const fixture *f = *state;
+    const int blurs = context_is_software(f->context) ? 2 : 1; /* a GPU runs both directions in one dispatch */
     setup reference = make(*state, 1), s = make(*state, 2), blurred = make(*state, 2);
     blurred.settings.blur = GLSSAO_BLUR_PLANAR;
     accumulate(&reference, REFERENCE);
@@ -162,7 +164,7 @@ TEST_GL(blur_serves_the_first)
             assert_true(rms(&s, smooth, wanted) < 0.7 * rms(&s, plain, wanted));
         if (count == 16)
             assert_memory_equal(plain, smooth, W * H * sizeof *plain);
-        assert_true((stats(&blurred).passes[GLSSAO_PASS_BLUR].draw_calls > 0) == (count < 16));
+        assert_int_equal(stats(&blurred).passes[GLSSAO_PASS_BLUR].draw_calls, count < 16 ? blurs : 0);
     }
     free(wanted);
     delete (&reference);

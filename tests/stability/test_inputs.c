@@ -134,8 +134,10 @@ TEST_GL(first_samples_are_taken)
     fixture_delete_frame(&plain);
 }
 
+/* To the bit on llvmpipe. Hardware filters DEPTH24 otherwise than the floats of a copy. */
 TEST_GL(viewports_are_crops)
 {
+    fixture *f = *state;
     SCOPED(subject) subject s = room(), large = {.width = LARGE_W, .height = LARGE_H, .view = s.view};
     large.depth = enlarged(s.depth, 1);
     large.normals = enlarged(s.normals, 3);
@@ -144,8 +146,7 @@ TEST_GL(viewports_are_crops)
         SCOPED(frame) glssao_frame plain = subject_frame(&s, (depth_store)depth, NORMAL_32F);
         SCOPED(frame) glssao_frame other = subject_frame(&large, (depth_store)depth, NORMAL_32F);
         memcpy(other.viewport, (const int[4]){X, Y, W, H}, sizeof other.viewport);
-        assert_same(*state, &plain, &other,
-                    1e-4); /* a copy holds floats, which hardware filters otherwise than DEPTH24 */
+        assert_same(f, &plain, &other, context_is_software(f->context) ? 0.0 : 1e-4);
     }
 }
 

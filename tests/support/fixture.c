@@ -77,12 +77,6 @@ bool fixture_hides_newer(void)
     return wanted && strcmp(wanted, "3.3") == 0;
 }
 
-bool fixture_is_software(void)
-{
-    const char *renderer = (const char *)gl.GetString(GL_RENDERER);
-    return renderer && (strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe"));
-}
-
 void *fixture_load(const char *name, void *user)
 {
     return fixture_hides_newer() && !fixture_is_of_3_3(name) ? NULL : context_load(name, user);

@@ -33,8 +33,6 @@ void fixture_log(glssao_log_level level, const char *message, void *user);
 bool fixture_is_of_3_3(const char *name);
 /* GLSSAO_TEST_LOADER=3.3: fixture_load finds no newer function, so no effect dispatches. */
 bool fixture_hides_newer(void);
-/* Whether the processor rasterises, which is as exact as IEEE 754. */
-bool fixture_is_software(void);
 /* The loader for code under test; `user` is the context. */
 void *fixture_load(const char *name, void *user);
 
