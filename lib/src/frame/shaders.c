@@ -102,7 +102,7 @@ static const struct shader {
                         {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                          shader_paired_glsl, shader_history_glsl, shader_history_frag, shader_entry_glsl}},
     [SHADER_STEADY] = {"steady",
-                       BIT(RADIUS_GROWS) | BIT(PERSPECTIVE) | BIT(COMPUTE) | BIT(RAYS),
+                       BIT(RADIUS_GROWS) | BIT(PERSPECTIVE) | BIT(COMPUTE) | BIT(RAYS) | BIT(BRANCHES),
                        {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_paired_glsl,
                         shader_history_glsl, shader_steady_frag, shader_entry_glsl}},
     [SHADER_APPLY] = {"apply",
