@@ -4,8 +4,8 @@
  */
 #pragma once
 
+#include "fault.h"
 #include "gltf_document.h"
-#include "scene_fault.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -38,7 +38,7 @@ scene_load_options bake_load_options(const bake_options *o);
 
 /* options.c: as in glssao-render. BAKE_DONE: help or version was printed. BAKE_WRONG: one line in `error`. */
 typedef enum bake_result { BAKE_RUN, BAKE_DONE, BAKE_WRONG } bake_result;
-bake_result bake_parse_options(int argc, char **argv, bake_options *out, char *error, size_t error_size);
+bake_result bake_parse_options(int argc, char **argv, bake_options *out, failure *fault);
 
 /* The vertices that one or more primitives of a node's mesh share. */
 typedef struct bake_part {
@@ -68,7 +68,7 @@ typedef struct bake_model {
 } bake_model;
 
 /* False, with the fault set; bake_model_close is due in either case. */
-bool bake_model_open(bake_model *m, const bake_options *o, scene_fault *fault);
+bool bake_model_open(bake_model *m, const bake_options *o, failure *fault);
 void bake_model_close(bake_model *m);
 
 /* bake_points.c: where rays start. Of a part, for one of its instances, in the world. */
@@ -82,25 +82,24 @@ typedef struct bake_points {
 
 /* Points for the method; `total_area` and `total_triangles` of all parts say how densely BAKE_FIT samples. */
 bool bake_points_make(bake_points *p, const bake_part *part, size_t instance, const double origin[3],
-                      bake_method method, double triangles_per_area, scene_fault *fault);
+                      bake_method method, double triangles_per_area, failure *fault);
 void bake_points_free(bake_points *p);
 /* The area of a part's triangles in its first instance. */
 double bake_part_area(const bake_part *part);
 
 /* bake_spread.c: from values at points to part->accessibility. */
-bool bake_spread(bake_part *part, const bake_points *points, const float *values, bake_method method,
-                 scene_fault *fault);
+bool bake_spread(bake_part *part, const bake_points *points, const float *values, bake_method method, failure *fault);
 
 /* bake_cast.c: fills part->accessibility of all parts. */
 typedef struct bake_stats {
     uint64_t rays;
     double seconds;
 } bake_stats;
-bool bake_cast(bake_model *m, const bake_options *o, bake_stats *out, scene_fault *fault);
+bool bake_cast(bake_model *m, const bake_options *o, bake_stats *out, failure *fault);
 
 /* bake_write.cpp: writes the file as a GLB with the parts' accessibility in COLOR_0, multiplied by the colours there or
  * alone. A mesh that several nodes share becomes one mesh for each node. */
-bool bake_write(const bake_model *m, const bake_options *o, scene_fault *fault);
+bool bake_write(const bake_model *m, const bake_options *o, failure *fault);
 
 #ifdef __cplusplus
 }

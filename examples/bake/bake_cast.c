@@ -17,7 +17,7 @@ enum { ERROR_LENGTH = 1024 };
 typedef struct caster {
     const bake_options *options;
     const trace_scene *scene;
-    scene_fault *fault;
+    failure *fault;
     const double *origin;
     progress bar;
     double triangles_per_area;
@@ -47,9 +47,9 @@ static bool cast_points(caster *c, const bake_points *p, float *out)
                                    .progress_user = c};
     trace_stats stats;
     if (!trace_points(c->scene, (const float(*)[3])p->positions, (const float(*)[3])p->normals, p->count,
-                      c->options->cosine ? TRACE_COSINE : TRACE_UNIFORM, c->offset, &options, out, &stats, error,
-                      sizeof error)) {
-        return scene_fail(c->fault, "%s", error);
+                      c->options->cosine ? TRACE_COSINE : TRACE_UNIFORM, c->offset, &options, out, &stats,
+                      FAULT(error))) {
+        return fault_set(c->fault, "%s", error);
     }
     c->stats.rays += stats.rays;
     c->stats.seconds += stats.seconds;
@@ -92,7 +92,7 @@ static bool cast_part(caster *c, bake_part *part)
         ok = bake_points_make(&points, part, i, c->origin, method, c->triangles_per_area, c->fault);
         if (ok && !memory) { /* as many points in every instance */
             memory = calloc(3 * points.count + 1, sizeof *memory);
-            ok = memory || scene_fail_memory(c->fault);
+            ok = memory || fault_set_memory(c->fault);
         }
         float *sums = memory, *values = memory + points.count, *scratch = values + points.count;
         ok = ok && cast_instance(c, part, &points, values, scratch);
@@ -124,14 +124,14 @@ static float choose_offset(const scene *s)
     return 0x1p-18f * largest;
 }
 
-bool bake_cast(bake_model *m, const bake_options *o, bake_stats *out, scene_fault *fault)
+bool bake_cast(bake_model *m, const bake_options *o, bake_stats *out, failure *fault)
 {
     const scene_load_options file = bake_load_options(o);
-    scene *s = scene_load_with(o->input, &file, fault->text, fault->size);
+    scene *s = scene_load_with(o->input, &file, fault);
     for (size_t i = 0; s && i < s->warning_count; i++) {
         fprintf(stderr, "%s: warning: %s\n", o->input, s->warnings[i]);
     }
-    trace_scene *t = s ? trace_scene_create(s, fault->text, fault->size) : NULL;
+    trace_scene *t = s ? trace_scene_create(s, fault) : NULL;
     if (!t) {
         scene_destroy(s);
         fault->set = true; /* both name the file themselves */

@@ -43,7 +43,7 @@ static double (*read_places(reader *r, size_t node, size_t *out_count))[16]
     double(*place)[16] = calloc(1, sizeof *place);
     *out_count = 1;
     if (!place) {
-        scene_fail_memory(r->loader.fault);
+        fault_set_memory(r->loader.fault);
         return NULL;
     }
     if (n->skin >= 0) { /* posed in world space */
@@ -63,7 +63,7 @@ static bake_part *add_part(reader *r)
         const size_t room = r->room ? 2 * r->room : 64;
         bake_part *parts = realloc(m->parts, room * sizeof *parts);
         if (!parts) {
-            scene_fail_memory(r->loader.fault);
+            fault_set_memory(r->loader.fault);
             return NULL;
         }
         m->parts = parts;
@@ -74,11 +74,11 @@ static bake_part *add_part(reader *r)
 }
 
 /* Appends; the arrays are few and short. */
-static bool add_primitive_number(bake_part *part, size_t number, scene_fault *fault)
+static bool add_primitive_number(bake_part *part, size_t number, failure *fault)
 {
     size_t *numbers = realloc(part->primitives, (part->primitive_count + 1) * sizeof *numbers);
     if (!numbers) {
-        return scene_fail_memory(fault);
+        return fault_set_memory(fault);
     }
     part->primitives = numbers;
     part->primitives[part->primitive_count++] = number;
@@ -100,7 +100,7 @@ static bool add_triangles(reader *r, bake_part *part, const gltf_primitive *p)
         part->index_count += triangles.count;
     }
     free(triangles.indices);
-    return indices || scene_fail_memory(r->loader.fault);
+    return indices || fault_set_memory(r->loader.fault);
 }
 
 /* The loader's arrays become the part's. */
@@ -118,7 +118,7 @@ static bool take_vertices(reader *r, bake_part *part, size_t node)
     v->colors = NULL;
     part->world_from_mesh = read_places(r, node, &part->instance_count);
     part->accessibility = malloc((size_t)part->vertex_count * sizeof *part->accessibility + 1);
-    return part->world_from_mesh && (part->accessibility || scene_fail_memory(r->loader.fault));
+    return part->world_from_mesh && (part->accessibility || fault_set_memory(r->loader.fault));
 }
 
 static bool read_primitive(reader *r, size_t node, const gltf_mesh *mesh, size_t number)
@@ -177,7 +177,7 @@ scene_load_options bake_load_options(const bake_options *o)
     return file;
 }
 
-bool bake_model_open(bake_model *m, const bake_options *o, scene_fault *fault)
+bool bake_model_open(bake_model *m, const bake_options *o, failure *fault)
 {
     const scene_load_options file = bake_load_options(o);
     *m = (bake_model){.warnings = {.strict = file.strict}};

@@ -82,7 +82,7 @@ double bake_part_area(const bake_part *part)
     return sum;
 }
 
-static bool make_room(bake_points *p, size_t count, bool on_triangles, scene_fault *fault)
+static bool make_room(bake_points *p, size_t count, bool on_triangles, failure *fault)
 {
     *p = (bake_points){.count = count};
     p->positions = malloc((count + 1) * sizeof *p->positions);
@@ -96,7 +96,7 @@ static bool make_room(bake_points *p, size_t count, bool on_triangles, scene_fau
     }
     if (!ok) {
         bake_points_free(p);
-        return scene_fail_memory(fault);
+        return fault_set_memory(fault);
     }
     return true;
 }
@@ -128,12 +128,12 @@ static vector normal_to_world(const double m[16], const float n[3])
 /* Rays from vertices start along the vertex normal. If the file has none, or it has no direction, the sum of the
  * adjacent faces' normals takes its place. */
 static bool make_vertices(bake_points *p, const bake_part *part, const double m[16], const double origin[3],
-                          scene_fault *fault)
+                          failure *fault)
 {
     vector *sums = calloc((size_t)part->vertex_count + 1, sizeof *sums);
     if (!sums || !make_room(p, part->vertex_count, false, fault)) {
         free(sums);
-        return scene_fail_memory(fault);
+        return fault_set_memory(fault);
     }
     for (uint32_t t = 0; t < part->index_count / 3; t++) {
         vector corners[3];
@@ -177,7 +177,7 @@ static void place_point(uint32_t i, uint32_t n, float weights[3])
 }
 
 bool bake_points_make(bake_points *p, const bake_part *part, size_t instance, const double origin[3],
-                      bake_method method, double triangles_per_area, scene_fault *fault)
+                      bake_method method, double triangles_per_area, failure *fault)
 {
     const double *m = part->world_from_mesh[instance];
     if (method == BAKE_VERTICES) {
@@ -195,7 +195,7 @@ bool bake_points_make(bake_points *p, const bake_part *part, size_t instance, co
         areas[t] = (float)area / (float)counts[t];
         total += counts[t];
     }
-    const bool ok = (counts && areas && make_room(p, total, true, fault)) || scene_fail_memory(fault);
+    const bool ok = (counts && areas && make_room(p, total, true, fault)) || fault_set_memory(fault);
     size_t at = 0;
     for (uint32_t t = 0; ok && t < triangles; t++) {
         const vector face = face_vector(part, m, t, corners);

@@ -13,14 +13,14 @@
 static const double smoothness = 0.02;
 
 /* Every vertex gets the mean of its triangles' values; 1 without triangles. */
-static bool spread_mean(bake_part *part, const bake_points *points, const float *values, scene_fault *fault)
+static bool spread_mean(bake_part *part, const bake_points *points, const float *values, failure *fault)
 {
     struct {
         double sum;
         uint32_t count;
     } *sums = calloc((size_t)part->vertex_count + 1, sizeof *sums);
     if (!sums) {
-        return scene_fail_memory(fault);
+        return fault_set_memory(fault);
     }
     for (size_t i = 0; i < points->count; i++) {
         for (uint32_t k = 0; k < 3; k++) {
@@ -119,13 +119,13 @@ static void solve(const equations *e, double *x, double *residual, const double 
 
 /* Minimises the squared error of what interpolation makes of the vertices over the surface (as Kavan, Bargteil and
  * Sloan, "Least squares vertex baking", EGSR 2011, with an edge term that steadies vertices that few points see). */
-static bool spread_fit(bake_part *part, const bake_points *points, const float *values, scene_fault *fault)
+static bool spread_fit(bake_part *part, const bake_points *points, const float *values, failure *fault)
 {
     const size_t n = part->vertex_count;
     double *memory = calloc(5 * n + 1, sizeof *memory);
     if (!memory || !spread_mean(part, points, values, fault)) {
         free(memory);
-        return scene_fail_memory(fault);
+        return fault_set_memory(fault);
     }
     double *x = memory, *right = x + n, *diagonal = right + n, *direction = diagonal + n, *image = direction + n;
     const equations e = {.part = part, .points = points, .count = n};
@@ -146,8 +146,7 @@ static bool spread_fit(bake_part *part, const bake_points *points, const float *
     return true;
 }
 
-bool bake_spread(bake_part *part, const bake_points *points, const float *values, bake_method method,
-                 scene_fault *fault)
+bool bake_spread(bake_part *part, const bake_points *points, const float *values, bake_method method, failure *fault)
 {
     if (method == BAKE_FIT) {
         return spread_fit(part, points, values, fault);

@@ -231,11 +231,11 @@ void put_u32(std::string *to, size_t value)
         *to += static_cast<char>(value >> 8 * i & 0xff);
 }
 
-bool write_glb(const std::string &text, const std::string &bin, const char *path, scene_fault *fault)
+bool write_glb(const std::string &text, const std::string &bin, const char *path, failure *fault)
 {
     const size_t size = 12 + 8 + text.size() + (bin.empty() ? 0 : 8 + bin.size());
     if (size > UINT32_MAX)
-        return scene_fail(fault, "%zu bytes are more than a GLB holds", size);
+        return fault_set(fault, "%zu bytes are more than a GLB holds", size);
     std::string head = "glTF", second;
     put_u32(&head, 2);
     put_u32(&head, size);
@@ -244,23 +244,19 @@ bool write_glb(const std::string &text, const std::string &bin, const char *path
     put_u32(&second, bin.size());
     second.append("BIN\0", 4);
     whole_file whole;
-    char error[1024] = "";
-    if (!whole_file_open(&whole, path, error, sizeof error)) {
-        fault->file = nullptr; // the error names it
-        return scene_fail(fault, "%s", error);
-    }
+    fault->file = nullptr; // whole_file names it
+    if (!whole_file_open(&whole, path, fault))
+        return false;
     FILE *file = whole.file;
     bool ok = std::fwrite(head.data(), 1, head.size(), file) == head.size() &&
               std::fwrite(text.data(), 1, text.size(), file) == text.size();
     if (!bin.empty())
         ok = ok && std::fwrite(second.data(), 1, second.size(), file) == second.size() &&
              std::fwrite(bin.data(), 1, bin.size(), file) == bin.size();
-    if (!whole_file_close(&whole, ok, error, sizeof error))
-        return scene_fail(fault, "it could not be written in full");
-    return true;
+    return whole_file_close(&whole, ok, fault) || fault_set(fault, "%s: it could not be written in full", path);
 }
 
-bool write(const bake_model &model, const bake_options &options, const gltf_file &file, scene_fault *fault)
+bool write(const bake_model &model, const bake_options &options, const gltf_file &file, failure *fault)
 {
     output out;
     const char *text = reinterpret_cast<const char *>(file.data) + file.json_begin;
@@ -291,21 +287,21 @@ bool write(const bake_model &model, const bake_options &options, const gltf_file
 
 } // namespace
 
-extern "C" bool bake_write(const bake_model *m, const bake_options *o, scene_fault *fault)
+extern "C" bool bake_write(const bake_model *m, const bake_options *o, failure *fault)
 {
     gltf_file file;
     memory_budget budget = memory_budget_begin(0);
     if (!gltf_file_open(&file, o->input, &budget, fault))
         return false;
-    scene_fault output_fault = *fault;
+    failure output_fault = *fault;
     output_fault.file = o->output;
     bool written = false;
     try {
         written = write(*m, *o, file, &output_fault);
     } catch (const std::bad_alloc &) {
-        scene_fail_memory(&output_fault);
+        fault_set_memory(&output_fault);
     } catch (const std::exception &e) {
-        scene_fail(&output_fault, "it can't be made: %s", e.what());
+        fault_set(&output_fault, "it can't be made: %s", e.what());
     }
     std::free(file.data);
     return written;

@@ -27,7 +27,7 @@ int main(int argc, char **argv)
     static char error[ERROR_LENGTH];
     bake_options options;
     streams_guard("glssao-bake", EXIT_NOT_BAKED);
-    switch (bake_parse_options(argc, argv, &options, error, sizeof error)) {
+    switch (bake_parse_options(argc, argv, &options, FAULT(error))) {
     case BAKE_DONE:
         return EXIT_DONE;
     case BAKE_WRONG:
@@ -37,7 +37,7 @@ int main(int argc, char **argv)
         break;
     }
     stop_at_once();
-    scene_fault fault = {.file = options.input, .text = error, .size = sizeof error};
+    failure fault = {.file = options.input, .text = error, .size = sizeof error};
     bake_model model;
     bake_stats stats;
     inputs read = {0};

@@ -44,11 +44,11 @@ static const option table[] = {
     FLAG(0, "version", 0, version, "print the version"),
 };
 
-bake_result bake_parse_options(int argc, char **argv, bake_options *out, char *error, size_t error_size)
+bake_result bake_parse_options(int argc, char **argv, bake_options *out, failure *fault)
 {
     const option_set set = {table, sizeof table / sizeof table[0], NULL, "scene", AT(input)};
     *out = (bake_options){.rays = 32, .distance = INFINITY, .offset = -1};
-    if (!option_parse(&set, argc, argv, out, &(failure){.text = error, .size = error_size}))
+    if (!option_parse(&set, argc, argv, out, fault))
         return BAKE_WRONG;
     if (out->help) {
         puts("usage: glssao-bake [options] -o FILE.glb scene.gltf|scene.glb\n"
@@ -62,23 +62,22 @@ bake_result bake_parse_options(int argc, char **argv, bake_options *out, char *e
         return BAKE_DONE;
     }
     if (out->vertices && out->fit) {
-        snprintf(error, error_size, "--vertices and --fit cannot be used together");
+        fault_set(fault, "--vertices and --fit cannot be used together");
         return BAKE_WRONG;
     }
     if (out->input && strcmp(out->input, "-") == 0) {
-        snprintf(error, error_size,
-                 "-: standard input can be read only once, and the scene is read three times; name a file");
+        fault_set(fault, "-: standard input can be read only once, and the scene is read three times; name a file");
         return BAKE_WRONG;
     }
     if (out->in_place && out->input && !out->output) {
         if (words_find_ending(".glb", out->input) < 0) {
-            snprintf(error, error_size, "--in-place: the result is a .glb file, and %s is none", out->input);
+            fault_set(fault, "--in-place: the result is a .glb file, and %s is none", out->input);
             return BAKE_WRONG;
         }
         out->output = out->input;
     }
     if (!out->input || !out->output) {
-        snprintf(error, error_size, "%s (-h lists all)", !out->input ? "no scene file" : "no -o FILE.glb");
+        fault_set(fault, "%s (-h lists all)", !out->input ? "no scene file" : "no -o FILE.glb");
         return BAKE_WRONG;
     }
     out->method = out->fit ? BAKE_FIT : out->vertices ? BAKE_VERTICES : BAKE_TRIANGLES;

@@ -93,7 +93,7 @@ static FILE *open_temporary(const char *path, char **out_name)
     return file;
 }
 
-bool whole_file_open(whole_file *f, const char *path, char *error, size_t error_size)
+bool whole_file_open(whole_file *f, const char *path, failure *fault)
 {
     struct stat status;
     const bool exists = stat(path, &status) == 0;
@@ -106,10 +106,8 @@ bool whole_file_open(whole_file *f, const char *path, char *error, size_t error_
     f->path = exists ? realpath(path, NULL) : NULL;
     if (!f->path) {
         f->path = malloc(strlen(path) + 1);
-        if (!f->path) {
-            snprintf(error, error_size, "%s: out of memory", path);
-            return false;
-        }
+        if (!f->path)
+            return fault_set(fault, "%s: out of memory", path);
         memcpy(f->path, path, strlen(path) + 1);
     }
     const bool is_regular = !exists || S_ISREG(status.st_mode);
@@ -124,30 +122,30 @@ bool whole_file_open(whole_file *f, const char *path, char *error, size_t error_
         f->file = fopen(path, "wb");
     }
     if (!f->file) {
-        snprintf(error, error_size, "%s: %s", path, strerror(errno));
+        fault_set(fault, "%s: %s", path, strerror(errno));
         free(f->path);
         *f = (whole_file){.file = NULL};
     }
     return f->file;
 }
 
-bool whole_file_close(whole_file *f, bool written, char *error, size_t error_size)
+bool whole_file_close(whole_file *f, bool written, failure *fault)
 {
     struct stat status;
     if (f->file == stdout) {
         if (fflush(stdout) == 0 || !written)
             return written;
-        snprintf(error, error_size, "%s: %s", f->name, strerror(errno));
+        fault_set(fault, "%s: %s", f->name, strerror(errno));
         (void)!freopen("/dev/null", "w", stdout); /* the loss is told once */
         return false;
     }
     const bool is_regular = fstat(fileno(f->file), &status) == 0 && S_ISREG(status.st_mode);
     if (fclose(f->file) != 0 && written) {
-        snprintf(error, error_size, "%s: %s", f->name, strerror(errno));
+        fault_set(fault, "%s: %s", f->name, strerror(errno));
         written = false;
     }
     if (written && f->temporary && rename(f->temporary, f->path) != 0) {
-        snprintf(error, error_size, "%s: %s", f->name, strerror(errno));
+        fault_set(fault, "%s: %s", f->name, strerror(errno));
         written = false;
     }
     if (!written && is_regular) {

@@ -5,8 +5,9 @@
  */
 #pragma once
 
+#include "fault.h"
+
 #include <stdbool.h>
-#include <stddef.h>
 #include <stdio.h>
 
 #ifdef __cplusplus
@@ -21,7 +22,7 @@ typedef struct whole_file {
 } whole_file;
 
 /* False, with one line in `error`, on failure. Any thread. `path` must live until the file is closed. */
-bool whole_file_open(whole_file *f, const char *path, char *error, size_t error_size);
+bool whole_file_open(whole_file *f, const char *path, failure *fault);
 
 /* Removes the temporary files of all open files, before the program ends. Async-signal-safe. */
 void whole_file_abandon_all(void);
@@ -30,7 +31,7 @@ void whole_file_remove_left(const char *path, long process);
 
 /* Closes the file. If that fails, or `written` is false (then `error` already says why), the new file is removed and
  * the old one stays, unless it was written directly. Returns whether everything was written. */
-bool whole_file_close(whole_file *f, bool written, char *error, size_t error_size);
+bool whole_file_close(whole_file *f, bool written, failure *fault);
 
 #ifdef __cplusplus
 }

@@ -126,8 +126,7 @@ bool rays_trace(rays *r, const trace_scene *s, const rays_job *job, failure *why
     request_strips(r, job, fences);
     const trace_seen seen = {
         .rows = (const float(*const *)[4])r->rows, .step = step, .margin = job->margin, .depth_step = 0x1p-24};
-    trace_picture *p =
-        trace_picture_begin(s, job->view, &seen, NULL, &job->options, r->accessibility, why->text, why->size);
+    trace_picture *p = trace_picture_begin(s, job->view, &seen, NULL, &job->options, r->accessibility, why);
     bool mapped = true;
     for (int i = 0; i < RAYS_STRIPS; i++) {
         mapped = receive_strip(r, i, fences[i]) && mapped;

@@ -129,7 +129,7 @@ bool pipeline_surround(pipeline *p, const stage *st, const char *path, failure *
     if (!path) {
         drop_environment(p);
     } else if (!p->environment_path || strcmp(path, p->environment_path) != 0) {
-        scene_environment *loaded = scene_environment_load(path, why->text, why->size);
+        scene_environment *loaded = scene_environment_load(path, why);
         if (!loaded)
             return false;
         drop_environment(p);
@@ -180,7 +180,7 @@ bool pipeline_prepare(pipeline *p, stage *st, glssao_load_fn load, void *load_us
                                            .no_picture = !wants.picture,
                                            .no_prepass = !wants.prepass};
     p->debug_map = (options_map)o->debug_map;
-    if (!scene_renderer_configure(p->renderer, &p->lighting, &p->draw_options, why->text, why->size))
+    if (!scene_renderer_configure(p->renderer, &p->lighting, &p->draw_options, why))
         return false;
     p->adaptive_rays = o->adaptive_rays;
     p->ray_count = o->technique == GLSSAO_RAYS ? p->settings.sample_count : o->rays;

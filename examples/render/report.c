@@ -208,7 +208,7 @@ bool report_write(const report *r, const char *path, failure *why)
     static const char *const phase_names[PHASE_COUNT] = {"load", "context", "setup",    "prepass",
                                                          "ao",   "main",    "readback", "encode"};
     whole_file file;
-    if (!whole_file_open(&file, path, why->text, why->size))
+    if (!whole_file_open(&file, path, why))
         return false;
     FILE *f = file.file;
     const uint32_t v = glssao_version();
@@ -241,5 +241,5 @@ bool report_write(const report *r, const char *path, failure *why)
     const bool written = !ferror(f);
     if (!written)
         fault_set(why, "%s: it could not be written in full", path);
-    return whole_file_close(&file, written, why->text, why->size);
+    return whole_file_close(&file, written, why);
 }

@@ -18,14 +18,14 @@ scene *stage_load_pose(const options *o, double time_s, failure *why)
     file.timed = o->time_s.given;
     file.time_s = time_s;
     file.memory_bytes = (uint64_t)o->memory_mib << 20;
-    return scene_load_with(o->scene_path, &file, why->text, why->size);
+    return scene_load_with(o->scene_path, &file, why);
 }
 
 scene *stage_load_scene(const options *o, inputs *out_inputs, failure *why)
 {
     *out_inputs = (inputs){0};
     if (!o->scene_path)
-        return scene_make(o->scene_name, why->text, why->size);
+        return scene_make(o->scene_name, why);
     inputs_record(out_inputs);
     scene *s = stage_load_pose(o, (double)o->time_s.value, why);
     inputs_record(NULL);
@@ -47,14 +47,14 @@ static bool open(stage *st, const scene *s, failure *why)
 bool stage_open(stage *st, const scene *s, failure *why)
 {
     if (open(st, s, why))
-        st->renderer = scene_renderer_create(s, why->text, why->size);
+        st->renderer = scene_renderer_create(s, why);
     return st->renderer;
 }
 
 static void *build(void *argument)
 {
     stage_build *b = argument;
-    b->traced = trace_scene_create(b->scene, b->error, sizeof b->error);
+    b->traced = trace_scene_create(b->scene, FAULT(b->error));
     return NULL;
 }
 
@@ -90,7 +90,7 @@ bool stage_open_spending(stage *st, scene *s, const stage *like, const options *
     if (!open(st, s, why))
         return false;
     start_build(st, o);
-    st->renderer = scene_renderer_create_spending(s, like ? like->renderer : NULL, why->text, why->size);
+    st->renderer = scene_renderer_create_spending(s, like ? like->renderer : NULL, why);
     return st->renderer;
 }
 
@@ -121,6 +121,6 @@ bool stage_trace(stage *st, failure *why)
     if (st->build)
         finish_build(st, why);
     else if (!st->traced)
-        st->traced = trace_scene_create(st->scene, why->text, why->size);
+        st->traced = trace_scene_create(st->scene, why);
     return st->traced;
 }

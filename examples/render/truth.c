@@ -48,7 +48,7 @@ bool truth_trace(truth *t, const scene_view *view, const glssao_settings *settin
                                    .progress_user = &bar,
                                    .stopped = is_stopped};
     trace_stats stats;
-    if (!trace_accessibility(t->scene, view, &options, t->accessibility, NULL, &stats, why->text, why->size))
+    if (!trace_accessibility(t->scene, view, &options, t->accessibility, NULL, &stats, why))
         return false;
     progress_clear();
     t->stats.rays += stats.rays;

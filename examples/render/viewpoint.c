@@ -160,7 +160,7 @@ bool viewpoint_view(const viewpoint *v, const scene *s, float angle_rad, int wid
 {
     camera c = angle_rad == 0 ? v->base : camera_turned(&v->base, v->pivot, v->axis, angle_rad);
     fit_planes(v, s, &c);
-    if (!camera_check(&c, why->text, why->size))
+    if (!camera_check(&c, why))
         return false;
     *out = camera_view(&c, width, height);
     return true;

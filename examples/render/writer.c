@@ -55,11 +55,11 @@ static size_t pixel_bytes(const entry *e)
 static bool encode(const entry *e, failure *why)
 {
     if (e->kind == PIXELS_FLOAT)
-        return picture_write_pfm(e->path, e->width, e->height, 1, e->pixels, why->text, why->size);
+        return picture_write_pfm(e->path, e->width, e->height, 1, e->pixels, why);
     if (e->kind == PIXELS_GREY8)
-        return picture_write(e->path, e->width, e->height, 1, e->pixels, why->text, why->size);
+        return picture_write(e->path, e->width, e->height, 1, e->pixels, why);
     if (e->kind == PIXELS_RGBA8_STRAIGHT)
-        return picture_write(e->path, e->width, e->height, 4, e->pixels, why->text, why->size);
+        return picture_write(e->path, e->width, e->height, 4, e->pixels, why);
     uint8_t *pixels = e->pixels;
     const size_t count = (size_t)e->width * (size_t)e->height;
     for (size_t i = 1; i < count; i++) { /* in place: the write position is never ahead of the read position */
@@ -67,7 +67,7 @@ static bool encode(const entry *e, failure *why)
         pixels[3 * i + 1] = pixels[4 * i + 1];
         pixels[3 * i + 2] = pixels[4 * i + 2];
     }
-    return picture_write(e->path, e->width, e->height, 3, pixels, why->text, why->size);
+    return picture_write(e->path, e->width, e->height, 3, pixels, why);
 }
 
 /* Call with the lock held. */

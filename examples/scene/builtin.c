@@ -188,13 +188,13 @@ static bool make_plane(scene_builder *b)
            add_camera(b, (float[3]){12, 9, 20}, (float[3]){0, 0, 0.8f}, 45);
 }
 
-scene *scene_make(const char *name, char *error, size_t error_size)
+scene *scene_make(const char *name, failure *out_fault)
 {
     static const struct {
         const char *name;
         bool (*make)(scene_builder *b);
     } scenes[] = {{"columns", make_columns}, {"cornell", make_cornell}, {"steps", make_steps}, {"plane", make_plane}};
-    scene_fault fault = {.file = name, .text = error, .size = error_size};
+    failure fault = {.file = name, .text = out_fault->text, .size = out_fault->size};
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; ++i) {
         scene_builder builder;
         if (strcmp(name, scenes[i].name) != 0)
@@ -206,6 +206,6 @@ scene *scene_make(const char *name, char *error, size_t error_size)
         scene_builder_abandon(&builder);
         return NULL;
     }
-    scene_fail(&fault, "no built-in scene of that name; there are columns, cornell, steps and plane");
+    fault_set(&fault, "no built-in scene of that name; there are columns, cornell, steps and plane");
     return NULL;
 }

@@ -120,7 +120,7 @@ static bool is_finite3(const float v[3])
     return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
 }
 
-bool camera_check(const camera *c, char *error, size_t error_size)
+bool camera_check(const camera *c, failure *fault)
 {
     const struct {
         const char *name;
@@ -128,11 +128,9 @@ bool camera_check(const camera *c, char *error, size_t error_size)
     } vectors[] = {{"eye", c->eye}, {"target", c->target}, {"up", c->up}};
     for (int i = 0; i < 3; i++) {
         const float *v = vectors[i].value;
-        if (!is_finite3(v)) {
-            snprintf(error, error_size, "camera %s (%g, %g, %g) is not finite", vectors[i].name, (double)v[0],
-                     (double)v[1], (double)v[2]);
-            return false;
-        }
+        if (!is_finite3(v))
+            return fault_set(fault, "camera %s (%g, %g, %g) is not finite", vectors[i].name, (double)v[0], (double)v[1],
+                             (double)v[2]);
     }
     double offset[3], up[3], right[3], largest = 0.0;
     for (int i = 0; i < 3; i++) {
@@ -141,34 +139,25 @@ bool camera_check(const camera *c, char *error, size_t error_size)
         largest = fmax(largest, fmax(fabs((double)c->eye[i]), fabs((double)c->target[i])));
     }
     /* At a smaller distance, rounding of the coordinates decides where the camera looks. */
-    if (!(normalize(offset) > 4.0 * (double)FLT_EPSILON * largest)) {
-        snprintf(error, error_size, "camera eye and target are the same point (%g, %g, %g)", (double)c->eye[0],
-                 (double)c->eye[1], (double)c->eye[2]);
-        return false;
-    }
+    if (!(normalize(offset) > 4.0 * (double)FLT_EPSILON * largest))
+        return fault_set(fault, "camera eye and target are the same point (%g, %g, %g)", (double)c->eye[0],
+                         (double)c->eye[1], (double)c->eye[2]);
     if (!(normalize(up) > 0.0)) {
-        snprintf(error, error_size, "camera up is (0, 0, 0)");
-        return false;
+        return fault_set(fault, "camera up is (0, 0, 0)");
     }
     cross(up, offset, right);
-    if (!(sqrt(dot(right, right)) > 1e-4)) {
-        snprintf(error, error_size, "camera up (%g, %g, %g) is along the line from eye to target", (double)c->up[0],
-                 (double)c->up[1], (double)c->up[2]);
-        return false;
-    }
+    if (!(sqrt(dot(right, right)) > 1e-4))
+        return fault_set(fault, "camera up (%g, %g, %g) is along the line from eye to target", (double)c->up[0],
+                         (double)c->up[1], (double)c->up[2]);
     if (!(c->fov_y_rad > 0.0f && c->fov_y_rad < GLM_PIf)) {
-        snprintf(error, error_size, "camera fov of %g degrees is not between 0 and 180",
-                 (double)c->fov_y_rad * 180.0 / GLM_PI);
-        return false;
+        return fault_set(fault, "camera fov of %g degrees is not between 0 and 180",
+                         (double)c->fov_y_rad * 180.0 / GLM_PI);
     }
-    if (!(c->near_plane > 0.0f && isfinite(c->near_plane))) {
-        snprintf(error, error_size, "camera near plane %g is not a positive distance", (double)c->near_plane);
-        return false;
-    }
+    if (!(c->near_plane > 0.0f && isfinite(c->near_plane)))
+        return fault_set(fault, "camera near plane %g is not a positive distance", (double)c->near_plane);
     if (!(c->far_plane > c->near_plane && isfinite(c->far_plane))) {
-        snprintf(error, error_size, "camera far plane %g is not beyond the near plane %g", (double)c->far_plane,
-                 (double)c->near_plane);
-        return false;
+        return fault_set(fault, "camera far plane %g is not beyond the near plane %g", (double)c->far_plane,
+                         (double)c->near_plane);
     }
     return true;
 }

@@ -50,7 +50,7 @@ camera camera_turned(const camera *c, const float pivot[3], const float axis[3],
 
 /* False, with one line in `error`, if the camera is degenerate: eye on target, up along the line of sight, planes or
  * angle out of range, or values that are not finite. */
-bool camera_check(const camera *c, char *error, size_t error_size);
+bool camera_check(const camera *c, failure *fault);
 
 scene_view camera_view(const camera *c, int width, int height);
 

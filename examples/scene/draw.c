@@ -229,7 +229,7 @@ bool draw_is_ready(scene_renderer *r)
     if (!r->configured) {
         char error[2048];
         const scene_lighting none = {0};
-        if (!scene_renderer_configure(r, &none, &(scene_draw_options){0}, error, sizeof error)) {
+        if (!scene_renderer_configure(r, &none, &(scene_draw_options){0}, FAULT(error))) {
             fprintf(stderr, "scene: %s\n", error);
             return false;
         }

@@ -52,7 +52,7 @@ scene_lighting scene_lighting_of(const scene *s, scene_light *out_rest);
 /* Loads a picture of the surroundings, of a kind that environment.h lists. It lights matte surfaces by its irradiance
  * and shiny ones by reflections blurred for their roughness, and it is the sky. On failure NULL, and one line in
  * `error` that names the file and the fault. */
-scene_environment *scene_environment_load(const char *path, char *error, size_t error_size);
+scene_environment *scene_environment_load(const char *path, failure *fault);
 void scene_environment_destroy(scene_environment *e);
 
 /* Replaces the built-in environment and its sun by this one (NULL: none), which must outlive the lighting. The scene's
@@ -83,10 +83,10 @@ typedef struct scene_draw_options { /* zero is the plainest */
 /* Uploads the scene through the table in gl.h, which must be loaded. Makes only the shaders and textures that the scene
  * needs (alpha test, instancing, texture, vertex colour ...). The scene must outlive the renderer. On failure NULL, and
  * one line in `error`. */
-scene_renderer *scene_renderer_create(const scene *s, char *error, size_t error_size);
+scene_renderer *scene_renderer_create(const scene *s, failure *fault);
 /* The same, and frees the texels of each opaque image once they are uploaded: the ray tracer needs only the others.
  * Shares the programs of `like`, another renderer of this context or NULL; they last as long as one of the two does. */
-scene_renderer *scene_renderer_create_spending(scene *s, const scene_renderer *like, char *error, size_t error_size);
+scene_renderer *scene_renderer_create_spending(scene *s, const scene_renderer *like, failure *fault);
 void scene_renderer_destroy(scene_renderer *r);
 
 /* Chooses what the passes do from now on, and makes the programs and the shadow map for it. Lighting may change from
@@ -94,7 +94,7 @@ void scene_renderer_destroy(scene_renderer *r);
  * the first drawing chooses the simplest options, and draws nothing if they fail. On failure false, and one line in
  * `error`; the renderer then still draws. */
 bool scene_renderer_configure(scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options,
-                              char *error, size_t error_size);
+                              failure *fault);
 
 /* Which effects the scene, the lighting and the options need, and why; out[SCENE_EFFECT_COUNT]. */
 enum { SCENE_EFFECT_COUNT = 9 };

@@ -28,16 +28,16 @@ static unsigned make_texture(const environment_picture *levels, int count)
     return texture;
 }
 
-scene_environment *scene_environment_load(const char *path, char *error, size_t error_size)
+scene_environment *scene_environment_load(const char *path, failure *fault)
 {
-    environment *from = environment_load(path, error, error_size);
+    environment *from = environment_load(path, fault);
     scene_environment *e = from ? calloc(1, sizeof *e) : NULL;
     if (!from)
         return NULL;
     GLint limit = 0;
     gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     if (!e || from->sky.width > limit) {
-        snprintf(error, error_size, "%s: %s", path, e ? "larger than this driver's textures" : "out of memory");
+        fault_set(fault, "%s: %s", path, e ? "larger than this driver's textures" : "out of memory");
         free(e);
         environment_destroy(from);
         return NULL;

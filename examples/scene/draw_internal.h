@@ -158,18 +158,18 @@ bool draw_item_is_seen(const draw_item *item, const double clip_from_world[16]);
 /* draw_programs.c: false where the sky is one colour. */
 bool draw_has_sky(const scene_lighting *lighting);
 /* Index of its program among the pool's variants, built on first use; -1, with one line in `error`, on failure. */
-int draw_find_sky(scene_renderer *r, const scene_lighting *lighting, char *error, size_t error_size);
+int draw_find_sky(scene_renderer *r, const scene_lighting *lighting, failure *fault);
 
 /* draw_shadow.c */
 bool draw_shadow_wanted(const scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options);
-bool draw_shadow_make(scene_renderer *r, int size, char *error, size_t error_size);
+bool draw_shadow_make(scene_renderer *r, int size, failure *fault);
 void draw_shadow_free(draw_shadow *s);
 /* The polygon offset of its drawing. */
 void draw_shadow_offset(void);
 
 /* draw_pool.c: joins the pool of `like`, or makes one if that is NULL; leaves the pool, and frees it with its last
  * user. */
-bool draw_pool_join(scene_renderer *r, const scene_renderer *like, char *error, size_t error_size);
+bool draw_pool_join(scene_renderer *r, const scene_renderer *like, failure *fault);
 void draw_pool_leave(scene_renderer *r);
 
 /* draw.c: GL's defaults; one texture; all items of a kind, with the view's matrices. */

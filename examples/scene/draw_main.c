@@ -158,7 +158,7 @@ static void draw_sky(scene_renderer *r, const scene_view *view, const scene_ligh
     glm_mat4_mul((vec4 *)view->clip_from_view, view_from_sky, clip_from_sky);
     glm_mat4_inv(clip_from_sky, sky_from_clip);
     char error[1024];
-    const int program = draw_find_sky(r, lighting, error, sizeof error); /* mostly built before */
+    const int program = draw_find_sky(r, lighting, FAULT(error)); /* mostly built before */
     if (program < 0) {
         fprintf(stderr, "scene: %s\n", error);
         return;

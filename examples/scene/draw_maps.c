@@ -12,7 +12,7 @@
 static const draw_program *find(draw_program *p, const char *what, const char *fragment_source)
 {
     char error[1024];
-    if (p->name || draw_program_build(p, what, shader_fullscreen_vert, "", fragment_source, 0, error, sizeof error))
+    if (p->name || draw_program_build(p, what, shader_fullscreen_vert, "", fragment_source, 0, FAULT(error)))
         return p;
     fprintf(stderr, "scene: %s\n", error);
     return NULL;

@@ -8,13 +8,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-bool draw_pool_join(scene_renderer *r, const scene_renderer *like, char *error, size_t error_size)
+bool draw_pool_join(scene_renderer *r, const scene_renderer *like, failure *fault)
 {
     draw_pool *pool = like ? like->pool : calloc(1, sizeof *pool);
-    if (!pool) {
-        snprintf(error, error_size, "out of memory");
-        return false;
-    }
+    if (!pool)
+        return fault_set_memory(fault);
     pool->users++;
     r->pool = pool;
     return true;

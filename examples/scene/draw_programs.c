@@ -11,7 +11,7 @@
 #include <stdlib.h>
 
 /* Index of the program, built on first use; -1 on failure. */
-static int find_program(draw_pool *pool, draw_kind kind, unsigned variant, char *error, size_t error_size)
+static int find_program(draw_pool *pool, draw_kind kind, unsigned variant, failure *fault)
 {
     static const char *const what[] = {"scene normals pass", "scene main pass", "shadow pass",
                                        "layer pass",         "motion pass",     "sky pass"};
@@ -21,7 +21,7 @@ static int find_program(draw_pool *pool, draw_kind kind, unsigned variant, char 
             return i;
     draw_variant *grown = realloc(pool->variants, ((size_t)pool->variant_count + 1) * sizeof *grown);
     if (!grown) {
-        snprintf(error, error_size, "out of memory");
+        fault_set_memory(fault);
         return -1;
     }
     pool->variants = grown;
@@ -31,7 +31,7 @@ static int find_program(draw_pool *pool, draw_kind kind, unsigned variant, char 
                             is_sky              ? shader_sky_frag
                             : kind == DRAW_MAIN ? shader_main_frag
                                                 : shader_normals_frag,
-                            variant, error, error_size))
+                            variant, fault))
         return -1;
     pool->variants[pool->variant_count] = made;
     return pool->variant_count++;
@@ -83,17 +83,17 @@ bool draw_has_sky(const scene_lighting *lighting)
     return !lighting->plain && (lighting->environment || tilt[0] != 0 || tilt[1] != 0 || tilt[2] != 0);
 }
 
-int draw_find_sky(scene_renderer *r, const scene_lighting *lighting, char *error, size_t error_size)
+int draw_find_sky(scene_renderer *r, const scene_lighting *lighting, failure *fault)
 {
-    return find_program(r->pool, DRAW_SKY, lighting->environment ? VARIANT_ENVIRONMENT : 0u, error, error_size);
+    return find_program(r->pool, DRAW_SKY, lighting->environment ? VARIANT_ENVIRONMENT : 0u, fault);
 }
 
 /* Gives every item the programs that the options call for, building those that are missing. */
 static bool choose_programs(scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options,
-                            bool shadowed, char *error, size_t error_size)
+                            bool shadowed, failure *fault)
 {
     if (!options->no_picture && (options->everything || draw_has_sky(lighting)) &&
-        draw_find_sky(r, lighting, error, error_size) < 0)
+        draw_find_sky(r, lighting, fault) < 0)
         return false;
     for (uint32_t i = 0; i < r->item_count; i++) {
         draw_item *item = &r->items[i];
@@ -104,25 +104,23 @@ static bool choose_programs(scene_renderer *r, const scene_lighting *lighting, c
         bool done = true;
         if (!options->no_picture) {
             chosen[DRAW_MAIN] =
-                find_program(r->pool, DRAW_MAIN, main_variant(item, lighting, options, shadowed), error, error_size);
+                find_program(r->pool, DRAW_MAIN, main_variant(item, lighting, options, shadowed), fault);
             done = chosen[DRAW_MAIN] >= 0;
         }
         if (done && casts && !options->no_prepass) {
-            chosen[DRAW_NORMALS] = find_program(r->pool, DRAW_NORMALS, normals, error, error_size);
+            chosen[DRAW_NORMALS] = find_program(r->pool, DRAW_NORMALS, normals, fault);
             done = chosen[DRAW_NORMALS] >= 0;
         }
         if (done && casts && shadowed) {
-            chosen[DRAW_SHADOW] = find_program(r->pool, DRAW_SHADOW, depth_variant(normals), error, error_size);
+            chosen[DRAW_SHADOW] = find_program(r->pool, DRAW_SHADOW, depth_variant(normals), fault);
             done = chosen[DRAW_SHADOW] >= 0;
         }
         if (done && casts && options->layers) {
-            chosen[DRAW_LAYER] =
-                find_program(r->pool, DRAW_LAYER, depth_variant(normals) | VARIANT_BEHIND, error, error_size);
+            chosen[DRAW_LAYER] = find_program(r->pool, DRAW_LAYER, depth_variant(normals) | VARIANT_BEHIND, fault);
             done = chosen[DRAW_LAYER] >= 0;
         }
         if (done && casts && options->motion) {
-            chosen[DRAW_MOTION] =
-                find_program(r->pool, DRAW_MOTION, depth_variant(normals) | VARIANT_MOVES, error, error_size);
+            chosen[DRAW_MOTION] = find_program(r->pool, DRAW_MOTION, depth_variant(normals) | VARIANT_MOVES, fault);
             done = chosen[DRAW_MOTION] >= 0;
         }
         if (!done)
@@ -134,13 +132,13 @@ static bool choose_programs(scene_renderer *r, const scene_lighting *lighting, c
 }
 
 bool scene_renderer_configure(scene_renderer *r, const scene_lighting *lighting, const scene_draw_options *options,
-                              char *error, size_t error_size)
+                              failure *fault)
 {
     const bool shadowed = draw_shadow_wanted(r, lighting, options);
     const int size = options->shadow_size ? options->shadow_size : 2048;
-    if (shadowed && !draw_shadow_make(r, size, error, error_size))
+    if (shadowed && !draw_shadow_make(r, size, fault))
         return false;
-    if (!choose_programs(r, lighting, options, shadowed, error, error_size))
+    if (!choose_programs(r, lighting, options, shadowed, fault))
         return false;
     if (options->everything)
         draw_make_neutral(r);

@@ -42,16 +42,14 @@ void draw_shadow_free(draw_shadow *s)
     *s = (draw_shadow){0};
 }
 
-bool draw_shadow_make(scene_renderer *r, int size, char *error, size_t error_size)
+bool draw_shadow_make(scene_renderer *r, int size, failure *fault)
 {
     if (r->shadow.texture && r->shadow.size == size)
         return true;
     GLint limit = 0;
     gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
-    if (size > limit) {
-        snprintf(error, error_size, "a shadow map of %d texels: this driver takes up to %d", size, limit);
-        return false;
-    }
+    if (size > limit)
+        return fault_set(fault, "a shadow map of %d texels: this driver takes up to %d", size, limit);
     draw_shadow_free(&r->shadow);
     draw_shadow *s = &r->shadow;
     s->size = size;
@@ -79,7 +77,7 @@ bool draw_shadow_make(scene_renderer *r, int size, char *error, size_t error_siz
     const bool complete = gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     if (!complete)
-        snprintf(error, error_size, "the driver refuses a shadow map of %d texels", size);
+        fault_set(fault, "the driver refuses a shadow map of %d texels", size);
     return complete;
 }
 

@@ -42,7 +42,7 @@ static void find_parts(const scene_renderer *r, bool out[DRAW_VERTEX_PARTS])
     }
 }
 
-static bool vertices_fit(const scene_renderer *r, char *error, size_t error_size)
+static bool vertices_fit(const scene_renderer *r, failure *fault)
 {
     bool read[DRAW_VERTEX_PARTS];
     find_parts(r, read);
@@ -50,9 +50,8 @@ static bool vertices_fit(const scene_renderer *r, char *error, size_t error_size
     const size_t largest = (wide ? 4 : 3) * sizeof(float);
     if (r->scene->vertex_count <= INT32_MAX / largest)
         return true;
-    snprintf(error, error_size, "%u vertices: a vertex buffer takes up to %zu of them", r->scene->vertex_count,
-             INT32_MAX / largest);
-    return false;
+    return fault_set(fault, "%u vertices: a vertex buffer takes up to %zu of them", r->scene->vertex_count,
+                     INT32_MAX / largest);
 }
 
 void draw_upload_vertices(scene_renderer *r)
@@ -177,8 +176,8 @@ typedef struct image_use {
     bool is_srgb[2];
 } image_use;
 
-static bool upload_texture(scene_renderer *r, int index, bool is_srgb, const image_use *uses, scene *spent, char *error,
-                           size_t error_size)
+static bool upload_texture(scene_renderer *r, int index, bool is_srgb, const image_use *uses, scene *spent,
+                           failure *fault)
 {
     static const GLint wraps[] = {GL_REPEAT, GL_MIRRORED_REPEAT, GL_CLAMP_TO_EDGE};
     const scene_texture *t = &r->scene->textures[index];
@@ -192,11 +191,9 @@ static bool upload_texture(scene_renderer *r, int index, bool is_srgb, const ima
         const scene_image *image = &r->scene->images[t->image];
         GLint limit = 0;
         gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
-        if (image->width > limit || image->height > limit) {
-            snprintf(error, error_size, "image %d is %d x %d; this driver takes up to %d", t->image, image->width,
-                     image->height, limit);
-            return false;
-        }
+        if (image->width > limit || image->height > limit)
+            return fault_set(fault, "image %d is %d x %d; this driver takes up to %d", t->image, image->width,
+                             image->height, limit);
         r->images[is_srgb][t->image] = upload_image(image, is_srgb, uses[t->image].mipmaps);
         if (spent && image->opaque && (uses[t->image].spaces == 1 || r->images[!is_srgb][t->image])) {
             free(image->rgba);
@@ -207,7 +204,7 @@ static bool upload_texture(scene_renderer *r, int index, bool is_srgb, const ima
 }
 
 /* Uploads only images that the items use: once as sRGB for colours, once as linear for other data. */
-static bool upload_textures(scene_renderer *r, scene *spent, char *error, size_t error_size)
+static bool upload_textures(scene_renderer *r, scene *spent, failure *fault)
 {
     const scene *s = r->scene;
     image_use *uses = calloc((size_t)s->image_count + 1, sizeof *uses);
@@ -216,7 +213,7 @@ static bool upload_textures(scene_renderer *r, scene *spent, char *error, size_t
     r->samplers = calloc((size_t)s->texture_count + 1, sizeof *r->samplers);
     bool done = uses && r->images[0] && r->images[1] && r->samplers;
     if (!done)
-        snprintf(error, error_size, "out of memory");
+        fault_set_memory(fault);
     for (uint32_t i = 0; done && i < r->item_count; i++) {
         const texture_list list = list_textures(s, &r->items[i]);
         for (int k = 0; k < list.count; k++) {
@@ -230,7 +227,7 @@ static bool upload_textures(scene_renderer *r, scene *spent, char *error, size_t
     for (uint32_t i = 0; done && i < r->item_count; i++) {
         const texture_list list = list_textures(s, &r->items[i]);
         for (int k = 0; done && k < list.count; k++)
-            done = upload_texture(r, list.texture[k], list.is_srgb[k], uses, spent, error, error_size);
+            done = upload_texture(r, list.texture[k], list.is_srgb[k], uses, spent, fault);
     }
     free(uses);
     return done;
@@ -261,7 +258,7 @@ void draw_make_neutral(scene_renderer *r)
 }
 
 /* `spent`: the same scene if its texels may be freed, else NULL. */
-static scene_renderer *create(const scene *s, scene *spent, const scene_renderer *like, char *error, size_t error_size)
+static scene_renderer *create(const scene *s, scene *spent, const scene_renderer *like, failure *fault)
 {
     scene_renderer *r = calloc(1, sizeof *r);
     draw_instance *instances = calloc((size_t)s->instance_count + 1, sizeof *instances);
@@ -271,20 +268,20 @@ static scene_renderer *create(const scene *s, scene *spent, const scene_renderer
         done = draw_plan_items(r, instances);
     }
     if (!done) {
-        snprintf(error, error_size, "out of memory");
+        fault_set_memory(fault);
     } else {
         /* An error from before is not ours; a lost context may report without end. */
         for (int i = 0; i < 16 && gl.GetError() != GL_NO_ERROR; i++)
             continue;
-        done = vertices_fit(r, error, error_size);
+        done = vertices_fit(r, fault);
         if (done)
             upload_geometry(r, instances);
         make_screen_maps(r);
-        done = done && upload_textures(r, spent, error, error_size) && draw_pool_join(r, like, error, error_size);
+        done = done && upload_textures(r, spent, fault) && draw_pool_join(r, like, fault);
         GLenum code = gl.GetError();
         if (done && code != GL_NO_ERROR) {
-            snprintf(error, error_size, "uploading the scene failed: %s (GL error 0x%04x)",
-                     code == GL_OUT_OF_MEMORY ? "out of GPU memory" : "the driver refused it", code);
+            fault_set(fault, "uploading the scene failed: %s (GL error 0x%04x)",
+                      code == GL_OUT_OF_MEMORY ? "out of GPU memory" : "the driver refused it", code);
             done = false;
         }
     }
@@ -296,14 +293,14 @@ static scene_renderer *create(const scene *s, scene *spent, const scene_renderer
     return r;
 }
 
-scene_renderer *scene_renderer_create(const scene *s, char *error, size_t error_size)
+scene_renderer *scene_renderer_create(const scene *s, failure *fault)
 {
-    return create(s, NULL, NULL, error, error_size);
+    return create(s, NULL, NULL, fault);
 }
 
-scene_renderer *scene_renderer_create_spending(scene *s, const scene_renderer *like, char *error, size_t error_size)
+scene_renderer *scene_renderer_create_spending(scene *s, const scene_renderer *like, failure *fault)
 {
-    return create(s, s, like, error, error_size);
+    return create(s, s, like, fault);
 }
 
 void scene_renderer_destroy(scene_renderer *r)

@@ -139,23 +139,23 @@ static void dim(environment *e)
             pictures[i]->rgb[k] *= scale;
 }
 
-environment *environment_load(const char *path, char *error, size_t error_size)
+environment *environment_load(const char *path, failure *fault)
 {
     size_t size = 0;
     char text[128];
     const char *reason = NULL;
     uint8_t *data = gltf_read_file(path, most_bytes, &size, &reason);
     if (!data) {
-        snprintf(error, error_size, "%s: %s", path, reason);
+        fault_set(fault, "%s: %s", path, reason);
         return NULL;
     }
     environment *e = calloc(1, sizeof *e);
-    const char *fault = e ? take_file(e, data, size, text) : "out of memory";
+    const char *wrong = e ? take_file(e, data, size, text) : "out of memory";
     free(data);
-    if (!fault && !environment_light(e))
-        fault = "out of memory";
-    if (fault) {
-        snprintf(error, error_size, "%s: %s", path, fault);
+    if (!wrong && !environment_light(e))
+        wrong = "out of memory";
+    if (wrong) {
+        fault_set(fault, "%s: %s", path, wrong);
         environment_destroy(e);
         return NULL;
     }

@@ -9,8 +9,9 @@
  */
 #pragma once
 
+#include "fault.h"
+
 #include <stdbool.h>
-#include <stddef.h>
 
 enum { ENVIRONMENT_LEVELS = 6, ENVIRONMENT_WIDTH = 512, ENVIRONMENT_MOST_WIDTH = 4096 };
 
@@ -32,7 +33,7 @@ typedef struct environment {
 /* A PNG, JPEG or WebP (sRGB), or a Radiance picture (linear). The file does not say how bright it is to look. If it
  * would give a white surface more than 1, the whole picture is dimmed so that the brightest of the six directions along
  * the axes gets 1. NULL, with one line in `error` that names the file and the fault, on failure. */
-environment *environment_load(const char *path, char *error, size_t error_size);
+environment *environment_load(const char *path, failure *fault);
 void environment_destroy(environment *e);
 
 /* Radiance / pi of a white matte surface that faces along the unit vector. */

@@ -22,7 +22,7 @@ static int *make_map(gltf_loader *l, size_t count)
 {
     int *map = malloc((count + 1) * sizeof *map);
     if (!map)
-        scene_fail_memory(l->fault);
+        fault_set_memory(l->fault);
     for (size_t i = 0; map && i < count; ++i)
         map[i] = -1;
     return map;
@@ -40,7 +40,7 @@ bool gltf_loader_begin(gltf_loader *l)
     l->world_from_node = calloc(d->node_count + 1, sizeof *l->world_from_node);
     l->drawn = calloc(d->node_count + 1, sizeof *l->drawn);
     if (!l->world_from_node || !l->drawn || !l->mesh_map)
-        scene_fail_memory(l->fault);
+        fault_set_memory(l->fault);
     for (size_t i = 0; l->mesh_map && i < d->mesh_count; ++i)
         l->mesh_map[i] = (gltf_mesh_range){.first = -1};
     return !l->fault->set;
@@ -129,9 +129,9 @@ static void hand_over(scene *made, scene_warnings *warnings)
     *warnings = (scene_warnings){.lines = NULL};
 }
 
-scene *scene_load_with(const char *path, const scene_load_options *options, char *error, size_t error_size)
+scene *scene_load_with(const char *path, const scene_load_options *options, failure *out_fault)
 {
-    scene_fault fault = {.file = path, .text = error, .size = error_size};
+    failure fault = {.file = path, .text = out_fault->text, .size = out_fault->size};
     scene_warnings warnings = {.strict = options && options->strict};
     gltf_document document;
     scene_builder builder;
@@ -161,7 +161,7 @@ scene *scene_load_with(const char *path, const scene_load_options *options, char
     return made;
 }
 
-scene *scene_load(const char *path, char *error, size_t error_size)
+scene *scene_load(const char *path, failure *fault)
 {
-    return scene_load_with(path, NULL, error, error_size);
+    return scene_load_with(path, NULL, fault);
 }

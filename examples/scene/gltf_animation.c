@@ -35,8 +35,8 @@ static bool check_keys(gltf_loader *l, size_t channel, const track *t)
 {
     for (size_t i = 0; i < t->key_count; ++i)
         if (!isfinite(t->keys[i]) || t->keys[i] < 0 || (i && t->keys[i] <= t->keys[i - 1]))
-            return scene_fail(l->fault, "animation 0, channel %zu: key %zu is not a later time than the one before",
-                              channel, i);
+            return fault_set(l->fault, "animation 0, channel %zu: key %zu is not a later time than the one before",
+                             channel, i);
     return true;
 }
 
@@ -45,25 +45,25 @@ static bool read_track(gltf_loader *l, size_t channel, path target, size_t width
     const gltf_document *d = l->document;
     const int number = d->animation_channels[channel].sampler;
     if (number < 0 || (size_t)number >= d->animation_sampler_count)
-        return scene_fail(l->fault, "animation 0, channel %zu: sampler %d does not exist", channel, number);
+        return fault_set(l->fault, "animation 0, channel %zu: sampler %d does not exist", channel, number);
     const gltf_animation_sampler *s = &d->animation_samplers[number];
     *out = (track){.kind = (interpolation)find_name(interpolation_names, INTERPOLATION_COUNT, s->interpolation),
                    .width = width};
     if (out->kind == INTERPOLATION_COUNT)
-        return scene_fail(l->fault, "animation 0, sampler %d: interpolation '%.32s'", number, s->interpolation);
+        return fault_set(l->fault, "animation 0, sampler %d: interpolation '%.32s'", number, s->interpolation);
     if (s->input < 0 || (size_t)s->input >= d->accessor_count || s->output < 0 ||
         (size_t)s->output >= d->accessor_count)
-        return scene_fail(l->fault, "animation 0, sampler %d: accessor %d or %d does not exist", number, s->input,
-                          s->output);
+        return fault_set(l->fault, "animation 0, sampler %d: accessor %d or %d does not exist", number, s->input,
+                         s->output);
     const gltf_accessor *input = &d->accessors[s->input], *output = &d->accessors[s->output];
     if (input->component_type != GLTF_FLOAT)
-        return scene_fail(l->fault, "animation 0, sampler %d: its times are not floats", number);
+        return fault_set(l->fault, "animation 0, sampler %d: its times are not floats", number);
     out->key_count = input->count;
     /* Accessors have at least one element; a value has at least one number here. */
     const size_t each = (out->kind == CUBIC_SPLINE ? 3 : 1) * (target == PATH_WEIGHTS ? width : 1);
     if (output->count % each != 0 || output->count / each != input->count)
-        return scene_fail(l->fault, "animation 0, channel %zu: %zu values for %zu keys of %zu", channel, output->count,
-                          input->count, each);
+        return fault_set(l->fault, "animation 0, channel %zu: %zu values for %zu keys of %zu", channel, output->count,
+                         input->count, each);
     out->keys = gltf_read_floats(l, s->input, 1, GLTF_AS_SAID);
     out->values = gltf_read_floats(l, s->output, target == PATH_WEIGHTS ? 1 : (int)width, GLTF_NORMALIZED);
     return out->keys && out->values && check_keys(l, channel, out);
@@ -130,9 +130,9 @@ static size_t value_width(gltf_loader *l, size_t channel, path target)
     const gltf_mesh *mesh = n->mesh < 0 ? NULL : &d->meshes[n->mesh];
     const size_t targets = mesh && mesh->primitive_count ? mesh->primitives[0].target_count : 0;
     if (target == PATH_WEIGHTS && !targets)
-        scene_fail(l->fault, "animation 0, channel %zu: node %d has no morph targets", channel, node);
+        fault_set(l->fault, "animation 0, channel %zu: node %d has no morph targets", channel, node);
     else if (target != PATH_WEIGHTS && n->has_matrix)
-        scene_fail(l->fault, "animation 0, channel %zu: node %d has a matrix", channel, node);
+        fault_set(l->fault, "animation 0, channel %zu: node %d has a matrix", channel, node);
     else
         return target == PATH_WEIGHTS ? targets : target == PATH_ROTATION ? 4 : 3;
     return 0;
@@ -144,12 +144,12 @@ static bool apply_channel(gltf_loader *l, size_t channel, double time_s, gltf_po
     if (c->node == -1)
         return true; /* an extension's, and glTF says to leave it out */
     if (c->node < 0 || (size_t)c->node >= l->document->node_count)
-        return scene_fail(l->fault, "animation 0, channel %zu: node %d does not exist", channel, c->node);
+        return fault_set(l->fault, "animation 0, channel %zu: node %d does not exist", channel, c->node);
     const path target = (path)find_name(path_names, PATH_COUNT, c->path);
     if (target == PATH_COUNT)
-        return scene_fail(l->fault, "animation 0, channel %zu: path '%.32s'", channel, c->path);
+        return fault_set(l->fault, "animation 0, channel %zu: path '%.32s'", channel, c->path);
     if (animated[c->node] & 1u << target)
-        return scene_fail(l->fault, "animation 0, channel %zu: node %d has its %s twice", channel, c->node, c->path);
+        return fault_set(l->fault, "animation 0, channel %zu: node %d has its %s twice", channel, c->node, c->path);
     animated[c->node] |= (unsigned char)(1u << target);
     gltf_node *n = &pose->nodes[c->node];
     const size_t width = value_width(l, channel, target);
@@ -159,13 +159,13 @@ static bool apply_channel(gltf_loader *l, size_t channel, double time_s, gltf_po
     if (ok && target == PATH_WEIGHTS) {
         to = pose->weights[c->node] = malloc(width * sizeof *to);
         n->weights = (gltf_weights){to, width};
-        ok = to || scene_fail_memory(l->fault);
+        ok = to || fault_set_memory(l->fault);
     }
     if (ok)
         evaluate(&k, target, time_s, to);
     for (size_t i = 0; ok && i < width; ++i)
         if (!isfinite(to[i]))
-            ok = scene_fail(l->fault, "animation 0, channel %zu: its value at %g s is not finite", channel, time_s);
+            ok = fault_set(l->fault, "animation 0, channel %zu: its value at %g s is not finite", channel, time_s);
     free(k.keys);
     free(k.values);
     return ok;
@@ -175,12 +175,12 @@ bool gltf_animate(gltf_loader *l, gltf_document *document, double time_s, gltf_p
 {
     const size_t count = document->node_count;
     if (!document->animation_count)
-        return scene_fail(l->fault, "it has no animation for the time %g s", time_s);
+        return fault_set(l->fault, "it has no animation for the time %g s", time_s);
     pose->count = count;
     pose->nodes = malloc((count + 1) * sizeof *pose->nodes);
     pose->weights = calloc(count + 1, sizeof *pose->weights);
     unsigned char *animated = calloc(count + 1, sizeof *animated);
-    bool ok = (pose->nodes && pose->weights && animated) || scene_fail_memory(l->fault);
+    bool ok = (pose->nodes && pose->weights && animated) || fault_set_memory(l->fault);
     if (ok && count)
         memcpy(pose->nodes, document->nodes, count * sizeof *pose->nodes);
     for (size_t c = 0; ok && c < document->animation_channel_count; ++c)

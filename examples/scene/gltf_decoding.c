@@ -101,12 +101,12 @@ bool gltf_decoding_begin(gltf_loader *l)
     gltf_decoding *d = calloc(1, sizeof *d + count * sizeof d->entries[0]);
     l->decoding = d;
     if (!d)
-        return scene_fail_memory(l->fault);
+        return fault_set_memory(l->fault);
     pthread_mutex_init(&d->lock, NULL);
     pthread_cond_init(&d->changed, NULL);
     d->wanted = calloc(count + 1, sizeof *d->wanted);
     if (!d->wanted)
-        return scene_fail_memory(l->fault);
+        return fault_set_memory(l->fault);
     gltf_visit_shown(l, mark);
     uint64_t pixels = 0;
     for (size_t i = 0; i < count && !l->fault->set; ++i) {

@@ -110,7 +110,7 @@ void read_all(gltf_owner *owner, gltf_source *source, const json &parsed, const 
     out->source_bytes += owner->file.size + source->bytes_read;
 }
 
-void open_document(gltf_document *out, const char *path, const scene_load_options &options, scene_fault *fault)
+void open_document(gltf_document *out, const char *path, const scene_load_options &options, failure *fault)
 {
     auto *owner = new gltf_owner;
     out->owner = owner;
@@ -125,7 +125,7 @@ void open_document(gltf_document *out, const char *path, const scene_load_option
 } // namespace
 
 extern "C" bool gltf_document_open(gltf_document *out, const char *path, const scene_load_options *options,
-                                   scene_warnings *warnings, scene_fault *fault)
+                                   scene_warnings *warnings, failure *fault)
 {
     const scene_load_options none{};
     *out = {};
@@ -138,14 +138,14 @@ extern "C" bool gltf_document_open(gltf_document *out, const char *path, const s
     } catch (const gltf_fault_is_set &) {
         opened = false;
     } catch (const std::bad_alloc &) {
-        scene_fail_memory(fault);
+        fault_set_memory(fault);
     } catch (const json::exception &e) {
         // nlohmann's messages begin with a number of its own in brackets.
         const std::string text = e.what();
         const size_t bracket = text.find("] ");
-        scene_fail(fault, "JSON: %.240s", text.c_str() + (bracket == std::string::npos ? 0 : bracket + 2));
+        fault_set(fault, "JSON: %.240s", text.c_str() + (bracket == std::string::npos ? 0 : bracket + 2));
     } catch (const std::exception &e) {
-        scene_fail(fault, "%s", e.what());
+        fault_set(fault, "%s", e.what());
     }
     if (!opened)
         gltf_document_close(out);

@@ -10,9 +10,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "fault.h"
 #include "memory_budget.h"
 #include "scene.h"
-#include "scene_fault.h"
 #include "scene_warnings.h"
 
 #ifdef __cplusplus
@@ -201,12 +201,12 @@ typedef struct gltf_document {
 /* Reads and parses the file, as the options say (NULL: the file as it stands). `warnings` must outlive the document. On
  * failure false, with the fault set, and nothing to close. */
 bool gltf_document_open(gltf_document *out, const char *path, const scene_load_options *options,
-                        scene_warnings *warnings, scene_fault *fault);
+                        scene_warnings *warnings, failure *fault);
 void gltf_document_close(gltf_document *document);
 
 /* True where every reference, range and count in the document holds, animations aside; otherwise the fault says which
  * does not. Factors may still be out of range by a rounding error. */
-bool gltf_check(const gltf_document *document, scene_fault *fault);
+bool gltf_check(const gltf_document *document, failure *fault);
 
 /* The accessor of the attribute of that name, -1 if the list has none. */
 int gltf_find_attribute(const gltf_attribute_list *list, const char *name);

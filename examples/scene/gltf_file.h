@@ -8,8 +8,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "fault.h"
 #include "memory_budget.h"
-#include "scene_fault.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -30,7 +30,7 @@ typedef struct gltf_file {
 uint8_t *gltf_read_file(const char *path, uint64_t limit, size_t *out_size, const char **out_reason);
 
 /* Reads a .gltf or .glb file, told apart by its first bytes, and checks it. The caller frees `data`. */
-bool gltf_file_open(gltf_file *out, const char *path, memory_budget *budget, scene_fault *fault);
+bool gltf_file_open(gltf_file *out, const char *path, memory_budget *budget, failure *fault);
 
 /* Where the name part of a path begins. */
 const char *gltf_file_name(const char *path);

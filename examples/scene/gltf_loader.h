@@ -50,7 +50,7 @@ typedef struct gltf_decoding gltf_decoding;
 typedef struct gltf_loader {
     gltf_document *document;
     scene_builder *builder;
-    scene_fault *fault;
+    failure *fault;
     bool flat_normals;                           /* as in scene_load_options */
     double (*world_from_node)[16];               /* of every node */
     bool *drawn;                                 /* of every node */

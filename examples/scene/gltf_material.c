@@ -101,7 +101,7 @@ static bool translate_map(gltf_loader *l, int material, const gltf_texture_use *
                     material, SCENE_UV_COUNT, from->uv_set))
         return false;
     if (!uv_transform(from, out->uv_from_uv))
-        return scene_fail(l->fault, "material %d: its texture transform is out of range", material);
+        return fault_set(l->fault, "material %d: its texture transform is out of range", material);
     if (!add_texture(l, from->texture, &out->texture))
         return false;
     out->used = out->texture >= 0;
@@ -179,7 +179,7 @@ static int add_variation(gltf_loader *l, int material, int **map, size_t *room, 
     if (needed > *room) {
         int *grown = realloc(*map, 2 * needed * sizeof *grown);
         if (!grown) {
-            scene_fail_memory(l->fault);
+            fault_set_memory(l->fault);
             return -1;
         }
         memset(grown + *room, 0, (2 * needed - *room) * sizeof *grown);

@@ -94,7 +94,7 @@ static bool repair_normals(gltf_loader *l, const gltf_triangles *triangles, scen
     const gltf_vertices *v = &l->recent;
     double(*sums)[3] = calloc(v->count, sizeof *sums);
     if (!sums)
-        return scene_fail_memory(l->fault);
+        return fault_set_memory(l->fault);
     for (uint32_t i = 0; i < triangles->count; i += 3) {
         double face[3];
         face_vector(v, triangles->indices + i, face);

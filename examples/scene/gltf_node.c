@@ -61,10 +61,10 @@ static bool local_matrix(gltf_loader *l, size_t node, double out[16])
     const gltf_node *n = &l->document->nodes[node];
     if (!n->has_matrix)
         return compose(n->translation, n->rotation, n->scale, out) ||
-               scene_fail(l->fault, "node %zu: its rotation is 0", node);
+               fault_set(l->fault, "node %zu: its rotation is 0", node);
     const double *m = n->matrix;
     if (fabs(m[3]) + fabs(m[7]) + fabs(m[11]) + fabs(m[15] - 1) > 1e-4)
-        return scene_fail(l->fault, "node %zu: its matrix is not affine", node);
+        return fault_set(l->fault, "node %zu: its matrix is not affine", node);
     for (int i = 0; i < 16; ++i)
         out[i] = i % 4 == 3 ? i == 15 : m[i];
     return true;
@@ -78,7 +78,7 @@ static bool place_branch(gltf_loader *l, size_t node, const double world_from_pa
         return false;
     multiply(world_from_parent, parent_from_node, l->world_from_node[node]);
     if (!matrix_is_finite(l->world_from_node[node]))
-        return scene_fail(l->fault, "node %zu: its transform is too large for single precision", node);
+        return fault_set(l->fault, "node %zu: its transform is too large for single precision", node);
     for (size_t i = 0; i < n->child_count; ++i)
         if (!place_branch(l, (size_t)n->children[i], l->world_from_node[node]))
             return false;
@@ -91,7 +91,7 @@ static bool *find_roots(gltf_loader *l)
     const gltf_document *d = l->document;
     bool *root = malloc(d->node_count + 1);
     if (!root) {
-        scene_fail_memory(l->fault);
+        fault_set_memory(l->fault);
         return NULL;
     }
     memset(root, true, d->node_count);
@@ -147,7 +147,7 @@ static bool add_instance(gltf_loader *l, gltf_mesh_range meshes, const double wo
         if (!l->builder->made->meshes[mesh].primitive_count)
             continue;
         if (l->builder->made->instance_count >= MOST_INSTANCES)
-            return scene_fail(l->fault, "more than %d instances", MOST_INSTANCES);
+            return fault_set(l->fault, "more than %d instances", MOST_INSTANCES);
         if (!scene_builder_place(l->builder, mesh, world_from_mesh))
             return false;
     }
@@ -161,7 +161,7 @@ static float *read_attribute(gltf_loader *l, size_t node, int accessor, int comp
         return NULL;
     const size_t here = l->document->accessors[accessor].count;
     if (*count && here != *count) {
-        scene_fail(l->fault, "node %zu: %zu and %zu instances", node, *count, here);
+        fault_set(l->fault, "node %zu: %zu and %zu instances", node, *count, here);
         return NULL;
     }
     *count = here;
@@ -184,7 +184,7 @@ double (*gltf_read_instances(gltf_loader *l, size_t node, size_t *out_count))[16
     float *scales = read_attribute(l, node, n->instance_scale, 3, &count);
     double(*made)[16] = l->fault->set ? NULL : malloc((count + 1) * sizeof *made);
     if (!made)
-        scene_fail_memory(l->fault);
+        fault_set_memory(l->fault);
     for (size_t i = 0; made && i < count; ++i) {
         double t[3] = {0}, r[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
         pick(translations, i, 3, t);
@@ -195,7 +195,7 @@ double (*gltf_read_instances(gltf_loader *l, size_t node, size_t *out_count))[16
         if (composed)
             multiply(l->world_from_node[node], node_from_mesh, made[i]);
         if (!composed || !matrix_is_finite(made[i])) {
-            scene_fail(l->fault, "node %zu: the transform of instance %zu is not a number, or 0", node, i);
+            fault_set(l->fault, "node %zu: the transform of instance %zu is not a number, or 0", node, i);
             free(made);
             made = NULL;
         }

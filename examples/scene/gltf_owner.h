@@ -74,7 +74,7 @@ struct gltf_owner {
 // Where a part needs more than the document: limits, messages, and files beside the glTF file.
 struct gltf_source {
     gltf_document *document;
-    scene_fault *fault;
+    failure *fault;
     std::string folder;    // "" or with a slash at its end
     const char *root;      // NULL: the folder
     size_t bytes_read = 0; // of external files

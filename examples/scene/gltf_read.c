@@ -89,7 +89,7 @@ static bool read_sparse(gltf_loader *l, int number, void *out, bool normalized, 
     for (size_t i = 0; i < (size_t)s->count; ++i) {
         const uint32_t element = read_bits(indices + i * index_size, index_size);
         if (element >= a->count)
-            return scene_fail(l->fault, "accessor %d: sparse index %u for %zu elements", number, element, a->count);
+            return fault_set(l->fault, "accessor %d: sparse index %u for %zu elements", number, element, a->count);
         put_element(out, element, values + i * gltf_element_size(a), a, normalized, put);
     }
     return true;
@@ -100,18 +100,17 @@ static void *read_accessor(gltf_loader *l, int number, int components, bool norm
 {
     const gltf_accessor *a = &l->document->accessors[number];
     if (a->rows * a->columns != components) {
-        scene_fail(l->fault, "accessor %d: %d components where %d are needed", number, a->rows * a->columns,
-                   components);
+        fault_set(l->fault, "accessor %d: %d components where %d are needed", number, a->rows * a->columns, components);
         return NULL;
     }
     if (a->count > UINT32_MAX || a->count > l->reads_left) {
-        scene_fail(l->fault, "accessor %d: the file asks for more vertex data than its size allows", number);
+        fault_set(l->fault, "accessor %d: the file asks for more vertex data than its size allows", number);
         return NULL;
     }
     l->reads_left -= a->count;
     void *out = calloc(a->count, (size_t)components * sizeof(float));
     if (!out) {
-        scene_fail_memory(l->fault);
+        fault_set_memory(l->fault);
         return NULL;
     }
     if (a->buffer_view >= 0) {
@@ -147,7 +146,7 @@ uint32_t *gltf_read_indices(gltf_loader *l, int accessor, int components)
 {
     const int type = l->document->accessors[accessor].component_type;
     if (type != GLTF_UNSIGNED_BYTE && type != GLTF_UNSIGNED_SHORT && type != GLTF_UNSIGNED_INT) {
-        scene_fail(l->fault, "accessor %d: component type %d where unsigned integers are needed", accessor, type);
+        fault_set(l->fault, "accessor %d: component type %d where unsigned integers are needed", accessor, type);
         return NULL;
     }
     return read_accessor(l, accessor, components, false, put_index);

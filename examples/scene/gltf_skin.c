@@ -37,14 +37,14 @@ static double (*read_joints(gltf_loader *l, int number))[16]
     const gltf_skin *skin = &l->document->skins[number];
     const int accessor = skin->inverse_bind_matrices;
     if (skin->joint_count > l->reads_left) {
-        scene_fail(l->fault, "skin %d: the file asks for more joints than its size allows", number);
+        fault_set(l->fault, "skin %d: the file asks for more joints than its size allows", number);
         return NULL;
     }
     l->reads_left -= skin->joint_count;
     float *inverse_bind = accessor < 0 ? NULL : gltf_read_floats(l, accessor, 16, GLTF_AS_SAID);
     double(*joints)[16] = malloc(skin->joint_count * sizeof *joints);
     if (!joints)
-        scene_fail_memory(l->fault);
+        fault_set_memory(l->fault);
     for (size_t j = 0; !l->fault->set && j < skin->joint_count; ++j)
         multiply(l->world_from_node[skin->joints[j]], inverse_bind ? inverse_bind + 16 * j : identity, joints[j]);
     free(inverse_bind);
@@ -89,8 +89,8 @@ static bool blend(gltf_loader *l, const joint_sets *sets, uint32_t vertex, doubl
         if (weight == 0)
             continue;
         if (joint >= joint_count)
-            return scene_fail(l->fault, "skin %d: vertex %u names joint %u, there are %zu", skin, vertex, joint,
-                              joint_count);
+            return fault_set(l->fault, "skin %d: vertex %u names joint %u, there are %zu", skin, vertex, joint,
+                             joint_count);
         for (int m = 0; m < 16; ++m)
             out[m] += weight * joints[joint][m];
         total += weight;
@@ -148,7 +148,7 @@ bool gltf_pose_skin(gltf_loader *l, gltf_vertices *v, int skin, size_t node)
 {
     double(*joints)[16] = read_joints(l, skin);
     double(*world)[3] = joints ? malloc(((size_t)v->count + 1) * sizeof *world) : NULL;
-    const bool ok = joints && (world || scene_fail_memory(l->fault)) && pose_all(l, v, skin, node, joints, world);
+    const bool ok = joints && (world || fault_set_memory(l->fault)) && pose_all(l, v, skin, node, joints, world);
     if (ok)
         gltf_center_vertices(v, world);
     free(world);

@@ -68,7 +68,7 @@ bool gltf_add_tangents(gltf_loader *l, gltf_triangles *triangles, int uv)
     bool done = corners && copy_of &&
                 tangent_space_make(l->builder->made->vertices, uv, triangles->indices, triangles->count, corners);
     if (!done)
-        scene_fail_memory(l->fault);
+        fault_set_memory(l->fault);
     for (uint32_t i = 0; done && i < triangles->count; ++i) {
         const uint32_t vertex = vertex_with(l, triangles->indices[i], corners[i], copy_of);
         done = vertex != UINT32_MAX;

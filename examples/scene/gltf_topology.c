@@ -68,7 +68,7 @@ static bool check_indices(gltf_loader *l, const gltf_primitive *p, const uint32_
     const uint32_t count = l->recent.count;
     for (size_t i = 0; i < order; ++i)
         if (given[i] >= count)
-            return scene_fail(l->fault, "accessor %d: index %u for %u vertices", p->indices, given[i], count);
+            return fault_set(l->fault, "accessor %d: index %u for %u vertices", p->indices, given[i], count);
     return true;
 }
 
@@ -83,7 +83,7 @@ bool gltf_make_triangles(gltf_loader *l, const gltf_primitive *p, gltf_triangles
     if (!shapes)
         return true;
     if (shapes > UINT32_MAX / corners)
-        return scene_fail(l->fault, "too many triangles");
+        return fault_set(l->fault, "too many triangles");
     if (!memory_budget_charge(&l->document->budget, (uint64_t)shapes * corners * sizeof *out->indices,
                               "the file's triangles", l->fault))
         return false;
@@ -106,5 +106,5 @@ bool gltf_make_triangles(gltf_loader *l, const gltf_primitive *p, gltf_triangles
             *to++ = given ? given[at] : (uint32_t)at;
         }
     free(given);
-    return out->indices || scene_fail_memory(l->fault);
+    return out->indices || fault_set_memory(l->fault);
 }

@@ -73,7 +73,7 @@ static float *read_colors(gltf_loader *l, gltf_vertices *v)
     }
     free(given);
     if (!colors)
-        scene_fail_memory(l->fault);
+        fault_set_memory(l->fault);
     return colors;
 }
 
@@ -106,8 +106,8 @@ static bool check_positions(gltf_loader *l, const gltf_vertices *v)
 {
     for (uint32_t i = 0; i < v->count; ++i)
         if (!isfinite(v->positions[i][0]) || !isfinite(v->positions[i][1]) || !isfinite(v->positions[i][2]))
-            return scene_fail(l->fault, "accessor %d: the position of vertex %u is not finite",
-                              gltf_find_attribute(&v->source->attributes, "POSITION"), i);
+            return fault_set(l->fault, "accessor %d: the position of vertex %u is not finite",
+                             gltf_find_attribute(&v->source->attributes, "POSITION"), i);
     return true;
 }
 
@@ -199,7 +199,7 @@ bool gltf_read_vertices(gltf_loader *l, const gltf_primitive *primitive, size_t 
     const int positions = gltf_find_attribute(&primitive->attributes, "POSITION");
     const size_t count = l->document->accessors[positions].count;
     if (count > UINT32_MAX)
-        return scene_fail(l->fault, "accessor %d: too many vertices, %zu", positions, count);
+        return fault_set(l->fault, "accessor %d: too many vertices, %zu", positions, count);
     v->count = (uint32_t)count;
     if (!read_all(l, v) || !check_positions(l, v))
         return false;

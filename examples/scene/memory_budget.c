@@ -15,13 +15,13 @@ memory_budget memory_budget_begin(uint64_t bytes)
     return (memory_budget){.total = bytes, .left = bytes};
 }
 
-bool memory_budget_charge(memory_budget *b, uint64_t bytes, const char *what, scene_fault *fault)
+bool memory_budget_charge(memory_budget *b, uint64_t bytes, const char *what, failure *fault)
 {
     const uint64_t mib = 1 << 20;
     if (bytes > b->left)
-        return scene_fail(fault, "%s: %llu MiB needed, and %llu of the %llu MiB allowed are left (option --memory)",
-                          what, (unsigned long long)(bytes / mib + (bytes % mib != 0)),
-                          (unsigned long long)(b->left / mib), (unsigned long long)(b->total / mib));
+        return fault_set(fault, "%s: %llu MiB needed, and %llu of the %llu MiB allowed are left (option --memory)",
+                         what, (unsigned long long)(bytes / mib + (bytes % mib != 0)),
+                         (unsigned long long)(b->left / mib), (unsigned long long)(b->total / mib));
     b->left -= bytes;
     return true;
 }

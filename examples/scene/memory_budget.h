@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "scene_fault.h"
+#include "fault.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -22,7 +22,7 @@ typedef struct memory_budget {
 memory_budget memory_budget_begin(uint64_t bytes);
 
 /* False, with a fault that names `what` and both sizes, where less is left. */
-bool memory_budget_charge(memory_budget *b, uint64_t bytes, const char *what, scene_fault *fault);
+bool memory_budget_charge(memory_budget *b, uint64_t bytes, const char *what, failure *fault);
 
 #ifdef __cplusplus
 }

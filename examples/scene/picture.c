@@ -10,7 +10,6 @@
 #include <math.h>
 #include <png.h>
 #include <setjmp.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,20 +17,10 @@
 /* Larger than any framebuffer; keeps every product of sizes within size_t and libpng's own limits. */
 enum { LARGEST_SIDE = 65536 };
 
-static bool fail(char *error, size_t error_size, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(error, error_size, format, arguments);
-    va_end(arguments);
-    return false;
-}
-
-static bool check_size(const char *path, int width, int height, char *error, size_t error_size)
+static bool check_size(const char *path, int width, int height, failure *fault)
 {
     if (width < 1 || height < 1 || width > LARGEST_SIDE || height > LARGEST_SIDE)
-        return fail(error, error_size, "%s: a picture of %d x %d is outside 1 to %d", path, width, height,
-                    LARGEST_SIDE);
+        return fault_set(fault, "%s: a picture of %d x %d is outside 1 to %d", path, width, height, LARGEST_SIDE);
     return true;
 }
 
@@ -85,16 +74,15 @@ static bool encode(png_job *job)
     return true;
 }
 
-bool picture_write_png(const char *path, int width, int height, int channels, const uint8_t *pixels, char *error,
-                       size_t error_size)
+bool picture_write_png(const char *path, int width, int height, int channels, const uint8_t *pixels, failure *fault)
 {
-    if (!check_size(path, width, height, error, error_size))
+    if (!check_size(path, width, height, fault))
         return false;
     if (channels != 1 && channels != 3 && channels != 4)
-        return fail(error, error_size, "%s: a PNG of %d channels can't be written", path, channels);
+        return fault_set(fault, "%s: a PNG of %d channels can't be written", path, channels);
     png_job job = {.width = width, .height = height, .channels = channels, .pixels = pixels};
     whole_file file;
-    if (!whole_file_open(&file, path, error, error_size))
+    if (!whole_file_open(&file, path, fault))
         return false;
     job.file = file.file;
 
@@ -105,35 +93,35 @@ bool picture_write_png(const char *path, int width, int height, int channels, co
     if (job.info)
         written = encode(&job);
     if (!job.info)
-        fail(error, error_size, "%s: out of memory", path);
+        fault_set(fault, "%s: out of memory", path);
     else if (!written)
-        fail(error, error_size, "%s: %s", path, ferror(job.file) && errno ? strerror(errno) : job.message);
+        fault_set(fault, "%s: %s", path, ferror(job.file) && errno ? strerror(errno) : job.message);
     png_destroy_write_struct(&job.png, &job.info);
-    return whole_file_close(&file, written, error, error_size);
+    return whole_file_close(&file, written, fault);
 }
 
-uint8_t *picture_read_png(const char *path, int *out_width, int *out_height, char *error, size_t error_size)
+uint8_t *picture_read_png(const char *path, int *out_width, int *out_height, failure *fault)
 {
     FILE *file = fopen(path, "rb");
     if (!file) {
-        fail(error, error_size, "%s: %s", path, strerror(errno));
+        fault_set(fault, "%s: %s", path, strerror(errno));
         return NULL;
     }
     uint8_t *pixels = NULL;
     png_image image = {.version = PNG_IMAGE_VERSION};
     if (!png_image_begin_read_from_stdio(&image, file)) {
-        fail(error, error_size, "%s: %s", path, image.message);
+        fault_set(fault, "%s: %s", path, image.message);
     } else if (image.width > LARGEST_SIDE || image.height > LARGEST_SIDE) {
-        fail(error, error_size, "%s: a picture of %u x %u is too large", path, image.width, image.height);
+        fault_set(fault, "%s: a picture of %u x %u is too large", path, image.width, image.height);
     } else {
         image.format = PNG_FORMAT_RGBA;
         size_t row = (size_t)image.width * 4;
         pixels = malloc(row * image.height);
         /* A negative stride stores the rows from the bottom up. */
         if (!pixels) {
-            fail(error, error_size, "%s: out of memory", path);
+            fault_set(fault, "%s: out of memory", path);
         } else if (!png_image_finish_read(&image, NULL, pixels, -(png_int_32)row, NULL)) {
-            fail(error, error_size, "%s: %s", path, image.message);
+            fault_set(fault, "%s: %s", path, image.message);
             free(pixels);
             pixels = NULL;
         }
@@ -168,19 +156,18 @@ static void from_bytes(const uint8_t *bytes, size_t count, float *values)
     }
 }
 
-bool picture_write_pfm(const char *path, int width, int height, int channels, const float *pixels, char *error,
-                       size_t error_size)
+bool picture_write_pfm(const char *path, int width, int height, int channels, const float *pixels, failure *fault)
 {
-    if (!check_size(path, width, height, error, error_size))
+    if (!check_size(path, width, height, fault))
         return false;
     if (channels != 1 && channels != 3)
-        return fail(error, error_size, "%s: a PFM of %d channels can't be written", path, channels);
+        return fault_set(fault, "%s: a PFM of %d channels can't be written", path, channels);
     size_t row = (size_t)width * (size_t)channels;
     uint8_t *bytes = malloc(row * 4);
     if (!bytes)
-        return fail(error, error_size, "%s: out of memory", path);
+        return fault_set(fault, "%s: out of memory", path);
     whole_file whole;
-    if (!whole_file_open(&whole, path, error, error_size)) {
+    if (!whole_file_open(&whole, path, fault)) {
         free(bytes);
         return false;
     }
@@ -191,9 +178,9 @@ bool picture_write_pfm(const char *path, int width, int height, int channels, co
         written = fwrite(bytes, 4, row, file) == row;
     }
     if (!written)
-        fail(error, error_size, "%s: %s", path, strerror(errno));
+        fault_set(fault, "%s: %s", path, strerror(errno));
     free(bytes);
-    return whole_file_close(&whole, written, error, error_size);
+    return whole_file_close(&whole, written, fault);
 }
 
 /* Reads a number of the header and its separator. -1 for anything else. */
@@ -250,27 +237,25 @@ static float *read_pfm_pixels(FILE *file, size_t row, size_t height)
     return pixels;
 }
 
-float *picture_read_pfm(const char *path, int *out_width, int *out_height, int *out_channels, char *error,
-                        size_t error_size)
+float *picture_read_pfm(const char *path, int *out_width, int *out_height, int *out_channels, failure *fault)
 {
     FILE *file = fopen(path, "rb");
     if (!file) {
-        fail(error, error_size, "%s: %s", path, strerror(errno));
+        fault_set(fault, "%s: %s", path, strerror(errno));
         return NULL;
     }
     float *pixels = NULL;
     int width, height, channels;
     if (!read_pfm_header(file, &width, &height, &channels)) {
-        fail(error, error_size, "%s: not a PFM of little-endian floats with sides up to %d", path, LARGEST_SIDE);
+        fault_set(fault, "%s: not a PFM of little-endian floats with sides up to %d", path, LARGEST_SIDE);
     } else {
         size_t row = (size_t)width * (size_t)channels;
         if (!has_left(file, row * (size_t)height * 4)) {
-            fail(error, error_size, "%s: holds more or less than the %d x %d pixels of its header", path, width,
-                 height);
+            fault_set(fault, "%s: holds more or less than the %d x %d pixels of its header", path, width, height);
         } else {
             pixels = read_pfm_pixels(file, row, (size_t)height);
             if (!pixels)
-                fail(error, error_size, "%s: %s", path, ferror(file) ? strerror(errno) : "out of memory");
+                fault_set(fault, "%s: %s", path, ferror(file) ? strerror(errno) : "out of memory");
         }
     }
     fclose(file);

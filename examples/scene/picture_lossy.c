@@ -70,16 +70,14 @@ static bool encode_jpeg(jpeg_job *job, FILE *file, int width, int height)
     return true;
 }
 
-bool picture_write_jpeg(const char *path, int width, int height, int channels, const uint8_t *pixels, char *error,
-                        size_t error_size)
+bool picture_write_jpeg(const char *path, int width, int height, int channels, const uint8_t *pixels, failure *fault)
 {
-    failure why = {.file = path, .text = error, .size = error_size};
     whole_file file;
     if (channels != 1 && channels != 3)
-        return fault_set(&why, "a JPEG of %d channels can't be written", channels);
+        return fault_set(fault, "%s: a JPEG of %d channels can't be written", path, channels);
     if (width < 1 || height < 1 || width > JPEG_MAX_DIMENSION || height > JPEG_MAX_DIMENSION)
-        return fault_set(&why, "a JPEG of %d x %d is outside 1 to %ld", width, height, JPEG_MAX_DIMENSION);
-    if (!whole_file_open(&file, path, error, error_size))
+        return fault_set(fault, "%s: a JPEG of %d x %d is outside 1 to %ld", path, width, height, JPEG_MAX_DIMENSION);
+    if (!whole_file_open(&file, path, fault))
         return false;
     jpeg_job *job = calloc(1, sizeof *job);
     bool written = false;
@@ -88,13 +86,13 @@ bool picture_write_jpeg(const char *path, int width, int height, int channels, c
         job->pixels = pixels;
         written = encode_jpeg(job, file.file, width, height);
         if (!written)
-            fault_set(&why, "%s", job->message);
+            fault_set(fault, "%s: %s", path, job->message);
         jpeg_destroy_compress(&job->jpeg);
         free(job);
     } else {
-        fault_set_memory(&why);
+        fault_set(fault, "%s: not enough memory", path);
     }
-    return whole_file_close(&file, written, error, error_size);
+    return whole_file_close(&file, written, fault);
 }
 
 bool picture_has_webp(void)
@@ -104,16 +102,14 @@ bool picture_has_webp(void)
 
 #if GLSSAO_HAS_WEBP
 
-bool picture_write_webp(const char *path, int width, int height, int channels, const uint8_t *pixels, char *error,
-                        size_t error_size)
+bool picture_write_webp(const char *path, int width, int height, int channels, const uint8_t *pixels, failure *fault)
 {
-    failure why = {.file = path, .text = error, .size = error_size};
     whole_file file;
     uint8_t *bytes = NULL;
     if (channels != 3 && channels != 4)
-        return fault_set(&why, "a WebP of %d channels can't be written", channels);
+        return fault_set(fault, "%s: a WebP of %d channels can't be written", path, channels);
     if (width < 1 || height < 1 || width > WEBP_MAX_DIMENSION || height > WEBP_MAX_DIMENSION)
-        return fault_set(&why, "a WebP of %d x %d is outside 1 to %d", width, height, WEBP_MAX_DIMENSION);
+        return fault_set(fault, "%s: a WebP of %d x %d is outside 1 to %d", path, width, height, WEBP_MAX_DIMENSION);
     const size_t row = (size_t)width * (size_t)channels;
     uint8_t *turned = malloc(row * (size_t)height);
     for (size_t y = 0; turned && y < (size_t)height; y++)
@@ -123,34 +119,31 @@ bool picture_write_webp(const char *path, int width, int height, int channels, c
                                         : WebPEncodeRGBA(turned, width, height, (int)row, QUALITY, &bytes);
     free(turned);
     if (size == 0)
-        return fault_set_memory(&why);
-    const bool opened = whole_file_open(&file, path, error, error_size);
+        return fault_set(fault, "%s: not enough memory", path);
+    const bool opened = whole_file_open(&file, path, fault);
     bool written = opened && fwrite(bytes, 1, size, file.file) == size;
     if (opened && !written)
-        fault_set(&why, "it could not be written in full");
+        fault_set(fault, "%s: it could not be written in full", path);
     if (opened)
-        written = whole_file_close(&file, written, error, error_size);
+        written = whole_file_close(&file, written, fault);
     WebPFree(bytes);
     return written;
 }
 
 #else
 
-bool picture_write_webp(const char *path, int width, int height, int channels, const uint8_t *pixels, char *error,
-                        size_t error_size)
+bool picture_write_webp(const char *path, int width, int height, int channels, const uint8_t *pixels, failure *fault)
 {
     (void)width, (void)height, (void)channels, (void)pixels;
-    return fault_set(&(failure){.file = path, .text = error, .size = error_size},
-                     "this program was built without libwebp");
+    return fault_set(fault, "%s: this program was built without libwebp", path);
 }
 
 #endif
 
-bool picture_write(const char *path, int width, int height, int channels, const uint8_t *pixels, char *error,
-                   size_t error_size)
+bool picture_write(const char *path, int width, int height, int channels, const uint8_t *pixels, failure *fault)
 {
     const bool is_jpeg = words_find_ending(".jpg|.jpeg", path) >= 0, is_webp = words_find_ending(".webp", path) >= 0;
     return (is_jpeg   ? picture_write_jpeg
             : is_webp ? picture_write_webp
-                      : picture_write_png)(path, width, height, channels, pixels, error, error_size);
+                      : picture_write_png)(path, width, height, channels, pixels, fault);
 }

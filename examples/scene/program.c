@@ -103,23 +103,13 @@ static const struct {
     {"u_depth_map", UNIT_MAP},
 };
 
-/* Drivers log many lines; the error is one. */
-static void say_failure(const char *what, const char *step, char *log, char *error, size_t error_size)
+static void say_failure(const char *what, const char *step, const char *log, failure *fault)
 {
-    char *end = log;
-    for (const char *c = log; *c; c++) {
-        bool space = *c == '\n' || *c == '\r' || *c == '\t' || *c == ' ';
-        if (!space)
-            *end++ = *c;
-        else if (end > log && end[-1] != ' ')
-            *end++ = ' ';
-    }
-    *end = '\0';
-    snprintf(error, error_size, "%s, %s: %s", what, step, *log ? log : "the driver gives no reason");
+    fault_set(fault, "%s, %s: %s", what, step, *log ? log : "the driver gives no reason");
 }
 
 static unsigned compile(GLenum type, const char *macros, const char *const shared[3], const char *source,
-                        const char *what, char *error, size_t error_size)
+                        const char *what, failure *fault)
 {
     /* #version has to come first; it is the first line of each shader file. */
     size_t version_length = strcspn(source, "\n") + 1;
@@ -135,14 +125,14 @@ static unsigned compile(GLenum type, const char *macros, const char *const share
     if (!compiled) {
         char log[2048] = "";
         gl.GetShaderInfoLog(shader, sizeof log, NULL, log);
-        say_failure(what, type == GL_VERTEX_SHADER ? "vertex shader" : "fragment shader", log, error, error_size);
+        say_failure(what, type == GL_VERTEX_SHADER ? "vertex shader" : "fragment shader", log, fault);
         gl.DeleteShader(shader);
         return 0;
     }
     return shader;
 }
 
-static bool link(unsigned program, const char *what, char *error, size_t error_size)
+static bool link(unsigned program, const char *what, failure *fault)
 {
     gl.LinkProgram(program);
     GLint linked = GL_FALSE;
@@ -150,7 +140,7 @@ static bool link(unsigned program, const char *what, char *error, size_t error_s
     if (!linked) {
         char log[2048] = "";
         gl.GetProgramInfoLog(program, sizeof log, NULL, log);
-        say_failure(what, "link", log, error, error_size);
+        say_failure(what, "link", log, fault);
     }
     return linked;
 }
@@ -168,7 +158,7 @@ static void look_up(draw_program *p)
 }
 
 bool draw_program_build(draw_program *p, const char *what, const char *vertex_source, const char *shared_source,
-                        const char *fragment_source, unsigned variant, char *error, size_t error_size)
+                        const char *fragment_source, unsigned variant, failure *fault)
 {
     char macros[768] = "";
     size_t length = 0;
@@ -179,10 +169,10 @@ bool draw_program_build(draw_program *p, const char *what, const char *vertex_so
     const char *const none[3] = {"", "", ""};
     const char *const shared[3] = {shared_source, variant & VARIANT_ENVIRONMENT ? shader_environment_glsl : "",
                                    variant & VARIANT_BENT ? shader_bent_glsl : ""};
-    unsigned vertex = compile(GL_VERTEX_SHADER, macros, none, vertex_source, what, error, error_size);
+    unsigned vertex = compile(GL_VERTEX_SHADER, macros, none, vertex_source, what, fault);
     if (!vertex)
         return false;
-    unsigned fragment = compile(GL_FRAGMENT_SHADER, macros, shared, fragment_source, what, error, error_size);
+    unsigned fragment = compile(GL_FRAGMENT_SHADER, macros, shared, fragment_source, what, fault);
     if (!fragment) {
         gl.DeleteShader(vertex);
         return false;
@@ -193,7 +183,7 @@ bool draw_program_build(draw_program *p, const char *what, const char *vertex_so
     /* The program keeps them for as long as it lives. */
     gl.DeleteShader(vertex);
     gl.DeleteShader(fragment);
-    if (!link(p->name, what, error, error_size)) {
+    if (!link(p->name, what, fault)) {
         gl.DeleteProgram(p->name);
         p->name = 0;
         return false;

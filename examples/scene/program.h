@@ -4,8 +4,9 @@
  */
 #pragma once
 
+#include "fault.h"
+
 #include <stdbool.h>
-#include <stddef.h>
 
 /* Bits of a variant; each is a macro of that name, 0 or 1, in the shaders. */
 enum {
@@ -80,4 +81,4 @@ typedef struct draw_program {
  * the variant has an environment. False on failure, with `what`
  * and the driver's log in one line of `error`. */
 bool draw_program_build(draw_program *p, const char *what, const char *vertex_source, const char *shared_source,
-                        const char *fragment_source, unsigned variant, char *error, size_t error_size);
+                        const char *fragment_source, unsigned variant, failure *fault);

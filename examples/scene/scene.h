@@ -7,6 +7,8 @@
  */
 #pragma once
 
+#include "fault.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -160,11 +162,11 @@ typedef struct scene_load_options { /* all zero: the file as it stands */
  * line in `error` that names the file and the fault. Nothing in the file is trusted: every index, offset, count and
  * reference is checked before use, memory is limited, and files that it names must lie in its own folder or below. The
  * scene's warnings name everything that is drawn in another way than the file says, or not at all. */
-scene *scene_load_with(const char *path, const scene_load_options *options, char *error, size_t error_size);
-scene *scene_load(const char *path, char *error, size_t error_size);
+scene *scene_load_with(const char *path, const scene_load_options *options, failure *fault);
+scene *scene_load(const char *path, failure *fault);
 
 /* Makes a built-in scene: "columns", "cornell", "steps" or "plane". NULL on failure, as above. */
-scene *scene_make(const char *name, char *error, size_t error_size);
+scene *scene_make(const char *name, failure *fault);
 
 /* Triangles of all instances. */
 uint64_t scene_count_triangles(const scene *s);

@@ -12,13 +12,13 @@
 /* Which element of `room` belongs to which array. */
 enum { VERTICES, INDICES, PRIMITIVES, MESHES, INSTANCES, MATERIALS, TEXTURES, IMAGES, CAMERAS, LIGHTS };
 
-bool scene_builder_begin(scene_builder *b, const char *name, scene_fault *fault)
+bool scene_builder_begin(scene_builder *b, const char *name, failure *fault)
 {
     memset(b, 0, sizeof *b);
     b->fault = fault;
     b->made = calloc(1, sizeof *b->made);
     if (!b->made)
-        return scene_fail_memory(fault);
+        return fault_set_memory(fault);
     snprintf(b->made->name, sizeof b->made->name, "%s", name);
     return true;
 }
@@ -39,7 +39,7 @@ static void *make_room(scene_builder *b, int which, void *array, uint32_t *count
 {
     const uint64_t needed = (uint64_t)*count + add;
     if (needed > UINT32_MAX || needed > SIZE_MAX / element) {
-        scene_fail_memory(b->fault);
+        fault_set_memory(b->fault);
         return NULL;
     }
     if (needed > b->room[which] || !array) {
@@ -48,7 +48,7 @@ static void *make_room(scene_builder *b, int which, void *array, uint32_t *count
         room = room < 16 ? 16 : room > UINT32_MAX ? UINT32_MAX : room;
         void *grown = realloc(array, (size_t)room * element);
         if (!grown) {
-            scene_fail_memory(b->fault);
+            fault_set_memory(b->fault);
             return NULL;
         }
         array = grown;
@@ -147,7 +147,7 @@ static bool follow(scene_builder *b, int which, void *list, size_t element)
     void **at = list;
     void *grown = realloc(*at, b->room[which] * element);
     if (!grown)
-        return scene_fail_memory(b->fault);
+        return fault_set_memory(b->fault);
     *at = grown;
     return true;
 }
@@ -188,7 +188,7 @@ static void *extend_beside(scene_builder *b, void *array, uint32_t *count, size_
         return array;
     char *grown = realloc(array, ((size_t)b->room[VERTICES] + 1) * element);
     if (!grown) {
-        scene_fail_memory(b->fault);
+        fault_set_memory(b->fault);
         return NULL;
     }
     memset(grown + *count * element, 0, (needed - *count) * element);
@@ -310,7 +310,7 @@ static bool sort_placements(scene_builder *b)
     scene *s = b->made;
     scene_placement *sorted = malloc((s->instance_count + 1u) * sizeof *sorted);
     if (!sorted)
-        return scene_fail_memory(b->fault);
+        return fault_set_memory(b->fault);
     for (uint32_t i = 0; i < s->instance_count; ++i)
         s->meshes[b->placements[i].mesh].instance_count++;
     uint32_t first = 0;

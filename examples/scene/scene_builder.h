@@ -6,8 +6,8 @@
  */
 #pragma once
 
+#include "fault.h"
 #include "scene.h"
-#include "scene_fault.h"
 
 /* An instance as it was added. */
 typedef struct scene_placement {
@@ -17,7 +17,7 @@ typedef struct scene_placement {
 
 typedef struct scene_builder {
     scene *made;
-    scene_fault *fault;
+    failure *fault;
     uint32_t tangent_count;      /* how many vertices have tangents, zeroed or set */
     uint32_t more_uv_count;      /* the same for more_uvs */
     scene_placement *placements; /* of each instance, until they are sorted */
@@ -27,7 +27,7 @@ typedef struct scene_builder {
 } scene_builder;
 
 /* False, with the fault set, when there is no memory: as with every call below that can fail. */
-bool scene_builder_begin(scene_builder *b, const char *name, scene_fault *fault);
+bool scene_builder_begin(scene_builder *b, const char *name, failure *fault);
 
 /* `count` new elements, to be filled by the caller; the index of the first goes to `out_first`. NULL on failure. The
  * pointer lives until the next call for the same array. */

@@ -122,5 +122,5 @@ bool scene_builder_settle(scene_builder *b)
     }
     finite = move_instances(b) && finite;
     move_views(b);
-    return finite || scene_fail(b->fault, "the scene is too large for single precision");
+    return finite || fault_set(b->fault, "the scene is too large for single precision");
 }

@@ -19,7 +19,7 @@ static void make_one_line(char *text)
             *text = '?';
 }
 
-bool scene_warn(scene_warnings *w, scene_fault *fault, const char *format, ...)
+bool scene_warn(scene_warnings *w, failure *fault, const char *format, ...)
 {
     char line[512];
     va_list arguments;
@@ -28,7 +28,7 @@ bool scene_warn(scene_warnings *w, scene_fault *fault, const char *format, ...)
     va_end(arguments);
     make_one_line(line);
     if (w->strict)
-        return scene_fail(fault, "%s", line);
+        return fault_set(fault, "%s", line);
     for (size_t i = 0; i < w->count; ++i)
         if (!strcmp(w->lines[i], line))
             return true;
@@ -36,12 +36,12 @@ bool scene_warn(scene_warnings *w, scene_fault *fault, const char *format, ...)
         return true;
     char **lines = realloc(w->lines, (w->count + 1) * sizeof *lines);
     if (!lines)
-        return scene_fail_memory(fault);
+        return fault_set_memory(fault);
     w->lines = lines;
     const size_t size = strlen(line) + 1;
     lines[w->count] = malloc(size);
     if (!lines[w->count])
-        return scene_fail_memory(fault);
+        return fault_set_memory(fault);
     memcpy(lines[w->count++], line, size);
     return true;
 }

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "scene_fault.h"
+#include "fault.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -25,7 +25,7 @@ typedef struct scene_warnings {
 #ifdef __GNUC__
 __attribute__((format(printf, 3, 4)))
 #endif
-bool scene_warn(scene_warnings *w, scene_fault *fault, const char *format, ...);
+bool scene_warn(scene_warnings *w, failure *fault, const char *format, ...);
 
 void scene_warnings_free(scene_warnings *w);
 

@@ -116,15 +116,12 @@ static void trace_run_of_points(size_t job, void *user)
 }
 
 static bool run(work *w, trace_distribution distribution, const trace_options *o, size_t jobs,
-                void (*job)(size_t job, void *user), trace_stats *out_stats, char *error, size_t error_size)
+                void (*job)(size_t job, void *user), trace_stats *out_stats, failure *fault)
 {
-    if (o->samples < 1 || o->samples > MOST_SAMPLES || !(o->radius >= 0)) {
-        snprintf(error, error_size, "%d rays within a radius of %g: out of range", o->samples, (double)o->radius);
-        return false;
-    }
+    if (o->samples < 1 || o->samples > MOST_SAMPLES || !(o->radius >= 0))
+        return fault_set(fault, "%d rays within a radius of %g: out of range", o->samples, (double)o->radius);
     if (!trace_samples_open(&w->samples, o->samples, distribution, o->seed)) {
-        snprintf(error, error_size, "%d rays: out of memory", o->samples);
-        return false;
+        return fault_set(fault, "%d rays: out of memory", o->samples);
     }
     w->radius = o->radius;
     w->stopped = o->stopped;
@@ -135,40 +132,35 @@ static bool run(work *w, trace_distribution distribution, const trace_options *o
         *out_stats = (trace_stats){.rays = atomic_load(&w->rays), .seconds = (clock_wall_ms() - start) * 1e-3};
     }
     trace_samples_close(&w->samples);
-    if (w->stopped && w->stopped(w->stopped_user)) {
-        snprintf(error, error_size, "stopped");
-        return false;
-    }
+    if (w->stopped && w->stopped(w->stopped_user))
+        return fault_set(fault, "stopped");
     return true;
 }
 
-static bool run_view(work *w, const scene_view *view, const trace_options *options, trace_stats *out_stats, char *error,
-                     size_t error_size)
+static bool run_view(work *w, const scene_view *view, const trace_options *options, trace_stats *out_stats,
+                     failure *fault)
 {
     w->width = view->width;
     w->height = view->height;
     w->tiles_across = ((size_t)view->width + TILE - 1) / TILE;
-    if (!trace_eye_open(view, &w->eye)) {
-        snprintf(error, error_size, "the view's matrices have no inverse");
-        return false;
-    }
+    if (!trace_eye_open(view, &w->eye))
+        return fault_set(fault, "the view's matrices have no inverse");
     const size_t tiles = w->tiles_across * (((size_t)view->height + TILE - 1) / TILE);
-    return run(w, TRACE_COSINE, options, tiles, trace_tile, out_stats, error, error_size);
+    return run(w, TRACE_COSINE, options, tiles, trace_tile, out_stats, fault);
 }
 
 bool trace_accessibility(const trace_scene *t, const scene_view *view, const trace_options *options,
-                         float *out_accessibility, uint8_t *out_foreground, trace_stats *out_stats, char *error,
-                         size_t error_size)
+                         float *out_accessibility, uint8_t *out_foreground, trace_stats *out_stats, failure *fault)
 {
     work w = {.trace = t, .out = out_accessibility, .foreground = out_foreground};
-    return run_view(&w, view, options, out_stats, error, error_size);
+    return run_view(&w, view, options, out_stats, fault);
 }
 
 bool trace_fans(const trace_scene *t, const scene_view *view, const trace_options *options, trace_fan_fn take,
-                void *user, trace_stats *out_stats, char *error, size_t error_size)
+                void *user, trace_stats *out_stats, failure *fault)
 {
     work w = {.trace = t, .take = take, .take_user = user};
-    return run_view(&w, view, options, out_stats, error, error_size);
+    return run_view(&w, view, options, out_stats, fault);
 }
 
 typedef struct open_sum {
@@ -190,19 +182,19 @@ static void add_open(const trace_fan *fan, void *user)
 }
 
 bool trace_open_directions(const trace_scene *t, const scene_view *view, const trace_options *options, float (*out)[3],
-                           trace_stats *out_stats, char *error, size_t error_size)
+                           trace_stats *out_stats, failure *fault)
 {
     open_sum sum = {view->view_from_world, options->samples, out};
     memset(out, 0, sizeof *out * (size_t)view->width * (size_t)view->height);
-    return trace_fans(t, view, options, add_open, &sum, out_stats, error, error_size);
+    return trace_fans(t, view, options, add_open, &sum, out_stats, fault);
 }
 
 bool trace_points(const trace_scene *t, const float (*positions)[3], const float (*normals)[3], size_t count,
                   trace_distribution distribution, float offset, const trace_options *options, float *out_accessibility,
-                  trace_stats *out_stats, char *error, size_t error_size)
+                  trace_stats *out_stats, failure *fault)
 {
     work w = {.trace = t, .out = out_accessibility, .positions = positions, .normals = normals, .offset = offset};
     w.count = count;
     return run(&w, distribution, options, (count + POINTS_A_JOB - 1) / POINTS_A_JOB, trace_run_of_points, out_stats,
-               error, error_size);
+               fault);
 }

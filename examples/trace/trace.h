@@ -18,7 +18,7 @@
 typedef struct trace_scene trace_scene;
 
 /* Builds the acceleration structure. The scene must outlive it. NULL on failure, with one line in `error`. */
-trace_scene *trace_scene_create(const scene *s, char *error, size_t error_size);
+trace_scene *trace_scene_create(const scene *s, failure *fault);
 void trace_scene_destroy(trace_scene *t);
 
 /* Called on the calling thread now and then; `done` in 0..1. */
@@ -47,8 +47,7 @@ typedef struct trace_stats {
  * double-sided materials), from the point moved along the geometric normal. out_foreground (may be NULL) is 1 where
  * something is seen. design: accessibility = 1 - blocked share. */
 bool trace_accessibility(const trace_scene *t, const scene_view *view, const trace_options *options,
-                         float *out_accessibility, uint8_t *out_foreground, trace_stats *out_stats, char *error,
-                         size_t error_size);
+                         float *out_accessibility, uint8_t *out_foreground, trace_stats *out_stats, failure *fault);
 
 /* Some of the rays of one pixel. */
 typedef struct trace_fan {
@@ -63,11 +62,11 @@ typedef void (*trace_fan_fn)(const trace_fan *fan, void *user);
 
 /* The rays of trace_accessibility, handed to a function instead of counted. Pixels that see nothing have none. */
 bool trace_fans(const trace_scene *t, const scene_view *view, const trace_options *options, trace_fan_fn take,
-                void *user, trace_stats *out_stats, char *error, size_t error_size);
+                void *user, trace_stats *out_stats, failure *fault);
 /* Of each pixel, the mean of the open directions in view space, not of unit length: 2/3 of the normal where all is
  * open. 0 where nothing is seen. Cosine-weighted rays make it the mean weighted by the cosine (H. Landis, 2002). */
 bool trace_open_directions(const trace_scene *t, const scene_view *view, const trace_options *options, float (*out)[3],
-                           trace_stats *out_stats, char *error, size_t error_size);
+                           trace_stats *out_stats, failure *fault);
 
 /* What a rasteriser saw of a view: a normal in view space, of any length, and in the fourth component a view distance.
  * Where nothing is seen the distance is 0. A texel stands for the lower left of `step` x `step` pixels of the view;
@@ -93,8 +92,7 @@ typedef struct trace_picture trace_picture;
  * times options->samples where few neighbours lie on their surface, and only the first quarter of them (at least one)
  * where those of all 16 x 16 texels say the same. */
 trace_picture *trace_picture_begin(const trace_scene *t, const scene_view *view, const trace_seen *seen,
-                                   const uint8_t *counts, const trace_options *options, float *out, char *error,
-                                   size_t error_size);
+                                   const uint8_t *counts, const trace_options *options, float *out, failure *fault);
 /* So many rows of texels (and counts) are there now, from the bottom; further pointers of seen->rows may be set before.
  */
 void trace_picture_feed(trace_picture *p, int rows);
@@ -107,4 +105,4 @@ typedef enum trace_distribution { TRACE_COSINE = 0, TRACE_UNIFORM } trace_distri
  * radius may be INFINITY. */
 bool trace_points(const trace_scene *t, const float (*positions)[3], const float (*normals)[3], size_t count,
                   trace_distribution distribution, float offset, const trace_options *options, float *out_accessibility,
-                  trace_stats *out_stats, char *error, size_t error_size);
+                  trace_stats *out_stats, failure *fault);

@@ -48,20 +48,18 @@ static void *run_thread(void *argument)
 }
 
 trace_picture *trace_picture_begin(const trace_scene *t, const scene_view *view, const trace_seen *seen,
-                                   const uint8_t *counts, const trace_options *options, float *out, char *error,
-                                   size_t error_size)
+                                   const uint8_t *counts, const trace_options *options, float *out, failure *fault)
 {
     const int most = options->adaptive ? MOST_RAYS / 4 : MOST_RAYS;
     if (options->samples < 1 || options->samples > most || !(options->radius >= 0)) {
-        snprintf(error, error_size, "%d rays within a radius of %g: out of range", options->samples,
-                 (double)options->radius);
+        fault_set(fault, "%d rays within a radius of %g: out of range", options->samples, (double)options->radius);
         return NULL;
     }
     trace_picture *p = calloc(1, sizeof *p);
     const int more = options->adaptive ? 3 * options->samples : 0;
     if (!p || !trace_pattern_open(&p->pattern, options->samples, options->seed) ||
         (more > 0 && !trace_pattern_open(&p->more, more, ~options->seed))) {
-        snprintf(error, error_size, "out of memory");
+        fault_set_memory(fault);
         free(p);
         return NULL;
     }
@@ -78,7 +76,7 @@ trace_picture *trace_picture_begin(const trace_scene *t, const scene_view *view,
     p->stopped_user = options->stopped_user;
     p->start_ms = clock_wall_ms();
     if (!trace_lens_open(view, seen, &p->lens)) {
-        snprintf(error, error_size, "the view's matrices have no inverse");
+        fault_set(fault, "the view's matrices have no inverse");
         trace_pattern_close(&p->pattern);
         trace_pattern_close(&p->more);
         free(p);

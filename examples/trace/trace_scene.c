@@ -214,7 +214,7 @@ static bool build(trace_scene *t)
     return ok && rtcGetDeviceError(t->device) == RTC_ERROR_NONE;
 }
 
-trace_scene *trace_scene_create(const scene *s, char *error, size_t error_size)
+trace_scene *trace_scene_create(const scene *s, failure *fault)
 {
     trace_scene *t = calloc(1, sizeof *t);
     if (t) {
@@ -224,11 +224,11 @@ trace_scene *trace_scene_create(const scene *s, char *error, size_t error_size)
             return t;
         }
         const enum RTCError code = rtcGetDeviceError(t->device);
-        snprintf(error, error_size, "%s: Embree can't take the scene%s", s->name,
-                 code == RTC_ERROR_UNSUPPORTED_CPU ? ": it does not know this processor" : ", out of memory");
+        fault_set(fault, "%s: Embree can't take the scene%s", s->name,
+                  code == RTC_ERROR_UNSUPPORTED_CPU ? ": it does not know this processor" : ", out of memory");
         trace_scene_destroy(t);
     } else {
-        snprintf(error, error_size, "%s: out of memory", s->name);
+        fault_set(fault, "%s: out of memory", s->name);
     }
     return NULL;
 }

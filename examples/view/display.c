@@ -119,7 +119,7 @@ static bool choose_light(viewer *v, bool occludes)
     if (p->draw_options.bent == bent)
         return true;
     p->draw_options.bent = bent;
-    if (scene_renderer_configure(p->renderer, &p->lighting, &p->draw_options, v->error, sizeof v->error))
+    if (scene_renderer_configure(p->renderer, &p->lighting, &p->draw_options, FAULT(v->error)))
         return true;
     viewer_say(v, true, "%s", v->error);
     return false;

@@ -49,11 +49,10 @@ static void fail(ray_worker *w, const char *error)
     w->wake();
 }
 
-static bool trace_from_surfaces(round_job *j, const trace_scene *t, const trace_options *options, char *error,
-                                size_t error_size)
+static bool trace_from_surfaces(round_job *j, const trace_scene *t, const trace_options *options, failure *fault)
 {
     const trace_seen seen = {.rows = (const float(*const *)[4])j->rows, .step = j->request.step, .depth_step = 0x1p-24};
-    trace_picture *p = trace_picture_begin(t, &j->request.view, &seen, NULL, options, j->values, error, error_size);
+    trace_picture *p = trace_picture_begin(t, &j->request.view, &seen, NULL, options, j->values, fault);
     if (!p)
         return false;
     trace_picture_feed(p, j->height);
@@ -73,9 +72,9 @@ static bool trace_round(round_job *j, const trace_scene *t, int round)
                                    .threads = cores > 2 ? (int)cores - 1 : 1, /* one is left for the window */
                                    .stopped = is_outdated,
                                    .stopped_user = j};
-    if (!(j->request.surfaces ? trace_from_surfaces(j, t, &options, error, sizeof error)
-                              : trace_accessibility(t, &j->request.view, &options, j->values, NULL, &(trace_stats){0},
-                                                    error, sizeof error))) {
+    if (!(j->request.surfaces
+              ? trace_from_surfaces(j, t, &options, FAULT(error))
+              : trace_accessibility(t, &j->request.view, &options, j->values, NULL, &(trace_stats){0}, FAULT(error)))) {
         if (!is_outdated(j))
             fail(w, error);
         return false;
@@ -124,7 +123,7 @@ static void *run(void *argument)
 {
     ray_worker *w = argument;
     char error[512];
-    trace_scene *t = trace_scene_create(w->scene, error, sizeof error);
+    trace_scene *t = trace_scene_create(w->scene, FAULT(error));
     if (!t)
         fail(w, error);
     pthread_mutex_lock(&w->lock);

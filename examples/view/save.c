@@ -45,7 +45,7 @@ void viewer_save_picture(viewer *v)
     const size_t count = (size_t)v->width * (size_t)v->height;
     for (size_t i = 0; i < count && channels == 3; i++)
         memmove(pixels + 3 * i, pixels + 4 * i, 3);
-    if (picture_write(name, v->width, v->height, channels, pixels, v->error, sizeof v->error))
+    if (picture_write(name, v->width, v->height, channels, pixels, FAULT(v->error)))
         viewer_say(v, false, "saved %s", name);
     else
         viewer_say(v, true, "%s", v->error);

@@ -220,7 +220,7 @@ void viewer_configure(viewer *v)
     o->multi_bounce = v->options.multi_bounce;
     o->left_out = v->options.intensity.given ? 1 - v->options.intensity.value : 0;
     v->pipeline.debug_map = (options_map)v->options.debug_map;
-    if (!scene_renderer_configure(v->pipeline.renderer, &v->pipeline.lighting, o, v->error, sizeof v->error))
+    if (!scene_renderer_configure(v->pipeline.renderer, &v->pipeline.lighting, o, FAULT(v->error)))
         viewer_say(v, true, "%s", v->error);
     viewer_change(v);
 }

@@ -88,9 +88,9 @@ static void add_row(table *t, const subject *s, const char *id, const char *inpu
 }
 
 static bool run(const subject *s, effects *e, const glssao_settings *settings, bool depth_alone, int estimates,
-                char *error, size_t error_size)
+                failure *fault)
 {
-    glssao_effect *effect = effects_get(e, &s->view->gbuffer, settings, error, error_size);
+    glssao_effect *effect = effects_get(e, &s->view->gbuffer, settings, fault);
     if (!effect)
         return false;
     const glssao_settings scaled = bench_scale_settings(settings, s->view->radius);
@@ -101,10 +101,8 @@ static bool run(const subject *s, effects *e, const glssao_settings *settings, b
         result = glssao_accumulate(effect, &frame, &scaled);
     if (estimates == 0)
         result = glssao_compute(effect, &frame, &scaled);
-    if (result != GLSSAO_OK) {
-        snprintf(error, error_size, "bent normals: %s", glssao_result_string(result));
-        return false;
-    }
+    if (result != GLSSAO_OK)
+        return fault_set(fault, "bent normals: %s", glssao_result_string(result));
     gl.BindTexture(GL_TEXTURE_2D, glssao_map(effect, GLSSAO_MAP_BENT_NORMAL, NULL, NULL));
     gl.GetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, s->got);
     gl.BindTexture(GL_TEXTURE_2D, 0);
@@ -112,7 +110,7 @@ static bool run(const subject *s, effects *e, const glssao_settings *settings, b
 }
 
 /* Pictures of the last result; of HIGH also a strip. */
-static bool measure_light(const results *r, const subject *s, const char *id, table *t, char *error, size_t error_size)
+static bool measure_light(const results *r, const subject *s, const char *id, table *t, failure *fault)
 {
     const bent_light_error e = bent_light_measure(&s->light, s->got);
     char path[1024];
@@ -122,12 +120,11 @@ static bool measure_light(const results *r, const subject *s, const char *id, ta
     if (strcmp(id, "horizon-high") != 0)
         return true;
     snprintf(path, sizeof path, "%s/bent-%s.png", r->options->out, s->view->name);
-    return bent_light_write(&s->light, s->got, path, error, error_size);
+    return bent_light_write(&s->light, s->got, path, fault);
 }
 
 /* The levels as they come, but at full size, and the mean of many estimates. */
-static bool measure_levels(const results *r, const subject *s, effects *e, double of_normal, tables *t, char *error,
-                           size_t error_size)
+static bool measure_levels(const results *r, const subject *s, effects *e, double of_normal, tables *t, failure *fault)
 {
     for (int i = 0; i < 2 * (GLSSAO_ULTRA + 2); i++) {
         static const char *const names[] = {"horizon-low", "horizon-medium", "horizon-high", "horizon-ultra",
@@ -139,44 +136,42 @@ static bool measure_levels(const results *r, const subject *s, effects *e, doubl
         settings.upsample = true;
         settings.bent_normals = true;
         settings.half_resolution = settings.half_resolution && !accumulates;
-        if (!run(s, e, &settings, depth_alone, accumulates ? ESTIMATES : 0, error, error_size))
+        if (!run(s, e, &settings, depth_alone, accumulates ? ESTIMATES : 0, fault))
             return false;
         const figures f = compare(s, s->got, 4);
         add_row(&t->degrees, s, names[level], depth_alone ? "depth" : "normals", f);
-        if (!depth_alone && !measure_light(r, s, names[level], &t->light, error, error_size))
+        if (!depth_alone && !measure_light(r, s, names[level], &t->light, fault))
             return false;
-        if (r->options->check && !depth_alone && !(f.occluded < of_normal)) {
-            snprintf(error, error_size, "%s, %s: %g degrees off, the normal %g", s->view->name, names[level], f.mean,
-                     of_normal);
-            return false;
-        }
+        if (r->options->check && !depth_alone && !(f.occluded < of_normal))
+            return fault_set(fault, "%s, %s: %g degrees off, the normal %g", s->view->name, names[level], f.mean,
+                             of_normal);
     }
     return true;
 }
 
-static bool measure_view(const results *r, int index, effects *e, tables *t, char *error, size_t error_size)
+static bool measure_view(const results *r, int index, effects *e, tables *t, failure *fault)
 {
     const options *o = r->options;
     const bench_view *v = &r->views[index];
     scene_view at;
     float radius;
     truth_request request = {.name = v->name, .cache = o->cache, .radius = v->radius, .rays = o->rays, .seed = o->seed};
-    scene *shown = bench_scene_open(&r->scenes[index], o->size[0], o->size[1], &at, &radius, error, error_size);
+    scene *shown = bench_scene_open(&r->scenes[index], o->size[0], o->size[1], &at, &radius, fault);
     subject s = {.view = v, .pixels = (size_t)o->size[0] * (size_t)o->size[1]};
-    s.truth = shown ? truth_get_open(&request, shown, &at, error, error_size) : NULL;
+    s.truth = shown ? truth_get_open(&request, shown, &at, fault) : NULL;
     request.seed++;
-    s.other = s.truth ? truth_get_open(&request, shown, &at, error, error_size) : NULL;
+    s.other = s.truth ? truth_get_open(&request, shown, &at, fault) : NULL;
     s.got = malloc(4 * s.pixels * sizeof *s.got);
-    bool done = s.other && s.got && bent_light_open(&s.light, v, shown, &at, o, error, error_size);
+    bool done = s.other && s.got && bent_light_open(&s.light, v, shown, &at, o, fault);
     if (!s.got)
-        snprintf(error, error_size, "out of memory");
+        fault_set_memory(fault);
     if (done) {
         char id[32];
         const figures of_normal = compare(&s, v->normals, 3);
         snprintf(id, sizeof id, "rays-%d", o->rays);
         add_row(&t->degrees, &s, "normal", "normals", of_normal);
         add_row(&t->degrees, &s, id, "normals", compare(&s, s.other, 3));
-        done = measure_levels(r, &s, e, of_normal.occluded, t, error, error_size);
+        done = measure_levels(r, &s, e, of_normal.occluded, t, fault);
     }
     free(s.truth);
     free(s.other);
@@ -186,19 +181,19 @@ static bool measure_view(const results *r, int index, effects *e, tables *t, cha
     return done;
 }
 
-bool bent_measure(const results *r, effects *e, char *error, size_t error_size)
+bool bent_measure(const results *r, effects *e, failure *fault)
 {
     tables t;
     if (!table_begin(&t.degrees, r->options, r->context, "bent",
-                     "configuration inputs scene mean rms median p95 occluded_mean", error, error_size) ||
+                     "configuration inputs scene mean rms median p95 occluded_mean", fault) ||
         !table_begin(&t.light, r->options, r->context, "bent-light",
-                     "configuration scene matte matte_bent glossy glossy_lobe glossy_bent", error, error_size))
+                     "configuration scene matte matte_bent glossy glossy_lobe glossy_bent", fault))
         return false;
     bool done = true;
     for (int i = 0; done && i < r->view_count; i++) {
         progress_show("bent normals %d/%d", i + 1, r->view_count);
-        done = measure_view(r, i, e, &t, error, error_size);
+        done = measure_view(r, i, e, &t, fault);
     }
     progress_clear();
-    return table_end(&t.degrees, error, error_size) && table_end(&t.light, error, error_size) && done;
+    return table_end(&t.degrees, fault) && table_end(&t.light, fault) && done;
 }

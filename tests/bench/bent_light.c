@@ -121,7 +121,7 @@ static void add_rays(const trace_fan *fan, void *user)
 }
 
 bool bent_light_open(bent_light *b, const bench_view *v, const scene *s, const scene_view *at, const options *o,
-                     char *error, size_t error_size)
+                     failure *fault)
 {
     const size_t pixels = (size_t)at->width * (size_t)at->height;
     *b = (bent_light){.view = v, .at = *at};
@@ -131,9 +131,9 @@ bool bent_light_open(bent_light *b, const bench_view *v, const scene *s, const s
     const trace_options how = {.radius = v->radius, .samples = o->rays, .seed = o->seed};
     bool done = b->matte && b->glossy && sums.weights && sums.sky;
     if (!done)
-        snprintf(error, error_size, "out of memory");
-    trace_scene *t = done ? trace_scene_create(s, error, error_size) : NULL;
-    done = t && trace_fans(t, at, &how, add_rays, &sums, NULL, error, error_size);
+        fault_set_memory(fault);
+    trace_scene *t = done ? trace_scene_create(s, fault) : NULL;
+    done = t && trace_fans(t, at, &how, add_rays, &sums, NULL, fault);
     trace_scene_destroy(t);
     for (size_t i = 0; done && i < 3 * pixels; i++)
         b->glossy[i] /= fmaxf(sums.weights[i / 3], 1e-6f);
@@ -218,7 +218,7 @@ bent_light_error bent_light_measure(const bent_light *b, const float *bent)
                               .glossy_bent = rmse(b, bent, GLOSSY_BENT, GLOSSY_TRACED)};
 }
 
-bool bent_light_write(const bent_light *b, const float *bent, const char *path, char *error, size_t error_size)
+bool bent_light_write(const bent_light *b, const float *bent, const char *path, failure *fault)
 {
     const int w = b->at.width, h = b->at.height;
     uint8_t *rgb = malloc((size_t)(2 * PANELS * w) * (size_t)h * 3);
@@ -232,8 +232,8 @@ bool bent_light_write(const bent_light *b, const float *bent, const char *path, 
                 rgb[3 * (y * PANELS * w + x) + k] = (uint8_t)lrint(255 * shown(light[k]));
         }
     if (!rgb)
-        snprintf(error, error_size, "out of memory");
-    const bool written = rgb && picture_write_png(path, PANELS * w, 2 * h, 3, rgb, error, error_size);
+        fault_set_memory(fault);
+    const bool written = rgb && picture_write_png(path, PANELS * w, 2 * h, 3, rgb, fault);
     free(rgb);
     return written;
 }

@@ -22,11 +22,11 @@ typedef struct bent_light_error {
 
 /* Traces both. False, with one line in `error`; bent_light_close is due in either case. */
 bool bent_light_open(bent_light *b, const bench_view *v, const scene *s, const scene_view *at, const options *o,
-                     char *error, size_t error_size);
+                     failure *fault);
 void bent_light_close(bent_light *b);
 
 /* `bent`: direction in view space and accessibility, four floats a pixel. */
 bent_light_error bent_light_measure(const bent_light *b, const float *bent);
 
 /* Writes a picture: by accessibility, by bent normals, by rays; matte above, glossy below. */
-bool bent_light_write(const bent_light *b, const float *bent, const char *path, char *error, size_t error_size);
+bool bent_light_write(const bent_light *b, const float *bent, const char *path, failure *fault);

@@ -83,8 +83,8 @@ static bool open_stage(cost *c, stage *s, int width, int height)
 {
     scene_view view;
     *s = (stage){.width = width, .height = height};
-    scene *shown = bench_scene_open(&c->scene, width, height, &view, &s->radius, c->error, sizeof c->error);
-    bool done = shown && gbuffer_draw(&s->gbuffer, shown, &view, 0, c->error, sizeof c->error);
+    scene *shown = bench_scene_open(&c->scene, width, height, &view, &s->radius, FAULT(c->error));
+    bool done = shown && gbuffer_draw(&s->gbuffer, shown, &view, 0, FAULT(c->error));
     scene_destroy(shown);
     s->color = gl_make_texture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, width, height, NULL);
     (void)gl_make_framebuffer(s->color, 0, &s->framebuffer);
@@ -159,13 +159,13 @@ static bool write_host(cost *c, const stage *s)
 {
     table t;
     if (!table_begin(&t, &c->options, c->context, "host", "configuration inputs compute_ms apply_ms first_ms mib",
-                     c->error, sizeof c->error))
+                     FAULT(c->error)))
         return false;
     for (int i = 0; i < CASES; i++) {
         add_case(&t, i);
         TABLE_END_ROW(&t, s->compute_ms[i], s->apply_ms[i], s->first_ms[i], s->bytes[i] / 1048576);
     }
-    return table_end(&t, c->error, sizeof c->error);
+    return table_end(&t, FAULT(c->error));
 }
 
 static bool sweep_sizes(cost *c, table *t)
@@ -217,15 +217,14 @@ static bool choose_scene(cost *c)
 static bool measure(cost *c)
 {
     table t;
-    c->context = tool_open(&c->options, c->error, sizeof c->error);
+    c->context = tool_open(&c->options, FAULT(c->error));
     if (!c->context || !choose_scene(c))
         return false;
     c->software = context_is_software(c->context);
-    if (!table_begin(&t, &c->options, c->context, "sweep", "kind configuration inputs value ms", c->error,
-                     sizeof c->error))
+    if (!table_begin(&t, &c->options, c->context, "sweep", "kind configuration inputs value ms", FAULT(c->error)))
         return false;
     const bool measured = sweep_sizes(c, &t) && sweep_radii(c, &t);
-    return table_end(&t, c->error, sizeof c->error) && measured;
+    return table_end(&t, FAULT(c->error)) && measured;
 }
 
 int main(int argc, char **argv)

@@ -63,7 +63,7 @@ double economy_skipped_share(const glssao_effect *effect)
 
 /* CPU time of all threads on a software rasteriser, GPU time otherwise. */
 static bool run_once(glssao_effect *effect, const glssao_frame *frame, const glssao_settings *settings, bool software,
-                     double *out_ms, char *error, size_t error_size)
+                     double *out_ms, failure *fault)
 {
     gl.Finish();
     const double start = clock_cpu_ms();
@@ -71,7 +71,7 @@ static bool run_once(glssao_effect *effect, const glssao_frame *frame, const gls
     gl.Finish();
     *out_ms = clock_cpu_ms() - start;
     if (result != GLSSAO_OK)
-        snprintf(error, error_size, "glssao_compute: %s", glssao_result_string(result));
+        fault_set(fault, "glssao_compute: %s", glssao_result_string(result));
     else if (!software && glssao_get_stats(effect).gpu_ms >= 0)
         *out_ms = glssao_get_stats(effect).gpu_ms;
     return result == GLSSAO_OK;
@@ -101,7 +101,7 @@ static double worst_difference(glssao_effect *const effects[2])
 }
 
 bool economy_compare(const economy *e, const glssao_frame *frame, int width, int height,
-                     const glssao_settings *settings, economy_row *out, char *error, size_t error_size)
+                     const glssao_settings *settings, economy_row *out, failure *fault)
 {
     static const glssao_tiles tiles[2] = {GLSSAO_TILES_OFF, GLSSAO_TILES_ON};
     const int frames = e->options->frames > 0 ? e->options->frames : 1;
@@ -124,13 +124,13 @@ bool economy_compare(const economy *e, const glssao_frame *frame, int width, int
         out->bytes[i] = counts.bytes;
     }
     if (!done)
-        snprintf(error, error_size, "no first frame of %dx%d", width, height);
+        fault_set(fault, "no first frame of %dx%d", width, height);
     for (int f = -WARM_UP_FRAMES; done && f < frames; f++)
         for (int i = 0; done && i < 2; i++) {
             glssao_settings s = *settings;
             s.tiles = tiles[i];
             double one;
-            done = run_once(effects[i], frame, &s, e->software, &one, error, error_size);
+            done = run_once(effects[i], frame, &s, e->software, &one, fault);
             if (f >= 0)
                 ms[i * frames + f] = one;
         }
@@ -153,15 +153,15 @@ const char *economy_first_name(int first)
     return first_names[first];
 }
 
-static bool measure_firsts(economy *e, const char *folder, char *error, size_t error_size)
+static bool measure_firsts(economy *e, const char *folder, failure *fault)
 {
     const int w = e->options->time_size[0], h = e->options->time_size[1];
     scene_view view;
     float radius;
     bench_scene b = {.name = "columns", .radius = 1};
     gbuffer g = {.depth = 0};
-    scene *s = bench_scene_open(&b, w, h, &view, &radius, error, error_size);
-    bool done = s && gbuffer_draw(&g, s, &view, 0, error, error_size);
+    scene *s = bench_scene_open(&b, w, h, &view, &radius, fault);
+    bool done = s && gbuffer_draw(&g, s, &view, 0, fault);
     const glssao_frame frame = gbuffer_frame(&g, false);
     for (int i = 0; done && i < ECONOMY_FIRSTS; i++) {
         const glssao_config config = {.load = context_load,
@@ -185,14 +185,13 @@ static bool measure_firsts(economy *e, const char *folder, char *error, size_t e
     return done;
 }
 
-static bool measure_scene(economy *e, const bench_scene *b, char *error, size_t error_size)
+static bool measure_scene(economy *e, const bench_scene *b, failure *fault)
 {
     scene_view view;
     float radius;
     gbuffer g = {.depth = 0};
-    scene *s =
-        bench_scene_open(b, e->options->time_size[0], e->options->time_size[1], &view, &radius, error, error_size);
-    bool done = s && gbuffer_draw(&g, s, &view, 0, error, error_size);
+    scene *s = bench_scene_open(b, e->options->time_size[0], e->options->time_size[1], &view, &radius, fault);
+    bool done = s && gbuffer_draw(&g, s, &view, 0, fault);
     for (int t = 0; done && t < ECONOMY_CONFIGS; t++) {
         economy_row *row = &e->rows[e->row_count++];
         *row = (economy_row){.config = t};
@@ -200,13 +199,13 @@ static bool measure_scene(economy *e, const bench_scene *b, char *error, size_t 
         const glssao_settings settings = economy_settings(t);
         const glssao_settings scaled = bench_scale_settings(&settings, radius);
         const glssao_frame frame = gbuffer_frame(&g, false);
-        done = economy_compare(e, &frame, view.width, view.height, &scaled, row, error, error_size);
+        done = economy_compare(e, &frame, view.width, view.height, &scaled, row, fault);
         fprintf(stderr, "%-24s %-18s off %8.2f ms, on %8.2f ms, ratio %.3f, skipped %.3f, worst %.2f steps\n",
                 row->name, economy_config_name(t), row->ms[0], row->ms[1], row->ms[1] / row->ms[0], row->skipped,
                 row->worst);
         if (done && e->options->check && !(row->worst <= 1.01)) {
-            snprintf(error, error_size, "%s, %s: the pictures differ by %.1f steps", row->name, economy_config_name(t),
-                     row->worst);
+            fault_set(fault, "%s, %s: the pictures differ by %.1f steps", row->name, economy_config_name(t),
+                      row->worst);
             done = false;
         }
     }
@@ -215,36 +214,34 @@ static bool measure_scene(economy *e, const bench_scene *b, char *error, size_t 
     return done;
 }
 
-static bool measure(economy *e, char *error, size_t error_size)
+static bool measure(economy *e, failure *fault)
 {
     static bench_scene scenes[BENCH_SCENES_MAX];
     char *folder = e->driver_cache;
     const double start = clock_wall_ms();
     /* Set before there is a context, so that no program of an earlier run is found in the driver's cache. */
     snprintf(folder, sizeof e->driver_cache, "%s/shader-cache-%ld", e->options->out, (long)getpid());
-    if (!make_folder(folder)) {
-        snprintf(error, error_size, "%s: no such folder can be made", folder);
-        return false;
-    }
+    if (!make_folder(folder))
+        return fault_set(fault, "%s: no such folder can be made", folder);
     setenv("MESA_SHADER_CACHE_DIR", folder, 1);
     setenv("__GL_SHADER_DISK_CACHE_PATH", folder, 1);
     const int count = bench_scenes_list(e->options, scenes);
-    e->context = tool_open(e->options, error, error_size);
+    e->context = tool_open(e->options, fault);
     if (!e->context)
         return false;
     e->software = context_is_software(e->context);
     e->rows = calloc((size_t)(count + 1) * ECONOMY_CONFIGS, sizeof *e->rows);
     e->wholes = calloc((size_t)count + 1, sizeof *e->wholes);
-    if (!e->rows || !e->wholes || !measure_firsts(e, folder, error, error_size))
+    if (!e->rows || !e->wholes || !measure_firsts(e, folder, fault))
         return false;
     for (int i = 0; i < count; i++)
-        if (!measure_scene(e, &scenes[i], error, error_size))
+        if (!measure_scene(e, &scenes[i], fault))
             return false;
-    if (!economy_measure_wholes(e, scenes, count, error, error_size) || !economy_measure_shares(e, error, error_size) ||
-        !economy_measure_steps(e, error, error_size))
+    if (!economy_measure_wholes(e, scenes, count, fault) || !economy_measure_shares(e, fault) ||
+        !economy_measure_steps(e, fault))
         return false;
     fprintf(stderr, "%d scenes, %.0f s: %s\n", count, (clock_wall_ms() - start) / 1e3, e->options->out);
-    return economy_write(e, error, error_size);
+    return economy_write(e, fault);
 }
 
 int main(int argc, char **argv)
@@ -257,7 +254,7 @@ int main(int argc, char **argv)
     static economy e;
     e.options = &o;
     e.step_scene = o.time_scene;
-    const bool done = measure(&e, error, sizeof error);
+    const bool done = measure(&e, FAULT(error));
     free(e.rows);
     free(e.wholes);
     context_destroy(e.context);

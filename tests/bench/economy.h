@@ -61,19 +61,19 @@ const char *economy_first_name(int first);
 
 /* Fills *out except for its name and configuration. */
 bool economy_compare(const economy *e, const glssao_frame *frame, int width, int height,
-                     const glssao_settings *settings, economy_row *out, char *error, size_t error_size);
+                     const glssao_settings *settings, economy_row *out, failure *fault);
 
 /* Share of the picture whose tiles the last frame skipped. */
 double economy_skipped_share(const glssao_effect *effect);
 
 /* economy_whole.c: fills e->wholes, which has room for `count`. */
-bool economy_measure_wholes(economy *e, const bench_scene *scenes, int count, char *error, size_t error_size);
+bool economy_measure_wholes(economy *e, const bench_scene *scenes, int count, failure *fault);
 
 /* economy_steps.c */
-bool economy_measure_steps(economy *e, char *error, size_t error_size);
+bool economy_measure_steps(economy *e, failure *fault);
 
 /* economy_shares.c */
-bool economy_measure_shares(economy *e, char *error, size_t error_size);
+bool economy_measure_shares(economy *e, failure *fault);
 
 /* economy_report.c: writes economy-*.tsv into the output folder. */
-bool economy_write(const economy *e, char *error, size_t error_size);
+bool economy_write(const economy *e, failure *fault);

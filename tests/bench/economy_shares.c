@@ -51,7 +51,7 @@ static bool make_picture(gbuffer *g, int kind, double share)
     return made;
 }
 
-bool economy_measure_shares(economy *e, char *error, size_t error_size)
+bool economy_measure_shares(economy *e, failure *fault)
 {
     const camera c = {.target = {0, 0, -1}, .up = {0, 1, 0}, .fov_y_rad = 0.8f, .near_plane = 1, .far_plane = 100};
     const int w = e->options->time_size[0], h = e->options->time_size[1];
@@ -64,9 +64,9 @@ bool economy_measure_shares(economy *e, char *error, size_t error_size)
             snprintf(row->name, sizeof row->name, "%s %d/%d", kind == SKY ? "sky" : "plane", i, ECONOMY_SHARES - 1);
             bool done = make_picture(&g, kind, (double)i / (ECONOMY_SHARES - 1));
             if (!done)
-                snprintf(error, error_size, "out of memory");
+                fault_set_memory(fault);
             const glssao_frame frame = gbuffer_frame(&g, false);
-            done = done && economy_compare(e, &frame, w, h, &settings, row, error, error_size);
+            done = done && economy_compare(e, &frame, w, h, &settings, row, fault);
             gbuffer_destroy(&g);
             if (!done)
                 return false;

@@ -5,17 +5,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool economy_stage_open(economy_stage *s, const bench_scene *b, int width, int height, char *error, size_t error_size)
+bool economy_stage_open(economy_stage *s, const bench_scene *b, int width, int height, failure *fault)
 {
     *s = (economy_stage){.lights = NULL};
-    s->scene = bench_scene_open(b, width, height, &s->view, &s->radius, error, error_size);
+    s->scene = bench_scene_open(b, width, height, &s->view, &s->radius, fault);
     if (!s->scene)
         return false;
     s->lights = malloc((s->scene->light_count + 1u) * sizeof *s->lights);
-    if (!s->lights) {
-        snprintf(error, error_size, "out of memory");
-        return false;
-    }
+    if (!s->lights)
+        return fault_set_memory(fault);
     s->lighting = scene_lighting_of(s->scene, s->lights);
     return true;
 }
@@ -27,19 +25,17 @@ void economy_stage_close(economy_stage *s)
     *s = (economy_stage){.scene = NULL};
 }
 
-bool economy_player_open(economy_player *p, const economy_stage *s, glssao_load_fn load, void *load_user, char *error,
-                         size_t error_size)
+bool economy_player_open(economy_player *p, const economy_stage *s, glssao_load_fn load, void *load_user,
+                         failure *fault)
 {
     const int w = s->view.width, h = s->view.height;
-    *p = (economy_player){.stage = s, .renderer = scene_renderer_create(s->scene, error, error_size)};
+    *p = (economy_player){.stage = s, .renderer = scene_renderer_create(s->scene, fault)};
     if (!p->renderer)
         return false;
     const glssao_config config = {
         .load = load, .load_user = load_user, .log = glssao_log_to_stderr, .width = w, .height = h, .no_timers = true};
-    if (glssao_create(&config, &p->effect) != GLSSAO_OK) {
-        snprintf(error, error_size, "no effect of %dx%d", w, h);
-        return false;
-    }
+    if (glssao_create(&config, &p->effect) != GLSSAO_OK)
+        return fault_set(fault, "no effect of %dx%d", w, h);
     p->depth = gl_make_texture(GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, w, h, NULL);
     p->color = gl_make_texture(GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, w, h, NULL);
     return gl_make_framebuffer(p->color, p->depth, &p->framebuffer);

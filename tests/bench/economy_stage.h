@@ -20,7 +20,7 @@ typedef struct economy_stage {
 } economy_stage;
 
 /* False, with one line in `error`; economy_stage_close is due in either case. */
-bool economy_stage_open(economy_stage *s, const bench_scene *b, int width, int height, char *error, size_t error_size);
+bool economy_stage_open(economy_stage *s, const bench_scene *b, int width, int height, failure *fault);
 void economy_stage_close(economy_stage *s);
 
 /* Programs, textures and targets that draw a stage. */
@@ -33,8 +33,8 @@ typedef struct economy_player {
 
 /* Functions of OpenGL for the effect come from `load`. False, with one line in `error`; economy_player_close is due in
  * either case. */
-bool economy_player_open(economy_player *p, const economy_stage *s, glssao_load_fn load, void *load_user, char *error,
-                         size_t error_size);
+bool economy_player_open(economy_player *p, const economy_stage *s, glssao_load_fn load, void *load_user,
+                         failure *fault);
 void economy_player_close(economy_player *p);
 
 /* Which parts of a frame are drawn. */

@@ -30,33 +30,31 @@ static const struct {
     {"multi-bounce tint", true, true, true, GLSSAO_HIGH, true},
 };
 
-static bool open_stage(const economy *e, economy_stage *s, char *error, size_t error_size)
+static bool open_stage(const economy *e, economy_stage *s, failure *fault)
 {
     static bench_scene scenes[BENCH_SCENES_MAX];
     const int count = bench_scenes_list(e->options, scenes);
     int chosen = 0;
     for (int i = 0; i < count; i++)
         chosen = strcmp(scenes[i].name, e->step_scene) == 0 ? i : chosen;
-    return economy_stage_open(s, &scenes[chosen], e->options->time_size[0], e->options->time_size[1], error,
-                              error_size);
+    return economy_stage_open(s, &scenes[chosen], e->options->time_size[0], e->options->time_size[1], fault);
 }
 
-bool economy_measure_steps(economy *e, char *error, size_t error_size)
+bool economy_measure_steps(economy *e, failure *fault)
 {
     enum { WARM_UP = 2 };
     economy_stage s = {.scene = NULL};
     economy_player p = {.stage = NULL};
     const int frames = e->options->frames > 0 ? e->options->frames : 1;
     double *ms = calloc((size_t)frames * 2, sizeof *ms);
-    bool done = ms && open_stage(e, &s, error, error_size) &&
-                economy_player_open(&p, &s, context_load, e->context, error, error_size);
+    bool done = ms && open_stage(e, &s, fault) && economy_player_open(&p, &s, context_load, e->context, fault);
     for (int step = 0; done && step < ECONOMY_STEPS; step++) {
         s.lighting = scene_default_lighting();
         for (int k = 0; !steps[step].sky && k < 3; k++)
             s.lighting.sky_tilt[k] = 0;
         const scene_draw_options draws = {
             .shadows = steps[step].shadows, .no_picture = !steps[step].main, .multi_bounce = steps[step].multi_bounce};
-        done = scene_renderer_configure(p.renderer, &s.lighting, &draws, error, error_size);
+        done = scene_renderer_configure(p.renderer, &s.lighting, &draws, fault);
         economy_step *out = &e->steps[step];
         out->what = steps[step].what;
         for (int f = -WARM_UP; done && f < frames; f++)

@@ -49,14 +49,14 @@ static void draw(economy_player *p, int which)
 
 /* Programs, textures and the first frame, with an empty cache. */
 static bool open_player(const economy *e, economy_player *p, const economy_stage *s, int which, economy_whole *out,
-                        char *error, size_t error_size)
+                        failure *fault)
 {
     const scene_draw_options draws = {.shadows = true, .everything = which == EVERYTHING};
     empty_driver_cache(e);
     (void)gl_counter_take();
     const double start = now_ms(e);
-    if (!economy_player_open(p, s, gl_counter_load, NULL, error, error_size) ||
-        !scene_renderer_configure(p->renderer, &s->lighting, &draws, error, error_size))
+    if (!economy_player_open(p, s, gl_counter_load, NULL, fault) ||
+        !scene_renderer_configure(p->renderer, &s->lighting, &draws, fault))
         return false;
     draw(p, which);
     out->first_ms[which] = now_ms(e) - start;
@@ -66,16 +66,16 @@ static bool open_player(const economy *e, economy_player *p, const economy_stage
     return true;
 }
 
-static bool measure_one(const economy *e, const bench_scene *b, economy_whole *out, char *error, size_t error_size)
+static bool measure_one(const economy *e, const bench_scene *b, economy_whole *out, failure *fault)
 {
     economy_stage s;
     economy_player players[2] = {{.stage = NULL}, {.stage = NULL}};
     const int frames = e->options->frames > 0 ? e->options->frames : 1;
     double *ms = calloc((size_t)frames * 2, sizeof *ms);
-    bool done = ms && economy_stage_open(&s, b, e->options->time_size[0], e->options->time_size[1], error, error_size);
+    bool done = ms && economy_stage_open(&s, b, e->options->time_size[0], e->options->time_size[1], fault);
     snprintf(out->name, sizeof out->name, "%s", b->name);
     for (int i = 0; done && i < 2; i++)
-        done = open_player(e, &players[i], &s, i, out, error, error_size);
+        done = open_player(e, &players[i], &s, i, out, fault);
     for (int f = -WARM_UP; done && f < frames; f++)
         for (int i = 0; i < 2; i++) {
             (void)gl_counter_take();
@@ -96,16 +96,16 @@ static bool measure_one(const economy *e, const bench_scene *b, economy_whole *o
     return done;
 }
 
-bool economy_measure_wholes(economy *e, const bench_scene *scenes, int count, char *error, size_t error_size)
+bool economy_measure_wholes(economy *e, const bench_scene *scenes, int count, failure *fault)
 {
     /* Count the renderer's GL calls, too. */
     gl_counter_start(context_load, e->context);
-    bool done = gl_load(gl_counter_load, NULL, error, error_size);
+    bool done = gl_load(gl_counter_load, NULL, fault->text, fault->size);
     for (int i = 0; done && i < count; i++) {
         economy_whole *w = &e->wholes[e->whole_count++];
-        done = measure_one(e, &scenes[i], w, error, error_size);
+        done = measure_one(e, &scenes[i], w, fault);
         fprintf(stderr, "%-24s everything %8.2f ms, planned %8.2f ms, first %.0f and %.0f ms, %d and %d programs\n",
                 w->name, w->ms[0], w->ms[1], w->first_ms[0], w->first_ms[1], w->programs[0], w->programs[1]);
     }
-    return gl_load(context_load, e->context, error, error_size) && done;
+    return gl_load(context_load, e->context, fault->text, fault->size) && done;
 }

@@ -6,18 +6,16 @@
 
 #include <stdio.h>
 
-bool map_reader_create(map_reader *m, int width, int height, char *error, size_t error_size)
+bool map_reader_create(map_reader *m, int width, int height, failure *fault)
 {
     *m = (map_reader){.width = width, .height = height};
-    m->scene = scene_make("plane", error, error_size);
-    m->renderer = m->scene ? scene_renderer_create(m->scene, error, error_size) : NULL;
+    m->scene = scene_make("plane", fault);
+    m->renderer = m->scene ? scene_renderer_create(m->scene, fault) : NULL;
     if (!m->renderer)
         return false;
     m->texture = gl_make_texture(GL_R32F, GL_RED, GL_FLOAT, width, height, NULL);
-    if (!gl_make_framebuffer(m->texture, 0, &m->framebuffer)) {
-        snprintf(error, error_size, "no float framebuffer of %dx%d", width, height);
-        return false;
-    }
+    if (!gl_make_framebuffer(m->texture, 0, &m->framebuffer))
+        return fault_set(fault, "no float framebuffer of %dx%d", width, height);
     return true;
 }
 
@@ -42,8 +40,7 @@ void effects_destroy(effects *e)
     }
 }
 
-glssao_effect *effects_get(effects *e, const gbuffer *g, const glssao_settings *settings, char *error,
-                           size_t error_size)
+glssao_effect *effects_get(effects *e, const gbuffer *g, const glssao_settings *settings, failure *fault)
 {
     glssao_effect **slot = &e->of[settings->technique][settings->half_resolution][g->margin > 0];
     if (!*slot) {
@@ -57,7 +54,7 @@ glssao_effect *effects_get(effects *e, const gbuffer *g, const glssao_settings *
                                       .path = e->path};
         const glssao_result result = glssao_create(&config, slot);
         if (result != GLSSAO_OK)
-            snprintf(error, error_size, "no effect of %dx%d: %s", e->width, e->height, glssao_result_string(result));
+            fault_set(fault, "no effect of %dx%d: %s", e->width, e->height, glssao_result_string(result));
     }
     return *slot;
 }
@@ -71,9 +68,9 @@ void map_reader_read(const map_reader *m, const glssao_effect *effect, float *ou
     gl.ReadPixels(0, 0, m->width, m->height, GL_RED, GL_FLOAT, out);
 }
 
-bool effects_run(effects *e, map_reader *m, const effect_job *job, float *out, char *error, size_t error_size)
+bool effects_run(effects *e, map_reader *m, const effect_job *job, float *out, failure *fault)
 {
-    glssao_effect *effect = effects_get(e, job->gbuffer, job->settings, error, error_size);
+    glssao_effect *effect = effects_get(e, job->gbuffer, job->settings, fault);
     if (!effect)
         return false;
     const glssao_settings scaled = bench_scale_settings(job->settings, job->radius);
@@ -85,7 +82,7 @@ bool effects_run(effects *e, map_reader *m, const effect_job *job, float *out, c
     if (result == GLSSAO_OK)
         map_reader_read(m, effect, out);
     else
-        snprintf(error, error_size, "%s: %s", job->accumulates ? "glssao_accumulate" : "glssao_compute",
-                 glssao_result_string(result));
+        fault_set(fault, "%s: %s", job->accumulates ? "glssao_accumulate" : "glssao_compute",
+                  glssao_result_string(result));
     return result == GLSSAO_OK;
 }

@@ -17,7 +17,7 @@ typedef struct map_reader {
     GLuint texture, framebuffer; /* R32F */
 } map_reader;
 
-bool map_reader_create(map_reader *m, int width, int height, char *error, size_t error_size);
+bool map_reader_create(map_reader *m, int width, int height, failure *fault);
 void map_reader_destroy(map_reader *m);
 /* Reads the effect's result, stretched to the reader's size. */
 void map_reader_read(const map_reader *m, const glssao_effect *effect, float *out);
@@ -45,8 +45,7 @@ typedef struct effect_job {
 } effect_job;
 
 /* The effect that these settings are run on; NULL, with one line in `error`, where it can't be made. */
-glssao_effect *effects_get(effects *e, const gbuffer *g, const glssao_settings *settings, char *error,
-                           size_t error_size);
+glssao_effect *effects_get(effects *e, const gbuffer *g, const glssao_settings *settings, failure *fault);
 
 /* Accessibility of the view at full size into `out`. */
-bool effects_run(effects *e, map_reader *m, const effect_job *job, float *out, char *error, size_t error_size);
+bool effects_run(effects *e, map_reader *m, const effect_job *job, float *out, failure *fault);

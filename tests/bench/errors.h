@@ -9,7 +9,7 @@
 
 /* Runs one configuration on one view, with power 1 where `plain`. */
 bool errors_run(const results *r, const bench_config *c, int view, bool plain, effects *e, map_reader *m, float *out,
-                char *error, size_t error_size);
+                failure *fault);
 
 /* Fills the error figures of r->configs. False, with one line in `error`. */
-bool errors_measure(results *r, effects *e, map_reader *m, char *error, size_t error_size);
+bool errors_measure(results *r, effects *e, map_reader *m, failure *fault);

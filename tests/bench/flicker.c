@@ -50,10 +50,10 @@ static camera rolled(const camera *c, float angle_rad)
     return r;
 }
 
-static bool clip_draw(clip *k, const bench_scene *b, motion how, int width, int height, char *error, size_t error_size)
+static bool clip_draw(clip *k, const bench_scene *b, motion how, int width, int height, failure *fault)
 {
     scene_view view;
-    scene *s = bench_scene_open(b, width, height, &view, &k->radius, error, error_size);
+    scene *s = bench_scene_open(b, width, height, &view, &k->radius, fault);
     bool drawn = s != NULL;
     for (int i = 0; drawn && i < k->count; i++) {
         float *normals;
@@ -62,7 +62,7 @@ static bool clip_draw(clip *k, const bench_scene *b, motion how, int width, int 
         const float up[3] = {0.0f, 1.0f, 0.0f};
         const camera now = how == TURNS ? camera_turned(&start, start.target, up, angle) : rolled(&start, angle);
         view = camera_view(&now, width, height);
-        drawn = gbuffer_draw(&k->frames[i], s, &view, 0, error, error_size);
+        drawn = gbuffer_draw(&k->frames[i], s, &view, 0, fault);
         if (drawn) {
             gbuffer_read(&k->frames[i], &k->distance[i], &normals);
             free(normals);
@@ -88,21 +88,20 @@ static void clip_clear(clip *k)
     }
 }
 
-static bool run_peer(const clip *k, const config_result *c, int frame, char *error, size_t error_size)
+static bool run_peer(const clip *k, const config_result *c, int frame, failure *fault)
 {
     const scene_view *view = &k->frames[frame].view;
-    replay *p = peers_load(k->peers, c->config.peer, &k->views[frame], error, error_size);
+    replay *p = peers_load(k->peers, c->config.peer, &k->views[frame], fault);
     if (!p)
         return false;
     replay_draw(k->peers->replayer, p, &k->inputs[frame]);
-    const bool ran = replay_read(p, view->width, view->height, k->result[frame % 2], error, error_size);
+    const bool ran = replay_read(p, view->width, view->height, k->result[frame % 2], fault);
     replay_destroy(p);
     return ran;
 }
 
 /* A frame into its place in k->result; contrast techniques with the exponent that fits best. */
-static bool run_frame(const clip *k, const config_result *c, int frame, effects *e, map_reader *m, char *error,
-                      size_t error_size)
+static bool run_frame(const clip *k, const config_result *c, int frame, effects *e, map_reader *m, failure *fault)
 {
     glssao_settings settings = c->config.settings;
     float *result = k->result[frame % 2];
@@ -113,8 +112,7 @@ static bool run_frame(const clip *k, const config_result *c, int frame, effects 
                             .settings = &settings,
                             .radius = k->radius,
                             .depth_alone = c->config.inputs == INPUTS_DEPTH};
-    if (!(c->config.kind == BENCH_PEER ? run_peer(k, c, frame, error, error_size)
-                                       : effects_run(e, m, &job, result, error, error_size)))
+    if (!(c->config.kind == BENCH_PEER ? run_peer(k, c, frame, fault) : effects_run(e, m, &job, result, fault)))
         return false;
     for (int i = 0; contrast && i < m->width * m->height; i++)
         result[i] = powf(result[i], (float)c->exponent);
@@ -122,12 +120,12 @@ static bool run_frame(const clip *k, const config_result *c, int frame, effects 
 }
 
 /* RMS of the change between frames that follow each other; NAN where no point is seen twice. */
-static bool measure_config(const clip *k, const config_result *c, effects *e, map_reader *m, double *out, char *error,
-                           size_t error_size)
+static bool measure_config(const clip *k, const config_result *c, effects *e, map_reader *m, double *out,
+                           failure *fault)
 {
     frame_change change = {0, 0};
     for (int i = 0; i < k->count; i++) {
-        if (!run_frame(k, c, i, e, m, error, error_size))
+        if (!run_frame(k, c, i, e, m, fault))
             return false;
         const sequence_frame now = {k->frames[i].view, k->distance[i], k->result[i % 2]};
         if (i > 0) {
@@ -144,24 +142,22 @@ static bool is_measured(const bench_config *c)
     return c->kind == BENCH_PEER || (c->kind == BENCH_EFFECT && (c->level || c->inputs == INPUTS_DEPTH));
 }
 
-static bool measure_scene(results *r, int view, motion how, clip *k, effects *e, map_reader *m, char *error,
-                          size_t error_size)
+static bool measure_scene(results *r, int view, motion how, clip *k, effects *e, map_reader *m, failure *fault)
 {
     progress_show("%s change: %s", how == TURNS ? "frame" : "roll", r->views[view].name);
     k->count = how == TURNS ? r->options->sequence_frames : ROLL_FRAMES;
-    bool done = clip_draw(k, &r->scenes[view], how, m->width, m->height, error, error_size) &&
-                (!k->peers || peers_record_configs(r, k->views, k->count, error, error_size));
+    bool done = clip_draw(k, &r->scenes[view], how, m->width, m->height, fault) &&
+                (!k->peers || peers_record_configs(r, k->views, k->count, fault));
     for (int i = 0; done && !r->options->record && i < r->config_count; i++)
         if (is_measured(&r->configs[i].config))
-            done = measure_config(k, &r->configs[i], e, m,
-                                  how == TURNS ? &r->configs[i].views[view].frame_change
-                                               : &r->configs[i].views[view].roll_change,
-                                  error, error_size);
+            done = measure_config(
+                k, &r->configs[i], e, m,
+                how == TURNS ? &r->configs[i].views[view].frame_change : &r->configs[i].views[view].roll_change, fault);
     clip_clear(k);
     return done;
 }
 
-bool flicker_measure(results *r, context *c, char *error, size_t error_size)
+bool flicker_measure(results *r, context *c, failure *fault)
 {
     const options *o = r->options;
     const int width = o->size[0] / 2, height = o->size[1] / 2;
@@ -177,10 +173,10 @@ bool flicker_measure(results *r, context *c, char *error, size_t error_size)
     map_reader m = {.width = 0};
     bool done = k.frames && k.distance && k.result[0] && k.result[1] && k.views && k.inputs;
     if (!done)
-        snprintf(error, error_size, "out of memory");
-    done = done && map_reader_create(&m, width, height, error, error_size);
+        fault_set_memory(fault);
+    done = done && map_reader_create(&m, width, height, fault);
     for (int i = 0; done && i < r->view_count * MOTIONS; i++)
-        done = measure_scene(r, i / MOTIONS, (motion)(i % MOTIONS), &k, &e, &m, error, error_size);
+        done = measure_scene(r, i / MOTIONS, (motion)(i % MOTIONS), &k, &e, &m, fault);
     progress_clear();
     effects_destroy(&e);
     map_reader_destroy(&m);

@@ -10,4 +10,4 @@
 #include "results.h"
 
 /* Fills frame_change and roll_change of every level and peer. False, with one line in `error`. */
-bool flicker_measure(results *r, context *c, char *error, size_t error_size);
+bool flicker_measure(results *r, context *c, failure *fault);

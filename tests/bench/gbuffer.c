@@ -31,15 +31,15 @@ static void draw_layers(gbuffer *g, scene_renderer *renderer)
     }
 }
 
-bool gbuffer_draw(gbuffer *g, const scene *s, const scene_view *view, int margin, char *error, size_t error_size)
+bool gbuffer_draw(gbuffer *g, const scene *s, const scene_view *view, int margin, failure *fault)
 {
     const scene_lighting none = {0};
     const scene_draw_options draws = {.layers = margin > 0, .no_picture = true};
     *g = (gbuffer){.view = camera_widened_view(view, margin), .margin = margin};
-    scene_renderer *renderer = scene_renderer_create(s, error, error_size);
+    scene_renderer *renderer = scene_renderer_create(s, fault);
     if (!renderer)
         return false;
-    if (!scene_renderer_configure(renderer, &none, &draws, error, error_size)) {
+    if (!scene_renderer_configure(renderer, &none, &draws, fault)) {
         scene_renderer_destroy(renderer);
         return false;
     }
@@ -57,7 +57,7 @@ bool gbuffer_draw(gbuffer *g, const scene *s, const scene_view *view, int margin
             draw_layers(g, renderer);
         gl.Finish(); /* the scene may go now */
     } else {
-        snprintf(error, error_size, "no framebuffer of %dx%d", g->view.width, g->view.height);
+        fault_set(fault, "no framebuffer of %dx%d", g->view.width, g->view.height);
     }
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     gl.DeleteFramebuffers(1, &framebuffer);

@@ -19,7 +19,7 @@ typedef struct gbuffer {
 } gbuffer;
 
 /* With a margin, a second layer too. False, with one line in `error`; gbuffer_destroy is due in either case. */
-bool gbuffer_draw(gbuffer *g, const scene *s, const scene_view *view, int margin, char *error, size_t error_size);
+bool gbuffer_draw(gbuffer *g, const scene *s, const scene_view *view, int margin, failure *fault);
 
 /* The margin that is measured: a sixth of the width. */
 int gbuffer_margin(int width);

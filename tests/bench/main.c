@@ -41,7 +41,7 @@ typedef struct run {
 
 static bool open_context(run *r)
 {
-    r->context = tool_open(&r->options, r->error, sizeof r->error);
+    r->context = tool_open(&r->options, FAULT(r->error));
     if (!r->context)
         return false;
     r->results.context = r->context;
@@ -51,7 +51,7 @@ static bool open_context(run *r)
                            .height = r->options.size[1],
                            .seed = r->options.seed,
                            .path = (glssao_path)r->options.path};
-    return map_reader_create(&r->reader, r->options.size[0], r->options.size[1], r->error, sizeof r->error);
+    return map_reader_create(&r->reader, r->options.size[0], r->options.size[1], FAULT(r->error));
 }
 
 static bool make_views(run *r)
@@ -65,7 +65,7 @@ static bool make_views(run *r)
     }
     for (int i = 0; i < count; i++) {
         bench_view *v = &out->views[out->view_count++];
-        if (!bench_view_create(v, &r->results.scenes[i], &r->options, r->error, sizeof r->error))
+        if (!bench_view_create(v, &r->results.scenes[i], &r->options, FAULT(r->error)))
             return false;
         if (v->truth.rays > 0)
             fprintf(stderr, "%s: traced %.0f rays in %.1f s\n", v->name, (double)v->truth.rays, v->truth.seconds);
@@ -125,7 +125,7 @@ static bool take_times(run *r)
     bool timed = true;
     for (int i = 0; timed && i < out->view_count; i++)
         if (i == chosen || r->options.time_all)
-            timed = times_measure(out, &e, i, r->error, sizeof r->error);
+            timed = times_measure(out, &e, i, FAULT(r->error));
     effects_destroy(&e);
     return timed;
 }
@@ -133,10 +133,9 @@ static bool take_times(run *r)
 static bool write_results(run *r)
 {
     const results *out = &r->results;
-    return report_accuracy(out, r->error, sizeof r->error) && report_scenes(out, r->error, sizeof r->error) &&
-           report_split(out, r->error, sizeof r->error) &&
-           strips_write(out, &r->effects, &r->reader, r->error, sizeof r->error) &&
-           strips_write_worst(out, &r->effects, &r->reader, r->error, sizeof r->error);
+    return report_accuracy(out, FAULT(r->error)) && report_scenes(out, FAULT(r->error)) &&
+           report_split(out, FAULT(r->error)) && strips_write(out, &r->effects, &r->reader, FAULT(r->error)) &&
+           strips_write_worst(out, &r->effects, &r->reader, FAULT(r->error));
 }
 
 static void end_phase(const char *name, double *start_ms)
@@ -157,21 +156,20 @@ static bool measure(run *r)
         return false;
     if (r->options.peers) {
         out->peers = &r->peers;
-        if (!peers_open(&r->peers, &r->options, r->context, r->error, sizeof r->error))
+        if (!peers_open(&r->peers, &r->options, r->context, FAULT(r->error)))
             return false;
     }
     if (!make_views(r))
         return false;
     end_phase("scenes and their truth", &phase_ms);
     if (r->options.bent)
-        return bent_measure(out, &r->effects, r->error, sizeof r->error) &&
-               report_scenes(out, r->error, sizeof r->error);
+        return bent_measure(out, &r->effects, FAULT(r->error)) && report_scenes(out, FAULT(r->error));
     if (!make_configs(r))
         return false;
-    if (!errors_measure(out, &r->effects, &r->reader, r->error, sizeof r->error))
+    if (!errors_measure(out, &r->effects, &r->reader, FAULT(r->error)))
         return false;
     end_phase("errors", &phase_ms);
-    if (r->options.sequence_frames > 1 && !flicker_measure(out, r->context, r->error, sizeof r->error))
+    if (r->options.sequence_frames > 1 && !flicker_measure(out, r->context, FAULT(r->error)))
         return false;
     end_phase("frame change", &phase_ms);
     if (!take_times(r))
@@ -179,10 +177,10 @@ static bool measure(run *r)
     end_phase("times", &phase_ms);
     if (r->options.record)
         return true;
-    if (r->options.split_seeds > 0 && !split_measure(out, r->context, &r->reader, r->error, sizeof r->error))
+    if (r->options.split_seeds > 0 && !split_measure(out, r->context, &r->reader, FAULT(r->error)))
         return false;
     end_phase("split", &phase_ms);
-    if (!write_results(r) || (r->options.check && !check_results(out, r->error, sizeof r->error)))
+    if (!write_results(r) || (r->options.check && !check_results(out, FAULT(r->error))))
         return false;
     fprintf(stderr, "%d scenes, %d configurations, %.0f s: %s\n", out->view_count, out->config_count,
             (clock_wall_ms() - start_ms) / 1e3, r->options.out);

@@ -70,8 +70,8 @@ static bool draw_motion(motion *m, const scene *s, shot *now, const shot *before
     const scene_view *v = &now->gbuffer.view;
     bool done = m->mover ? scene_renderer_pose(m->mover, s) : true;
     if (!m->mover) {
-        m->mover = scene_renderer_create(s, m->error, sizeof m->error);
-        done = m->mover && scene_renderer_configure(m->mover, &none, &draws, m->error, sizeof m->error);
+        m->mover = scene_renderer_create(s, FAULT(m->error));
+        done = m->mover && scene_renderer_configure(m->mover, &none, &draws, FAULT(m->error));
     }
     gl.GenTextures(1, &now->motion);
     gl.BindTexture(GL_TEXTURE_2D, now->motion);
@@ -95,7 +95,7 @@ static bool make_truth(motion *m, const scene *s, shot *k, const char *name)
     const size_t count = (size_t)v->width * (size_t)v->height;
     const truth_request request = {
         .name = name, .cache = m->options.cache, .radius = m->radius, .rays = m->options.rays, .seed = 0};
-    if (!truth_get(&request, s, v, &k->truth, m->error, sizeof m->error))
+    if (!truth_get(&request, s, v, &k->truth, FAULT(m->error)))
         return false;
     k->classes = calloc(1, count);
     for (size_t i = 0; k->classes && i < count; i++)
@@ -117,7 +117,7 @@ static bool make_shot(motion *m, const bench_scene *b, scene *s, bench_path path
     if (moves)
         now.near_plane = start.near_plane, now.far_plane = start.far_plane;
     const scene_view view = camera_view(&now, size[0], size[1]);
-    if (!gbuffer_draw(&k->gbuffer, s, &view, 0, m->error, sizeof m->error))
+    if (!gbuffer_draw(&k->gbuffer, s, &view, 0, FAULT(m->error)))
         return false;
     gbuffer_read(&k->gbuffer, &k->distance, &normals);
     free(normals);
@@ -213,7 +213,7 @@ static bool write_film(motion *m, const char *name, float *const *single, float 
                        values[row], row == 2 || row == 4 ? truth : NULL, s);
     }
     snprintf(path, sizeof path, "%s/film-%s.png", m->options.out, name);
-    const bool done = rgb && picture_write_png(path, width, ROWS * h, 3, rgb, m->error, sizeof m->error);
+    const bool done = rgb && picture_write_png(path, width, ROWS * h, 3, rgb, FAULT(m->error));
     free(rgb);
     return done;
 }
@@ -226,14 +226,14 @@ static bool run_config(motion *m, const config *c, bench_path path, float **resu
     bool done = true;
     for (int i = 0; done && i < m->count; i++) {
         shot *k = &m->shots[i];
-        glssao_effect *effect = effects_get(&e, &k->gbuffer, &c->settings, m->error, sizeof m->error);
+        glssao_effect *effect = effects_get(&e, &k->gbuffer, &c->settings, FAULT(m->error));
         glssao_settings s = bench_scale_settings(&c->settings, m->radius);
         glssao_frame frame = gbuffer_frame(&k->gbuffer, false);
         frame.motion_texture = k->motion;
         frame.cut = path == PATH_CUT && i == PATH_EVENT;
         if (c->settings.technique == GLSSAO_RAYS) {
             const bench_config traced = {.settings = c->settings, .rays = c->settings.sample_count};
-            done = traced_run(&m->traced, &k->gbuffer, &traced, m->radius, (uint32_t)i, m->error, sizeof m->error);
+            done = traced_run(&m->traced, &k->gbuffer, &traced, m->radius, (uint32_t)i, FAULT(m->error));
             frame.rays_texture = m->traced.rays.texture;
         }
         gl.Finish();
@@ -300,8 +300,7 @@ static bool run_motion(motion *m, const bench_scene *b, bench_path path)
     scene_view view;
     config configs[CONFIGS_MAX];
     float *results[2][FRAMES_MAX] = {{0}};
-    scene *s =
-        bench_scene_open(b, m->options.size[0], m->options.size[1], &view, &m->radius, m->error, sizeof m->error);
+    scene *s = bench_scene_open(b, m->options.size[0], m->options.size[1], &view, &m->radius, FAULT(m->error));
     bool done = s != NULL;
     m->count = m->options.sequence_frames;
     for (int i = 0; done && i < m->count; i++) {
@@ -321,7 +320,7 @@ static bool run_motion(motion *m, const bench_scene *b, bench_path path)
         if (!options_match(m->options.only, configs[i].name) || (is_rays && path_moves_things(path)))
             continue;
         if (is_rays && !m->traced.embree)
-            done = traced_open(&m->traced, b, view.width, view.height, m->error, sizeof m->error);
+            done = traced_open(&m->traced, b, view.width, view.height, FAULT(m->error));
         done = done && run_config(m, &configs[i], path, results[reuses], &f);
         snprintf(label, sizeof label, "%.60s-%s-%.30s", b->name, path_name(path), configs[i].name);
         if (done && reuses && m->options.check)
@@ -344,9 +343,8 @@ static bool run_motion(motion *m, const bench_scene *b, bench_path path)
 static bool run(motion *m, const char *paths)
 {
     bench_scene scenes[BENCH_SCENES_MAX];
-    m->context = tool_open(&m->options, m->error, sizeof m->error);
-    if (!m->context ||
-        !map_reader_create(&m->reader, m->options.size[0], m->options.size[1], m->error, sizeof m->error))
+    m->context = tool_open(&m->options, FAULT(m->error));
+    if (!m->context || !map_reader_create(&m->reader, m->options.size[0], m->options.size[1], FAULT(m->error)))
         return false;
     const int count = bench_scenes_list(&m->options, scenes);
     printf("# %s\n# context=%s\tsize=%dx%d\trays=%d\n", m->options.command, context_description(m->context),

@@ -92,7 +92,7 @@ static void keep_command(int argc, char **argv, options *out)
     }
 }
 
-options_result options_parse(int argc, char **argv, options *out, char *error, size_t error_size)
+options_result options_parse(int argc, char **argv, options *out, failure *fault)
 {
     *out = (options){.cache = "out/bench-cache",
                      .out = "out/bench",
@@ -110,10 +110,10 @@ options_result options_parse(int argc, char **argv, options *out, char *error, s
     for (int i = 1; i < argc; i++) /* first, so that the others can change what it sets */
         if (strcmp(argv[i], "--quick") == 0)
             set_quick(out);
-    if (!option_parse(&set, argc, argv, out, &(failure){.text = error, .size = error_size}))
+    if (!option_parse(&set, argc, argv, out, fault))
         return OPTIONS_WRONG;
     if (out->record && !out->peers) {
-        snprintf(error, error_size, "--record: there is nothing to record without --peers");
+        fault_set(fault, "--record: there is nothing to record without --peers");
         return OPTIONS_WRONG;
     }
     out->rays = out->record ? 1 : out->rays; /* nothing is compared with the truth */

@@ -4,8 +4,9 @@
  */
 #pragma once
 
+#include "fault.h"
+
 #include <stdbool.h>
-#include <stddef.h>
 #include <stdint.h>
 
 typedef struct options {
@@ -30,7 +31,7 @@ typedef enum options_result { OPTIONS_RUN, OPTIONS_DONE, OPTIONS_WRONG } options
 
 /* OPTIONS_DONE: help was printed to stdout. OPTIONS_WRONG: one line in `error` names the option and the value. The
  * strings live as long as argv. */
-options_result options_parse(int argc, char **argv, options *out, char *error, size_t error_size);
+options_result options_parse(int argc, char **argv, options *out, failure *fault);
 
 /* True where one of the comma-separated words occurs in `text`, or `words` is NULL. */
 bool options_match(const char *words, const char *text);

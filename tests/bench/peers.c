@@ -95,7 +95,7 @@ static bool hash_packages(const char *modules, uint64_t *h)
     return found;
 }
 
-bool peers_open(peer_bench *b, const options *o, context *c, char *error, size_t error_size)
+bool peers_open(peer_bench *b, const options *o, context *c, failure *fault)
 {
     uint64_t h = UINT64_C(14695981039346656037);
     *b = (peer_bench){.replayer = replayer_create(c)};
@@ -107,8 +107,7 @@ bool peers_open(peer_bench *b, const options *o, context *c, char *error, size_t
     }
     if (b->replayer && make_folder(b->folder))
         return true;
-    snprintf(error, error_size, "%s: no such folder can be made", b->folder);
-    return false;
+    return fault_set(fault, "%s: no such folder can be made", b->folder);
 }
 
 void peers_close(peer_bench *b)
@@ -167,7 +166,7 @@ static void name_recording(int number, const peer_view *v, char key[64])
 }
 
 /* node record.mjs NODE_MODULES JOBS FOLDER */
-static bool run_node(const peer_bench *b, const char *jobs, char *error, size_t error_size)
+static bool run_node(const peer_bench *b, const char *jobs, failure *fault)
 {
     const pid_t child = fork();
     if (child == 0) {
@@ -178,10 +177,8 @@ static bool run_node(const peer_bench *b, const char *jobs, char *error, size_t 
     const bool ran = child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status);
     if (ran && WEXITSTATUS(status) == 0)
         return true;
-    snprintf(error, error_size,
-             ran && WEXITSTATUS(status) == 127 ? "node is not installed (Debian: nodejs)"
-                                               : "node could not record a peer: see above");
-    return false;
+    return fault_set(fault, ran && WEXITSTATUS(status) == 127 ? "node is not installed (Debian: nodejs)"
+                                                              : "node could not record a peer: see above");
 }
 
 static bool is_recorded(const peer_bench *b, int number, const peer_view *v, char key[64])
@@ -194,7 +191,7 @@ static bool is_recorded(const peer_bench *b, int number, const peer_view *v, cha
 
 /* Before hours of measuring end at a recording that is not there. */
 static bool all_are_recorded(const peer_bench *b, const int *numbers, int number_count, const peer_view *views,
-                             int count, char *error, size_t error_size)
+                             int count, failure *fault)
 {
     for (int i = 0; i < count * number_count; i++) {
         const peer_view *v = &views[i / number_count];
@@ -203,20 +200,19 @@ static bool all_are_recorded(const peer_bench *b, const int *numbers, int number
         if (is_recorded(b, numbers[i % number_count], v, key))
             continue;
         peers_name(numbers[i % number_count], name);
-        snprintf(error, error_size, "%s: no recording of %s at %dx%d: it takes glssao-bench --record with this size",
-                 b->folder, name, view->width, view->height);
-        return false;
+        return fault_set(fault, "%s: no recording of %s at %dx%d: it takes glssao-bench --record with this size",
+                         b->folder, name, view->width, view->height);
     }
     return true;
 }
 
-bool peers_record(peer_bench *b, const int *numbers, int number_count, const peer_view *views, int count, char *error,
-                  size_t error_size)
+bool peers_record(peer_bench *b, const int *numbers, int number_count, const peer_view *views, int count,
+                  failure *fault)
 {
     char jobs[2048];
     int missing = 0;
     if (!b->modules)
-        return all_are_recorded(b, numbers, number_count, views, count, error, error_size);
+        return all_are_recorded(b, numbers, number_count, views, count, fault);
     snprintf(jobs, sizeof jobs, "%s/jobs.tsv", b->folder);
     FILE *f = fopen(jobs, "w");
     for (int i = 0; f && i < count * number_count; i++) {
@@ -227,25 +223,23 @@ bool peers_record(peer_bench *b, const int *numbers, int number_count, const pee
         fprintf(f, "%s\t%s\n", key, line);
         missing++;
     }
-    if (!f || fclose(f) != 0) {
-        snprintf(error, error_size, "%s: %s", jobs, strerror(errno));
-        return false;
-    }
-    return missing == 0 || run_node(b, jobs, error, error_size);
+    if (!f || fclose(f) != 0)
+        return fault_set(fault, "%s: %s", jobs, strerror(errno));
+    return missing == 0 || run_node(b, jobs, fault);
 }
 
-replay *peers_load(peer_bench *b, int number, const peer_view *v, char *error, size_t error_size)
+replay *peers_load(peer_bench *b, int number, const peer_view *v, failure *fault)
 {
     char key[64];
     name_recording(number, v, key);
-    return replay_load(b->replayer, b->folder, key, error, error_size);
+    return replay_load(b->replayer, b->folder, key, fault);
 }
 
-bool peers_record_configs(const results *r, const peer_view *views, int count, char *error, size_t error_size)
+bool peers_record_configs(const results *r, const peer_view *views, int count, failure *fault)
 {
     int numbers[BENCH_CONFIGS_MAX], number_count = 0;
     for (int i = 0; i < r->config_count; i++)
         if (r->configs[i].config.kind == BENCH_PEER)
             numbers[number_count++] = r->configs[i].config.peer;
-    return peers_record(r->peers, numbers, number_count, views, count, error, error_size);
+    return peers_record(r->peers, numbers, number_count, views, count, fault);
 }

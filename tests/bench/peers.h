@@ -26,18 +26,18 @@ typedef struct peer_bench {
 } peer_bench;
 
 /* options.peers is node_modules, and recordings go to the cache; or it is a folder of recordings. */
-bool peers_open(peer_bench *b, const options *o, context *c, char *error, size_t error_size);
+bool peers_open(peer_bench *b, const options *o, context *c, failure *fault);
 void peers_close(peer_bench *b);
 
 /* Has node record these configurations for these views, except for what was recorded before. Without packages all must
  * have been. */
-bool peers_record(peer_bench *b, const int *numbers, int number_count, const peer_view *views, int count, char *error,
-                  size_t error_size);
+bool peers_record(peer_bench *b, const int *numbers, int number_count, const peer_view *views, int count,
+                  failure *fault);
 /* The same for the peers among r->configs. */
-bool peers_record_configs(const results *r, const peer_view *views, int count, char *error, size_t error_size);
+bool peers_record_configs(const results *r, const peer_view *views, int count, failure *fault);
 
 /* Loads the recording of a configuration for a view; NULL, with one line in `error`. */
-replay *peers_load(peer_bench *b, int number, const peer_view *v, char *error, size_t error_size);
+replay *peers_load(peer_bench *b, int number, const peer_view *v, failure *fault);
 
 /* The median view distance of the pixels that show a surface; 1 where there are none. */
 float peers_distance(const float *distance, size_t count);

@@ -187,13 +187,11 @@ double replay_gpu_ms(replayer *r, const replay *p, const replay_inputs *in)
     return at[1] > at[0] ? (double)(at[1] - at[0]) * 1e-6 : NAN;
 }
 
-bool replay_read(const replay *p, int width, int height, float *out, char *error, size_t error_size)
+bool replay_read(const replay *p, int width, int height, float *out, failure *fault)
 {
     const int *size = p->sizes[p->output];
-    if (size[0] != width || size[1] != height) {
-        snprintf(error, error_size, "a peer's result has %dx%d pixels, not %dx%d", size[0], size[1], width, height);
-        return false;
-    }
+    if (size[0] != width || size[1] != height)
+        return fault_set(fault, "a peer's result has %dx%d pixels, not %dx%d", size[0], size[1], width, height);
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
     gl.BindTexture(GL_TEXTURE_2D, p->textures[p->output]);
     gl.GetTexImage(GL_TEXTURE_2D, 0, GL_RED, GL_FLOAT, out);

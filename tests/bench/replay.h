@@ -32,10 +32,10 @@ void replayer_destroy(replayer *r);
 
 typedef struct replay replay;
 /* Loads a recording with its textures and programs; NULL, with one line in `error`. */
-replay *replay_load(replayer *r, const char *folder, const char *key, char *error, size_t error_size);
+replay *replay_load(replayer *r, const char *folder, const char *key, failure *fault);
 void replay_destroy(replay *p);
 void replay_draw(replayer *r, const replay *p, const replay_inputs *in);
 /* GPU time of one drawing among others, in milliseconds; NAN where there are no timestamps. */
 double replay_gpu_ms(replayer *r, const replay *p, const replay_inputs *in);
 /* The red channel of the output, at full size; false, with one line in `error`, where it has another size. */
-bool replay_read(const replay *p, int width, int height, float *out, char *error, size_t error_size);
+bool replay_read(const replay *p, int width, int height, float *out, failure *fault);

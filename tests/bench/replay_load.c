@@ -28,13 +28,13 @@ static const struct {
 static const char *const input_names[REPLAY_INPUTS] = {"depth", "normals", "normals_left_handed", "distance", "white"};
 
 /* A whole file with a 0 behind it; NULL, with one line in `error`. The caller frees. */
-static char *read_file(const char *folder, const char *name, size_t *out_size, char *error, size_t error_size)
+static char *read_file(const char *folder, const char *name, size_t *out_size, failure *fault)
 {
     char path[2048];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     FILE *f = fopen(path, "rb");
     if (!f) {
-        snprintf(error, error_size, "%s: %s", path, strerror(errno));
+        fault_set(fault, "%s: %s", path, strerror(errno));
         return NULL;
     }
     fseek(f, 0, SEEK_END);
@@ -42,7 +42,7 @@ static char *read_file(const char *folder, const char *name, size_t *out_size, c
     rewind(f);
     char *data = size >= 0 ? calloc(1, (size_t)size + 1) : NULL;
     if (!data || fread(data, 1, (size_t)size, f) != (size_t)size) {
-        snprintf(error, error_size, "%s: it cannot be read", path);
+        fault_set(fault, "%s: it cannot be read", path);
         free(data);
         data = NULL;
     }
@@ -52,9 +52,9 @@ static char *read_file(const char *folder, const char *name, size_t *out_size, c
     return data;
 }
 
-static bool compile(GLuint program, GLenum kind, const char *folder, const char *name, char *error, size_t error_size)
+static bool compile(GLuint program, GLenum kind, const char *folder, const char *name, failure *fault)
 {
-    char *source = read_file(folder, name, NULL, error, error_size);
+    char *source = read_file(folder, name, NULL, fault);
     if (!source)
         return false;
     const GLchar *const one = source;
@@ -66,7 +66,7 @@ static bool compile(GLuint program, GLenum kind, const char *folder, const char 
     if (!compiled) {
         char log[512] = "";
         gl.GetShaderInfoLog(shader, sizeof log, NULL, log);
-        snprintf(error, error_size, "%s/%s: %s", folder, name, log);
+        fault_set(fault, "%s/%s: %s", folder, name, log);
     }
     gl.AttachShader(program, shader);
     gl.DeleteShader(shader);
@@ -74,8 +74,7 @@ static bool compile(GLuint program, GLenum kind, const char *folder, const char 
     return compiled;
 }
 
-static GLuint find_program(replayer *r, const char *folder, const char *vertex, const char *fragment, char *error,
-                           size_t error_size)
+static GLuint find_program(replayer *r, const char *folder, const char *vertex, const char *fragment, failure *fault)
 {
     char name[2 * NAME_LENGTH];
     snprintf(name, sizeof name, "%.60s %.60s", vertex, fragment);
@@ -84,14 +83,14 @@ static GLuint find_program(replayer *r, const char *folder, const char *vertex, 
             return r->programs[i].program;
     const GLuint program = gl.CreateProgram();
     GLint linked = GL_FALSE;
-    if (compile(program, GL_VERTEX_SHADER, folder, vertex, error, error_size) &&
-        compile(program, GL_FRAGMENT_SHADER, folder, fragment, error, error_size)) {
+    if (compile(program, GL_VERTEX_SHADER, folder, vertex, fault) &&
+        compile(program, GL_FRAGMENT_SHADER, folder, fragment, fault)) {
         gl.BindAttribLocation(program, 0, "position");
         gl.BindAttribLocation(program, 1, "uv");
         gl.LinkProgram(program);
         gl.GetProgramiv(program, GL_LINK_STATUS, &linked);
         if (!linked)
-            snprintf(error, error_size, "%s: the program of %s does not link", folder, name);
+            fault_set(fault, "%s: the program of %s does not link", folder, name);
     }
     if (!linked) {
         gl.DeleteProgram(program);
@@ -105,7 +104,7 @@ static GLuint find_program(replayer *r, const char *folder, const char *vertex, 
     return program;
 }
 
-static bool add_texture(replay *p, const char *folder, const char *line, char *error, size_t error_size)
+static bool add_texture(replay *p, const char *folder, const char *line, failure *fault)
 {
     char format[16], file[NAME_LENGTH];
     int linear, repeat, n = p->texture_count;
@@ -119,11 +118,11 @@ static bool add_texture(replay *p, const char *folder, const char *line, char *e
             continue;
         char *data = NULL;
         size_t size = 0;
-        if (strcmp(file, "-") != 0 && !(data = read_file(folder, file, &size, error, error_size)))
+        if (strcmp(file, "-") != 0 && !(data = read_file(folder, file, &size, fault)))
             return false;
         if (data && size < formats[i].bytes * (size_t)p->sizes[n][0] * (size_t)p->sizes[n][1]) {
-            snprintf(error, error_size, "%s/%s: %zu bytes are too few for %dx%d texels of %s", folder, file, size,
-                     p->sizes[n][0], p->sizes[n][1], format);
+            fault_set(fault, "%s/%s: %zu bytes are too few for %dx%d texels of %s", folder, file, size, p->sizes[n][0],
+                      p->sizes[n][1], format);
             free(data);
             return false;
         }
@@ -254,15 +253,15 @@ static bool add_uniform(const replayer *r, replay *p, char *line)
     return true;
 }
 
-static bool take_line(replayer *r, replay *p, const char *folder, char *line, char *error, size_t error_size)
+static bool take_line(replayer *r, replay *p, const char *folder, char *line, failure *fault)
 {
     float *clear = p->clear;
     char names[2][NAME_LENGTH];
     int number;
     if (strncmp(line, "texture ", 8) == 0)
-        return add_texture(p, folder, line + 8, error, error_size);
+        return add_texture(p, folder, line + 8, fault);
     if (sscanf(line, "program %63s %63s", names[0], names[1]) == 2 && p->program_count < MAX_PROGRAMS)
-        return (p->programs[p->program_count++] = find_program(r, folder, names[0], names[1], error, error_size)) != 0;
+        return (p->programs[p->program_count++] = find_program(r, folder, names[0], names[1], fault)) != 0;
     if (sscanf(line, "clear %d %f %f %f %f", &number, &clear[0], &clear[1], &clear[2], &clear[3]) == 5) {
         p->cleared = true;
         return true;
@@ -283,22 +282,20 @@ static bool take_line(replayer *r, replay *p, const char *folder, char *line, ch
     return sscanf(line, "output %d", &p->output) == 1 && p->output >= 0 && p->output < p->texture_count;
 }
 
-replay *replay_load(replayer *r, const char *folder, const char *key, char *error, size_t error_size)
+replay *replay_load(replayer *r, const char *folder, const char *key, failure *fault)
 {
     char name[256];
     snprintf(name, sizeof name, "%s.peer", key);
-    char *text = read_file(folder, name, NULL, error, error_size);
+    char *text = read_file(folder, name, NULL, fault);
     replay *p = text ? calloc(1, sizeof *p) : NULL;
     bool good = p != NULL;
-    if (good)
-        error[0] = '\0';
     for (char *line = text, *next; good && line && *line; line = next) {
         next = strchr(line, '\n');
         if (next)
             *next++ = '\0';
-        good = take_line(r, p, folder, line, error, error_size);
-        if (!good && !error[0])
-            snprintf(error, error_size, "%s/%s: this line is not understood: %.100s", folder, name, line);
+        good = take_line(r, p, folder, line, fault);
+        if (!good)
+            fault_set(fault, "%s/%s: this line is not understood: %.100s", folder, name, line);
     }
     free(text);
     if (good)

@@ -30,7 +30,7 @@ static void add_config(table *t, const bench_config *c)
     table_number(t, effect ? (double)c->settings.blur_rounds : (double)NAN);
 }
 
-bool report_accuracy(const results *r, char *error, size_t error_size)
+bool report_accuracy(const results *r, failure *fault)
 {
     table t;
     if (!table_begin(&t, r->options, r->context, "accuracy",
@@ -39,7 +39,7 @@ bool report_accuracy(const results *r, char *error, size_t error_size)
                      "default_rmse "
                      "default_mean own_exponent own_rmse flat_rmse flat_mean median_ms p95_ms cpu_ms normals_ms "
                      "distance_ms estimate_ms blur_ms upsample_ms",
-                     error, error_size))
+                     fault))
         return false;
     for (int i = 0; i < r->config_count; i++) {
         const config_result *c = &r->configs[i];
@@ -56,14 +56,14 @@ bool report_accuracy(const results *r, char *error, size_t error_size)
             table_end_row(&t);
         }
     }
-    return table_end(&t, error, error_size);
+    return table_end(&t, fault);
 }
 
-bool report_scenes(const results *r, char *error, size_t error_size)
+bool report_scenes(const results *r, failure *fault)
 {
     table t;
     if (!table_begin(&t, r->options, r->context, "scenes",
-                     "scene use radius triangles coverage edge_share tilted_share", error, error_size))
+                     "scene use radius triangles coverage edge_share tilted_share", fault))
         return false;
     for (int v = 0; v < r->view_count; v++) {
         const bench_view *b = &r->views[v];
@@ -71,13 +71,13 @@ bool report_scenes(const results *r, char *error, size_t error_size)
         table_text(&t, r->scenes[v].judging ? "judging" : "tuning");
         TABLE_END_ROW(&t, (double)b->radius, b->triangles, b->coverage, b->edge_share, b->tilted_share);
     }
-    return table_end(&t, error, error_size);
+    return table_end(&t, fault);
 }
 
-static bool report_oracle(const results *r, char *error, size_t error_size)
+static bool report_oracle(const results *r, failure *fault)
 {
     table t;
-    if (!table_begin(&t, r->options, r->context, "oracle", "scene thickness best rmse", error, error_size))
+    if (!table_begin(&t, r->options, r->context, "oracle", "scene thickness best rmse", fault))
         return false;
     for (int v = 0; v < r->view_count; v++) {
         for (int k = 0; k < THICKNESS_COUNT; k++) {
@@ -90,16 +90,16 @@ static bool report_oracle(const results *r, char *error, size_t error_size)
             TABLE_END_ROW(&t, r->oracle.rmse[v][k]);
         }
     }
-    return table_end(&t, error, error_size);
+    return table_end(&t, fault);
 }
 
-bool report_split(const results *r, char *error, size_t error_size)
+bool report_split(const results *r, failure *fault)
 {
     static const char *const steps[STEP_COUNT] = {"layer", "estimator", "half size", "noise", "denoising", "contrast"};
     table t;
     if (r->split_count == 0)
         return true;
-    if (!table_begin(&t, r->options, r->context, "split", "configuration scene step alone total", error, error_size))
+    if (!table_begin(&t, r->options, r->context, "split", "configuration scene step alone total", fault))
         return false;
     for (int i = 0; i < r->split_count; i++) {
         const split_result *s = &r->splits[i];
@@ -112,5 +112,5 @@ bool report_split(const results *r, char *error, size_t error_size)
             }
         }
     }
-    return table_end(&t, error, error_size) && report_oracle(r, error, error_size);
+    return table_end(&t, fault) && report_oracle(r, fault);
 }

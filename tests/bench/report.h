@@ -8,8 +8,8 @@
 #include "results.h"
 
 /* accuracy.tsv: one row for each configuration and scene. */
-bool report_accuracy(const results *r, char *error, size_t error_size);
+bool report_accuracy(const results *r, failure *fault);
 /* scenes.tsv: one row a scene. */
-bool report_scenes(const results *r, char *error, size_t error_size);
+bool report_scenes(const results *r, failure *fault);
 /* split.tsv: one row for each split configuration, scene and step; oracle.tsv: for each scene and thickness. */
-bool report_split(const results *r, char *error, size_t error_size);
+bool report_split(const results *r, failure *fault);

@@ -133,13 +133,13 @@ camera bench_scene_camera(const bench_scene *b, const scene *s, float aspect)
 }
 
 scene *bench_scene_open(const bench_scene *b, int width, int height, scene_view *out_view, float *out_radius,
-                        char *error, size_t error_size)
+                        failure *fault)
 {
-    scene *s = b->path[0] ? scene_load(b->path, error, error_size) : scene_make(b->name, error, error_size);
+    scene *s = b->path[0] ? scene_load(b->path, fault) : scene_make(b->name, fault);
     if (!s)
         return NULL;
     const camera c = bench_scene_camera(b, s, (float)width / (float)height);
-    if (!camera_check(&c, error, error_size)) {
+    if (!camera_check(&c, fault)) {
         scene_destroy(s);
         return NULL;
     }

@@ -27,4 +27,4 @@ camera bench_scene_camera(const bench_scene *b, const scene *s, float aspect);
 
 /* Loads it and gives the view at that size. NULL, with one line in `error`, on failure. */
 scene *bench_scene_open(const bench_scene *b, int width, int height, scene_view *out_view, float *out_radius,
-                        char *error, size_t error_size);
+                        failure *fault);

@@ -149,7 +149,7 @@ static bool measure_oracle(splitter *s)
 }
 
 /* One view, one seed, one technique. */
-static bool run_variants(splitter *s, effects *e, int technique, int view, int seed, char *error, size_t error_size)
+static bool run_variants(splitter *s, effects *e, int technique, int view, int seed, failure *fault)
 {
     const results *r = s->results;
     const split_result *split = &r->splits[technique];
@@ -165,7 +165,7 @@ static bool run_variants(splitter *s, effects *e, int technique, int view, int s
                                 .settings = &settings,
                                 .radius = on->radius,
                                 .accumulates = v == FULL && settings.technique == GLSSAO_HORIZON};
-        if (!effects_run(e, s->reader, &job, s->picture, error, error_size))
+        if (!effects_run(e, s->reader, &job, s->picture, fault))
             return false;
         for (int i = 0; i < pixels->count; i++) {
             const float value = s->picture[pixels->index[i]];
@@ -178,7 +178,7 @@ static bool run_variants(splitter *s, effects *e, int technique, int view, int s
     return true;
 }
 
-static bool run_seeds(splitter *s, context *c, char *error, size_t error_size)
+static bool run_seeds(splitter *s, context *c, failure *fault)
 {
     const results *r = s->results;
     for (int seed = 0; seed < r->options->split_seeds; seed++) {
@@ -191,7 +191,7 @@ static bool run_seeds(splitter *s, context *c, char *error, size_t error_size)
         progress_show("split: seed %d/%d", seed + 1, r->options->split_seeds);
         for (int t = 0; ran && t < r->split_count; t++)
             for (int v = 0; ran && v < r->view_count; v++)
-                ran = run_variants(s, &e, t, v, seed, error, error_size);
+                ran = run_variants(s, &e, t, v, seed, fault);
         effects_destroy(&e);
         if (!ran)
             return false;
@@ -276,7 +276,7 @@ static bool finish(splitter *s)
     return true;
 }
 
-bool split_measure(results *r, context *c, map_reader *m, char *error, size_t error_size)
+bool split_measure(results *r, context *c, map_reader *m, failure *fault)
 {
     splitter s = {.results = r, .reader = m};
     for (int t = 0; t < BENCH_TECHNIQUES; t++)
@@ -285,8 +285,8 @@ bool split_measure(results *r, context *c, map_reader *m, char *error, size_t er
             if (of && (level == GLSSAO_HIGH || t == GLSSAO_HORIZON))
                 r->splits[r->split_count++] = (split_result){.of = of};
         }
-    snprintf(error, error_size, "out of memory, or of threads");
-    const bool done = allocate(&s) && measure_oracle(&s) && run_seeds(&s, c, error, error_size) && finish(&s);
+    const bool done = (allocate(&s) && measure_oracle(&s) && run_seeds(&s, c, fault) && finish(&s)) ||
+                      fault_set(fault, "out of memory, or of threads");
     progress_clear();
     release(&s);
     return done;

@@ -9,5 +9,5 @@
 
 /* Fills r->oracle and r->splits for each technique whose default level was measured (its exponent is used). False, with
  * one line in `error`; split_destroy is due in either case. */
-bool split_measure(results *r, context *c, map_reader *m, char *error, size_t error_size);
+bool split_measure(results *r, context *c, map_reader *m, failure *fault);
 void split_destroy(results *r);

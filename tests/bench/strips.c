@@ -114,7 +114,7 @@ static void draw_panel(canvas *c, const bench_view *v, const panel *p, int left,
 }
 
 static bool draw_strip(const bench_view *v, const config_result *c, const float *as_is, const float *plain,
-                       const char *path, char *error, size_t error_size)
+                       const char *path, failure *fault)
 {
     const panel panels[] = {
         {v->truth.accessibility, 1, false, 0, 0}, {as_is, 1, false, 1, 0},           {as_is, 1, true, 2, 0},
@@ -124,28 +124,24 @@ static bool draw_strip(const bench_view *v, const config_result *c, const float 
     canvas image = {.width = COLUMNS * (wide + GAP) - GAP, .height = rows * (high + GAP) - GAP + FOOT};
     const size_t bytes = 3 * (size_t)image.width * (size_t)image.height;
     image.rgb = malloc(bytes);
-    if (!image.rgb) {
-        snprintf(error, error_size, "out of memory");
-        return false;
-    }
+    if (!image.rgb)
+        return fault_set_memory(fault);
     memset(image.rgb, 255, bytes);
     for (int i = 0; i < count; i++)
         draw_panel(&image, v, &panels[i], panels[i].column * (wide + GAP),
                    FOOT + (rows - 1 - panels[i].row) * (high + GAP));
     draw_scale(&image, 2 * (wide + GAP), wide);
-    const bool written = picture_write_png(path, image.width, image.height, 3, image.rgb, error, error_size);
+    const bool written = picture_write_png(path, image.width, image.height, 3, image.rgb, fault);
     free(image.rgb);
     return written;
 }
 
-bool strips_write(const results *r, effects *e, map_reader *m, char *error, size_t error_size)
+bool strips_write(const results *r, effects *e, map_reader *m, failure *fault)
 {
     const size_t count = (size_t)m->width * (size_t)m->height;
     float *as_is = malloc(2 * count * sizeof *as_is);
-    if (!as_is) {
-        snprintf(error, error_size, "out of memory");
-        return false;
-    }
+    if (!as_is)
+        return fault_set_memory(fault);
     float *plain = as_is + count;
     bool written = true;
     for (int k = 0; written && k < r->config_count; k++) {
@@ -157,9 +153,9 @@ bool strips_write(const results *r, effects *e, map_reader *m, char *error, size
             char path[2048];
             snprintf(path, sizeof path, "%s/strip-%s-%s.png", r->options->out, r->views[i].name,
                      peer ? c->config.id : bench_technique_name(technique));
-            written = errors_run(r, &c->config, i, false, e, m, as_is, error, error_size) &&
-                      errors_run(r, &c->config, i, true, e, m, plain, error, error_size) &&
-                      draw_strip(&r->views[i], c, as_is, plain, path, error, error_size);
+            written = errors_run(r, &c->config, i, false, e, m, as_is, fault) &&
+                      errors_run(r, &c->config, i, true, e, m, plain, fault) &&
+                      draw_strip(&r->views[i], c, as_is, plain, path, fault);
         }
     }
     free(as_is);
@@ -208,7 +204,7 @@ static void draw_place(canvas *c, const bench_view *v, const float *picture, int
     }
 }
 
-bool strips_write_worst(const results *r, effects *e, map_reader *m, char *error, size_t error_size)
+bool strips_write_worst(const results *r, effects *e, map_reader *m, failure *fault)
 {
     const config_result *c = results_level(r, GLSSAO_HORIZON, GLSSAO_HIGH);
     if (!c || m->width < PLACE_WIDTH || m->height < PLACE_HEIGHT)
@@ -222,15 +218,15 @@ bool strips_write_worst(const results *r, effects *e, map_reader *m, char *error
     if (made)
         memset(image.rgb, 255, bytes);
     else
-        snprintf(error, error_size, "out of memory");
+        fault_set_memory(fault);
     for (int i = 0; made && i < r->view_count; i++) {
-        made = errors_run(r, &c->config, i, false, e, m, picture, error, error_size);
+        made = errors_run(r, &c->config, i, false, e, m, picture, fault);
         if (made)
             draw_place(&image, &r->views[i], picture, i / rows * block, (rows - 1 - i % rows) * (PLACE_HEIGHT + GAP));
     }
     char path[2048];
     snprintf(path, sizeof path, "%s/worst-horizon.png", r->options->out);
-    made = made && picture_write_png(path, image.width, image.height, 3, image.rgb, error, error_size);
+    made = made && picture_write_png(path, image.width, image.height, 3, image.rgb, fault);
     free(image.rgb);
     free(picture);
     return made;

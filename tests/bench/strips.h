@@ -9,9 +9,9 @@
 
 /* strip-SCENE-NAME.png in the output folder, for the default level of every technique and for every peer: truth,
  * result, error. For contrast techniques and peers a second row has result and error with the best exponent. */
-bool strips_write(const results *r, effects *e, map_reader *m, char *error, size_t error_size);
+bool strips_write(const results *r, effects *e, map_reader *m, failure *fault);
 
 /* worst-horizon.png in the output folder. For each scene, down the left half and then the right: truth, result and
  * error at the place where the level `high` of horizon is worst, in full size. Nothing where pictures are smaller than
  * a place. */
-bool strips_write_worst(const results *r, effects *e, map_reader *m, char *error, size_t error_size);
+bool strips_write_worst(const results *r, effects *e, map_reader *m, failure *fault);

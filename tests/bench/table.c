@@ -29,8 +29,7 @@ static void read_cpu(char out[128])
         fclose(f);
 }
 
-bool table_begin(table *t, const options *o, const context *c, const char *name, const char *columns, char *error,
-                 size_t error_size)
+bool table_begin(table *t, const options *o, const context *c, const char *name, const char *columns, failure *fault)
 {
     const uint32_t v = glssao_version();
     char cpu[128];
@@ -38,10 +37,8 @@ bool table_begin(table *t, const options *o, const context *c, const char *name,
     *t = (table){.file = NULL};
     snprintf(t->path, sizeof t->path, "%s/%s.tsv", o->out, name);
     t->file = fopen(t->path, "w");
-    if (!t->file) {
-        snprintf(error, error_size, "%s: %s", t->path, strerror(errno));
-        return false;
-    }
+    if (!t->file)
+        return fault_set(fault, "%s: %s", t->path, strerror(errno));
     fprintf(t->file, "# %s\n", o->command);
     fprintf(t->file, "# glssao=%u.%u.%u\tcpu=%s\tcores=%ld\tcontext=%s\tsoftware=%d\t", v >> 16, v >> 8 & 255, v & 255,
             cpu, sysconf(_SC_NPROCESSORS_ONLN), context_description(c), context_is_software(c));
@@ -85,11 +82,10 @@ void table_numbers(table *t, const double *values, size_t count)
         table_number(t, values[i]);
 }
 
-bool table_end(table *t, char *error, size_t error_size)
+bool table_end(table *t, failure *fault)
 {
     const bool written = !ferror(t->file);
     if (fclose(t->file) == 0 && written)
         return true;
-    snprintf(error, error_size, "%s: it could not be written in full", t->path);
-    return false;
+    return fault_set(fault, "%s: it could not be written in full", t->path);
 }

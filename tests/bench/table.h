@@ -19,8 +19,7 @@ typedef struct table {
 } table;
 
 /* Starts NAME.tsv in the output folder. `columns` are separated by spaces. False, with one line in `error`. */
-bool table_begin(table *t, const options *o, const context *c, const char *name, const char *columns, char *error,
-                 size_t error_size);
+bool table_begin(table *t, const options *o, const context *c, const char *name, const char *columns, failure *fault);
 void table_text(table *t, const char *value);
 void table_number(table *t, double value); /* not finite: an empty cell */
 void table_numbers(table *t, const double *values, size_t count);
@@ -30,4 +29,4 @@ void table_end_row(table *t);
     table_numbers(t, (const double[]){__VA_ARGS__}, sizeof((const double[]){__VA_ARGS__}) / sizeof(double))
 #define TABLE_END_ROW(t, ...) (TABLE_NUMBERS(t, __VA_ARGS__), table_end_row(t))
 /* Closes it; false, with one line in `error`, where it could not be written in full. */
-bool table_end(table *t, char *error, size_t error_size);
+bool table_end(table *t, failure *fault);

@@ -31,8 +31,7 @@ static shot take(fixture *f, const char *name, const camera *from, float radius,
     snprintf(b.name, sizeof b.name, "%s", name);
     snprintf(b.path, sizeof b.path, "%s/%s.glb", folder, name);
     const options o = {.size = {width, height}, .rays = rays};
-    if (!bench_view_create(&s.view, &b, &o, error, sizeof error) ||
-        !map_reader_create(&s.reader, width, height, error, sizeof error))
+    if (!bench_view_create(&s.view, &b, &o, FAULT(error)) || !map_reader_create(&s.reader, width, height, FAULT(error)))
         fail_msg("%s", error);
     s.picture = malloc((size_t)s.count * sizeof *s.picture);
     assert_non_null(s.picture);
@@ -53,7 +52,7 @@ static void shade(shot *s, int level, float radius, bool two_layers)
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)level);
     const effect_job job = {
         .gbuffer = two_layers ? &s->view.beyond : &s->view.gbuffer, .settings = &settings, .radius = radius};
-    if (!effects_run(&s->effects, &s->reader, &job, s->picture, error, sizeof error))
+    if (!effects_run(&s->effects, &s->reader, &job, s->picture, FAULT(error)))
         fail_msg("%s", error);
 }
 

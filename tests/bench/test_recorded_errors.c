@@ -88,13 +88,13 @@ static bool write_record(const char *path, const record *r)
     return written;
 }
 
-static bool measure_view(effects *e, map_reader *m, bench_view *v, float *picture, row *out, char *error)
+static bool measure_view(effects *e, map_reader *m, bench_view *v, float *picture, row *out, failure *fault)
 {
     memcpy(out->scene, v->name, sizeof out->scene);
     for (int level = 0; level < LEVELS; level++) {
         const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, (glssao_quality)level);
         const effect_job job = {.gbuffer = &v->gbuffer, .settings = &settings, .radius = v->radius};
-        if (!effects_run(e, m, &job, picture, error, ERROR_LENGTH))
+        if (!effects_run(e, m, &job, picture, fault))
             return false;
         const error_measure found = measure_error(picture, v->truth.accessibility, v->classes, (size_t)WIDTH * HEIGHT);
         if (found.nonfinite_share > 0)
@@ -107,18 +107,18 @@ static bool measure_view(effects *e, map_reader *m, bench_view *v, float *pictur
 }
 
 /* Measures every scene that is there. */
-static bool measure(const options *o, context *c, record *out, char *error)
+static bool measure(const options *o, context *c, record *out, failure *fault)
 {
     static bench_scene scenes[BENCH_SCENES_MAX];
     effects e = {.context = c, .width = WIDTH, .height = HEIGHT};
     map_reader m;
     float *picture = malloc((size_t)WIDTH * HEIGHT * sizeof *picture);
-    bool measured = map_reader_create(&m, WIDTH, HEIGHT, error, ERROR_LENGTH) && picture;
+    bool measured = map_reader_create(&m, WIDTH, HEIGHT, fault) && picture;
     const int count = bench_scenes_list(o, scenes);
     for (int i = 0; measured && i < count; i++) {
         bench_view v;
-        measured = bench_view_create(&v, &scenes[i], o, error, ERROR_LENGTH) &&
-                   measure_view(&e, &m, &v, picture, &out->rows[out->count++], error);
+        measured = bench_view_create(&v, &scenes[i], o, fault) &&
+                   measure_view(&e, &m, &v, picture, &out->rows[out->count++], fault);
         bench_view_destroy(&v);
     }
     effects_destroy(&e);
@@ -205,7 +205,7 @@ int main(int argc, char **argv)
     char error[ERROR_LENGTH] = "";
     static record now;
     context *c = context_create(&(context_options){.kind = CONTEXT_EGL}, error, sizeof error);
-    bool measured = c && gl_load(context_load, c, error, sizeof error) && measure(&o, c, &now, error);
+    bool measured = c && gl_load(context_load, c, error, sizeof error) && measure(&o, c, &now, FAULT(error));
     context_destroy(c);
     if (!measured || !has_built_ins(&now)) {
         fprintf(stderr, "test_recorded_errors: %s\n", error[0] ? error : "a built-in scene is missing");

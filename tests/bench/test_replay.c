@@ -81,7 +81,7 @@ static int remove_folder(void **state)
 static replay *load(replayer *r, const char *text)
 {
     write_text("key.peer", text);
-    return replay_load(r, folder, "key", error, sizeof error);
+    return replay_load(r, folder, "key", FAULT(error));
 }
 
 TEST_GL(passes_are_drawn_in_order)
@@ -99,10 +99,10 @@ TEST_GL(passes_are_drawn_in_order)
     gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 1, 1, 0, GL_RGBA, GL_FLOAT, one);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     replay_draw(r, p, &in);
-    assert_true(replay_read(p, WIDTH, HEIGHT, out, error, sizeof error));
+    assert_true(replay_read(p, WIDTH, HEIGHT, out, FAULT(error)));
     for (int i = 0; i < WIDTH * HEIGHT; i++) /* the first pass covers the left half and clears the rest to 0 */
         assert_true(fabsf(out[i] - (i % WIDTH < 4 ? 0.5f * 0.75f + 0.125f : 0.125f)) < 1e-3f);
-    assert_false(replay_read(p, WIDTH, WIDTH, out, error, sizeof error));
+    assert_false(replay_read(p, WIDTH, WIDTH, out, FAULT(error)));
     assert_non_null(strstr(error, "8x4"));
     replay_inputs_destroy(&in);
     replay_destroy(p);
@@ -136,7 +136,7 @@ TEST_GL(wrong_recordings_are_named)
 /* The name of the recording that a view wants, from the message that there is none. */
 static void find_name(peer_bench *b, const peer_view *v, char name[64])
 {
-    assert_null(peers_load(b, 0, v, error, sizeof error));
+    assert_null(peers_load(b, 0, v, FAULT(error)));
     const char *slash = strrchr(error, '/');
     if (!slash || sscanf(slash + 1, "%63[^:]", name) != 1 || !strstr(name, ".peer"))
         fail_msg("%s", error);
@@ -152,11 +152,11 @@ TEST(other_machines_find_recordings)
     g.view.clip_from_view[10] = other.view.clip_from_view[10] = -1.1f;
     g.view.clip_from_view[14] = other.view.clip_from_view[14] = -0.2f;
     find_name(&b, &v, name);
-    assert_false(peers_record(&b, (int[]){0}, 1, &v, 1, error, sizeof error));
+    assert_false(peers_record(&b, (int[]){0}, 1, &v, 1, FAULT(error)));
     assert_non_null(strstr(error, "no recording of three-gtao at 8x4"));
     write_text(name, "");
-    assert_true(peers_record(&b, (int[]){0}, 1, &v, 1, error, sizeof error));
-    assert_true(peers_record(&b, (int[]){0}, 1, &w, 1, error, sizeof error));
+    assert_true(peers_record(&b, (int[]){0}, 1, &v, 1, FAULT(error)));
+    assert_true(peers_record(&b, (int[]){0}, 1, &w, 1, FAULT(error)));
     snprintf(path, sizeof path, "%s/%s", folder, name);
     remove(path);
     other.view.view_from_world[2] = nextafterf(0.123456789f, 1);

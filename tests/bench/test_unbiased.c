@@ -59,7 +59,7 @@ TEST(tracer_is_unbiased)
         char error[256] = "";
         const trace_options options = {.radius = radius, .samples = RAYS, .seed = (uint32_t)seed};
         assert_true(trace_points(t, (const float(*)[3])positions, (const float(*)[3])normals, PIXELS, TRACE_COSINE, 0,
-                                 &options, picture, NULL, error, sizeof error));
+                                 &options, picture, NULL, FAULT(error)));
         sample_set_add(&traced, picture);
     }
     trace_scene_destroy(t);

@@ -19,10 +19,9 @@ enum { WARM_UP_FRAMES = 1, FRAMES_AHEAD = 3, ROWS = 2 + GLSSAO_PASS_COUNT }; /* 
 
 /* GPU time of a frame without timers around its passes, because those delay it; negative: not known. */
 static double untimed_frame_ms(effects *plain, const gbuffer *g, const glssao_frame *frame,
-                               const glssao_settings *settings, const glssao_settings *scaled, char *error,
-                               size_t error_size)
+                               const glssao_settings *settings, const glssao_settings *scaled, failure *fault)
 {
-    glssao_effect *effect = effects_get(plain, g, settings, error, error_size);
+    glssao_effect *effect = effects_get(plain, g, settings, fault);
     GLuint queries[2];
     GLuint64 at[2] = {0, 0};
     if (!effect)
@@ -45,10 +44,10 @@ static double untimed_frame_ms(effects *plain, const gbuffer *g, const glssao_fr
 
 /* values[row]: this frame's. */
 static bool time_frame(bool software, effects *e, effects *plain, const gbuffer *g, float radius, const bench_config *c,
-                       double values[ROWS], char *error, size_t error_size)
+                       double values[ROWS], failure *fault)
 {
     const glssao_settings *settings = &c->settings;
-    glssao_effect *effect = effects_get(e, g, settings, error, error_size);
+    glssao_effect *effect = effects_get(e, g, settings, fault);
     if (!effect)
         return false;
     const glssao_settings scaled = bench_scale_settings(settings, radius);
@@ -61,16 +60,14 @@ static bool time_frame(bool software, effects *e, effects *plain, const gbuffer 
     gl.Finish();
     values[0] = clock_wall_ms() - wall;
     values[1] = clock_cpu_ms() - cpu;
-    if (result != GLSSAO_OK) {
-        snprintf(error, error_size, "glssao_compute: %s", glssao_result_string(result));
-        return false;
-    }
+    if (result != GLSSAO_OK)
+        return fault_set(fault, "glssao_compute: %s", glssao_result_string(result));
     const glssao_stats stats = glssao_get_stats(effect);
     for (int i = 0; i < GLSSAO_PASS_COUNT; i++)
         /* A software rasteriser defers drawing past the queries, so their differences mean nothing. */
         values[2 + i] = software || stats.passes[i].gpu_ms < 0 ? NAN : stats.passes[i].gpu_ms;
     if (!software && stats.gpu_ms >= 0)
-        values[0] = untimed_frame_ms(plain, g, &frame, settings, &scaled, error, error_size);
+        values[0] = untimed_frame_ms(plain, g, &frame, settings, &scaled, fault);
     return values[0] >= 0;
 }
 
@@ -87,7 +84,7 @@ static timing summarise(double *values, int frames)
 
 /* g: without and with what lies beyond. values: for each configuration, ROWS rows of `frames`. */
 static bool take_turns(results *r, effects *e, effects *plain, const gbuffer g[2], float radius, double *values,
-                       char *error, size_t error_size)
+                       failure *fault)
 {
     const int frames = r->options->frames;
     for (int f = -WARM_UP_FRAMES; f < frames; f++) {
@@ -97,7 +94,7 @@ static bool take_turns(results *r, effects *e, effects *plain, const gbuffer g[2
             double row[ROWS];
             if (c->kind != BENCH_EFFECT)
                 continue;
-            if (!time_frame(r->software, e, plain, &g[c->inputs == INPUTS_BEYOND], radius, c, row, error, error_size))
+            if (!time_frame(r->software, e, plain, &g[c->inputs == INPUTS_BEYOND], radius, c, row, fault))
                 return false;
             for (int k = 0; f >= 0 && k < ROWS; k++)
                 values[((ptrdiff_t)i * ROWS + k) * frames + f] = row[k];
@@ -108,10 +105,10 @@ static bool take_turns(results *r, effects *e, effects *plain, const gbuffer g[2
 
 /* Adds what uploading and denoising a picture of rays takes, in the last of some frames. */
 static bool time_denoiser(const bench_config *c, effects *e, const gbuffer *g, const float *picture, float radius,
-                          timing *out, char *error, size_t error_size)
+                          timing *out, failure *fault)
 {
     const glssao_settings scaled = bench_scale_settings(&c->settings, radius);
-    glssao_effect *effect = effects_get(e, g, &c->settings, error, error_size);
+    glssao_effect *effect = effects_get(e, g, &c->settings, fault);
     glssao_frame frame = gbuffer_frame(g, false);
     bool done = effect != NULL;
     for (int f = -WARM_UP_FRAMES; done && f <= 0; f++) {
@@ -130,8 +127,8 @@ static bool time_denoiser(const bench_config *c, effects *e, const gbuffer *g, c
 }
 
 /* Ray tracing, once each: it takes long, and its times hardly vary. */
-static bool time_rays(results *r, effects *e, const gbuffer *g, const scene *s, float radius, int of_view, char *error,
-                      size_t error_size)
+static bool time_rays(results *r, effects *e, const gbuffer *g, const scene *s, float radius, int of_view,
+                      failure *fault)
 {
     for (int i = 0; i < r->config_count; i++) {
         const bench_config *c = &r->configs[i].config;
@@ -140,12 +137,11 @@ static bool time_rays(results *r, effects *e, const gbuffer *g, const scene *s, 
         const truth_request request = {.name = c->id, .radius = radius, .rays = c->rays, .seed = r->options->seed};
         bench_truth t;
         const double cpu = clock_cpu_ms();
-        const bool traced = truth_get(&request, s, &g->view, &t, error, error_size);
+        const bool traced = truth_get(&request, s, &g->view, &t, fault);
         timing *out = &r->configs[i].views[of_view].time;
         out->cpu_ms = clock_cpu_ms() - cpu;
         out->median_ms = out->p95_ms = t.seconds * 1e3;
-        const bool timed =
-            traced && (!c->denoised || time_denoiser(c, e, g, t.accessibility, radius, out, error, error_size));
+        const bool timed = traced && (!c->denoised || time_denoiser(c, e, g, t.accessibility, radius, out, fault));
         truth_destroy(&t);
         if (!timed)
             return false;
@@ -154,8 +150,7 @@ static bool time_rays(results *r, effects *e, const gbuffer *g, const scene *s, 
 }
 
 /* Whole frames with a few rays: read-back, tracing and upload included, the acceleration structure not. */
-static bool time_traced(results *r, effects *e, const gbuffer *g, float radius, int of_view, char *error,
-                        size_t error_size)
+static bool time_traced(results *r, effects *e, const gbuffer *g, float radius, int of_view, failure *fault)
 {
     const int frames = r->options->frames;
     double *values = calloc((size_t)frames * ROWS, sizeof *values);
@@ -166,14 +161,14 @@ static bool time_traced(results *r, effects *e, const gbuffer *g, float radius, 
         if (c->kind != BENCH_TRACED)
             continue;
         const glssao_settings scaled = bench_scale_settings(&c->settings, radius);
-        glssao_effect *effect = effects_get(e, g, &c->settings, error, error_size);
-        timed = effect && (t.embree || traced_open(&t, &r->scenes[of_view], e->width, e->height, error, error_size));
+        glssao_effect *effect = effects_get(e, g, &c->settings, fault);
+        timed = effect && (t.embree || traced_open(&t, &r->scenes[of_view], e->width, e->height, fault));
         for (int k = 0; timed && k < frames * ROWS; k++)
             values[k] = NAN;
         for (int f = -WARM_UP_FRAMES; timed && f < frames; f++) {
             gl.Finish();
             const double wall = clock_wall_ms(), cpu = clock_cpu_ms();
-            timed = traced_run(&t, g, c, radius, r->options->seed, error, error_size);
+            timed = traced_run(&t, g, c, radius, r->options->seed, fault);
             glssao_frame frame = gbuffer_frame(g, false);
             frame.rays_texture = t.rays.texture;
             timed = timed && glssao_compute(effect, &frame, &scaled) == GLSSAO_OK;
@@ -195,17 +190,17 @@ static bool time_traced(results *r, effects *e, const gbuffer *g, float radius, 
 }
 
 /* What a host with depth and normals pays for a peer: its passes, drawn from a recording. */
-static bool time_peers(results *r, const gbuffer *g, float radius, int of_view, char *error, size_t error_size)
+static bool time_peers(results *r, const gbuffer *g, float radius, int of_view, failure *fault)
 {
     const int frames = r->options->frames;
     const peer_view view = {g, radius, r->views[of_view].median_distance};
     double *values = calloc((size_t)frames * ROWS, sizeof *values);
     replay_inputs in;
-    bool timed = replay_inputs_create(&in, g) && values && peers_record_configs(r, &view, 1, error, error_size);
+    bool timed = replay_inputs_create(&in, g) && values && peers_record_configs(r, &view, 1, fault);
     for (int i = 0; timed && !r->options->record && i < r->config_count; i++) {
         if (r->configs[i].config.kind != BENCH_PEER)
             continue;
-        replay *p = peers_load(r->peers, r->configs[i].config.peer, &view, error, error_size);
+        replay *p = peers_load(r->peers, r->configs[i].config.peer, &view, fault);
         timed = p != NULL;
         for (int k = 0; timed && k < frames * ROWS; k++)
             values[k] = NAN;
@@ -230,27 +225,24 @@ static bool time_peers(results *r, const gbuffer *g, float radius, int of_view, 
     return timed;
 }
 
-bool times_measure(results *r, effects *e, int of_view, char *error, size_t error_size)
+bool times_measure(results *r, effects *e, int of_view, failure *fault)
 {
     const ptrdiff_t per_config = (ptrdiff_t)ROWS * r->options->frames;
     double *values = calloc((size_t)r->config_count * (size_t)per_config, sizeof *values);
-    if (!values) {
-        snprintf(error, error_size, "out of memory");
-        return false;
-    }
+    if (!values)
+        return fault_set_memory(fault);
     effects plain = *e;
     memset(plain.of, 0, sizeof plain.of);
     plain.no_timers = true;
     scene_view view;
     float radius;
     gbuffer g[2] = {{.depth = 0}};
-    scene *s = bench_scene_open(&r->scenes[of_view], e->width, e->height, &view, &radius, error, error_size);
-    const bool timed = s && gbuffer_draw(&g[0], s, &view, 0, error, error_size) &&
-                       gbuffer_draw(&g[1], s, &view, gbuffer_margin(e->width), error, error_size) &&
-                       take_turns(r, e, &plain, g, radius, values, error, error_size) &&
-                       time_rays(r, e, &g[0], s, radius, of_view, error, error_size) &&
-                       time_traced(r, e, &g[0], radius, of_view, error, error_size) &&
-                       (!r->peers || time_peers(r, &g[0], radius, of_view, error, error_size));
+    scene *s = bench_scene_open(&r->scenes[of_view], e->width, e->height, &view, &radius, fault);
+    const bool timed =
+        s && gbuffer_draw(&g[0], s, &view, 0, fault) &&
+        gbuffer_draw(&g[1], s, &view, gbuffer_margin(e->width), fault) &&
+        take_turns(r, e, &plain, g, radius, values, fault) && time_rays(r, e, &g[0], s, radius, of_view, fault) &&
+        time_traced(r, e, &g[0], radius, of_view, fault) && (!r->peers || time_peers(r, &g[0], radius, of_view, fault));
     effects_destroy(&plain);
     for (int i = 0; timed && i < r->config_count; i++) {
         if (r->configs[i].config.kind == BENCH_EFFECT)

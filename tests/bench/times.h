@@ -8,4 +8,4 @@
 #include "results.h"
 
 /* Times every configuration on one of the scenes, at the options' time_size. False, with one line in `error`. */
-bool times_measure(results *r, effects *e, int of_view, char *error, size_t error_size);
+bool times_measure(results *r, effects *e, int of_view, failure *fault);

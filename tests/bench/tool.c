@@ -11,20 +11,20 @@ enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2 };
 int tool_begin(const char *name, int argc, char **argv, options *out)
 {
     char error[4096] = "";
-    const options_result parsed = options_parse(argc, argv, out, error, sizeof error);
+    const options_result parsed = options_parse(argc, argv, out, FAULT(error));
     if (parsed == OPTIONS_WRONG)
         fprintf(stderr, "%s: %s\n", name, error);
     return parsed == OPTIONS_RUN ? -1 : parsed == OPTIONS_WRONG ? EXIT_USAGE : EXIT_DONE;
 }
 
-context *tool_open(const options *o, char *error, size_t error_size)
+context *tool_open(const options *o, failure *fault)
 {
     if (!make_folder(o->out)) {
-        snprintf(error, error_size, "%s: no such folder can be made", o->out);
+        fault_set(fault, "%s: no such folder can be made", o->out);
         return NULL;
     }
-    context *c = context_create(&(context_options){.kind = (context_kind)o->context}, error, error_size);
-    if (!c || !gl_load(context_load, c, error, error_size)) {
+    context *c = context_create(&(context_options){.kind = (context_kind)o->context}, fault->text, fault->size);
+    if (!c || !gl_load(context_load, c, fault->text, fault->size)) {
         context_destroy(c);
         return NULL;
     }

@@ -11,7 +11,7 @@
 int tool_begin(const char *name, int argc, char **argv, options *out);
 
 /* Makes the output folder, and a context with its functions in `gl`. NULL, with one line in `error`, on failure. */
-context *tool_open(const options *o, char *error, size_t error_size);
+context *tool_open(const options *o, failure *fault);
 
 /* Prints the error of a run that failed. Returns the code to exit with. */
 int tool_end(const char *name, bool done, const char *error);

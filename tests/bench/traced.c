@@ -3,15 +3,15 @@
 
 #include "clock.h"
 
-bool traced_open(host_rays *t, const bench_scene *b, int width, int height, char *error, size_t error_size)
+bool traced_open(host_rays *t, const bench_scene *b, int width, int height, failure *fault)
 {
     scene_view view;
     float radius;
-    *t = (host_rays){.scene = bench_scene_open(b, width, height, &view, &radius, error, error_size)};
+    *t = (host_rays){.scene = bench_scene_open(b, width, height, &view, &radius, fault)};
     const double start = clock_cpu_ms();
-    t->embree = t->scene ? trace_scene_create(t->scene, error, error_size) : NULL;
+    t->embree = t->scene ? trace_scene_create(t->scene, fault) : NULL;
     t->build_ms = clock_cpu_ms() - start;
-    return t->embree && map_reader_create(&t->draws, 16, 16, error, error_size);
+    return t->embree && map_reader_create(&t->draws, 16, 16, fault);
 }
 
 void traced_close(host_rays *t)
@@ -23,8 +23,7 @@ void traced_close(host_rays *t)
     *t = (host_rays){0};
 }
 
-bool traced_run(host_rays *t, const gbuffer *g, const bench_config *c, float radius, uint32_t seed, char *error,
-                size_t error_size)
+bool traced_run(host_rays *t, const gbuffer *g, const bench_config *c, float radius, uint32_t seed, failure *fault)
 {
     const rays_job job = {.renderer = t->draws.renderer,
                           .depth = g->depth,
@@ -33,5 +32,5 @@ bool traced_run(host_rays *t, const gbuffer *g, const bench_config *c, float rad
                           .margin = g->margin,
                           .step = c->settings.half_resolution ? 2 : 1,
                           .options = {.radius = radius, .samples = c->rays, .seed = seed, .adaptive = c->adaptive}};
-    return rays_trace(&t->rays, t->embree, &job, &(failure){.text = error, .size = error_size});
+    return rays_trace(&t->rays, t->embree, &job, fault);
 }

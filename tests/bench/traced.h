@@ -18,9 +18,8 @@ typedef struct host_rays {
 } host_rays;
 
 /* False, with one line in `error`; traced_close is due in either case. */
-bool traced_open(host_rays *t, const bench_scene *b, int width, int height, char *error, size_t error_size);
+bool traced_open(host_rays *t, const bench_scene *b, int width, int height, failure *fault);
 void traced_close(host_rays *t);
 
 /* Reads surfaces back, traces the rays of the configuration and uploads them: t->rays.texture. */
-bool traced_run(host_rays *t, const gbuffer *g, const bench_config *c, float radius, uint32_t seed, char *error,
-                size_t error_size);
+bool traced_run(host_rays *t, const gbuffer *g, const bench_config *c, float radius, uint32_t seed, failure *fault);

@@ -106,8 +106,8 @@ static bool read_cached(const char *truth_path, const char *mask_path, const sce
 {
     char ignored[256];
     int w, h, channels, mask_w, mask_h;
-    out->accessibility = picture_read_pfm(truth_path, &w, &h, &channels, ignored, sizeof ignored);
-    uint8_t *mask = picture_read_png(mask_path, &mask_w, &mask_h, ignored, sizeof ignored);
+    out->accessibility = picture_read_pfm(truth_path, &w, &h, &channels, FAULT(ignored));
+    uint8_t *mask = picture_read_png(mask_path, &mask_w, &mask_h, FAULT(ignored));
     const bool good = out->accessibility && mask && w == view->width && h == view->height && channels == 1 &&
                       mask_w == w && mask_h == h;
     if (good) {
@@ -124,20 +124,17 @@ static bool read_cached(const char *truth_path, const char *mask_path, const sce
 }
 
 static bool write_cached(const char *truth_path, const char *mask_path, const scene_view *view, const bench_truth *t,
-                         char *error, size_t error_size)
+                         failure *fault)
 {
     const size_t count = (size_t)view->width * (size_t)view->height;
     uint8_t *mask = malloc(count);
-    if (!mask) {
-        snprintf(error, error_size, "out of memory");
-        return false;
-    }
+    if (!mask)
+        return fault_set_memory(fault);
     for (size_t i = 0; i < count; i++)
         mask[i] = t->foreground[i] ? 255 : 0;
     /* The mask first, so that a truth that exists is complete. */
-    const bool written =
-        picture_write_png(mask_path, view->width, view->height, 1, mask, error, error_size) &&
-        picture_write_pfm(truth_path, view->width, view->height, 1, t->accessibility, error, error_size);
+    const bool written = picture_write_png(mask_path, view->width, view->height, 1, mask, fault) &&
+                         picture_write_pfm(truth_path, view->width, view->height, 1, t->accessibility, fault);
     free(mask);
     return written;
 }
@@ -147,26 +144,22 @@ static void show_progress(double done, void *user)
     progress_show("tracing %s: %3.0f %%", (const char *)user, 100 * done);
 }
 
-static bool trace(const truth_request *r, const scene *s, const scene_view *view, bench_truth *out, char *error,
-                  size_t error_size)
+static bool trace(const truth_request *r, const scene *s, const scene_view *view, bench_truth *out, failure *fault)
 {
     const size_t count = (size_t)view->width * (size_t)view->height;
     char name[128];
     snprintf(name, sizeof name, "%s", r->name);
     out->accessibility = malloc(count * sizeof *out->accessibility);
     out->foreground = malloc(count);
-    if (!out->accessibility || !out->foreground) {
-        snprintf(error, error_size, "out of memory");
-        return false;
-    }
-    trace_scene *t = trace_scene_create(s, error, error_size);
+    if (!out->accessibility || !out->foreground)
+        return fault_set_memory(fault);
+    trace_scene *t = trace_scene_create(s, fault);
     if (!t)
         return false;
     const trace_options options = {
         .radius = r->radius, .samples = r->rays, .seed = r->seed, .progress = show_progress, .progress_user = name};
     trace_stats stats = {0, 0};
-    const bool traced =
-        trace_accessibility(t, view, &options, out->accessibility, out->foreground, &stats, error, error_size);
+    const bool traced = trace_accessibility(t, view, &options, out->accessibility, out->foreground, &stats, fault);
     progress_clear();
     trace_scene_destroy(t);
     out->rays = stats.rays;
@@ -176,67 +169,63 @@ static bool trace(const truth_request *r, const scene *s, const scene_view *view
 
 /* The path of a cached file, and its folder. */
 static bool find_cached(const truth_request *r, const scene *s, const scene_view *view, const char *ending,
-                        char out[PATH_LENGTH], char *error, size_t error_size)
+                        char out[PATH_LENGTH], failure *fault)
 {
     snprintf(out, PATH_LENGTH, "%s/%s-%016" PRIx64 "%s", r->cache, r->name, hash_request(r, s, view), ending);
     if (make_folder(r->cache))
         return true;
-    snprintf(error, error_size, "%s: no such folder can be made", r->cache);
-    return false;
+    return fault_set(fault, "%s: no such folder can be made", r->cache);
 }
 
-static float *trace_open(const truth_request *r, const scene *s, const scene_view *view, char *error, size_t error_size)
+static float *trace_open(const truth_request *r, const scene *s, const scene_view *view, failure *fault)
 {
     char name[128];
     snprintf(name, sizeof name, "%s", r->name);
     const trace_options options = {
         .radius = r->radius, .samples = r->rays, .seed = r->seed, .progress = show_progress, .progress_user = name};
     float(*out)[3] = malloc((size_t)view->width * (size_t)view->height * sizeof *out);
-    trace_scene *t = out ? trace_scene_create(s, error, error_size) : NULL;
-    const bool traced = t && trace_open_directions(t, view, &options, out, NULL, error, error_size);
+    trace_scene *t = out ? trace_scene_create(s, fault) : NULL;
+    const bool traced = t && trace_open_directions(t, view, &options, out, NULL, fault);
     progress_clear();
     trace_scene_destroy(t);
     if (!out)
-        snprintf(error, error_size, "out of memory");
+        fault_set_memory(fault);
     if (traced)
         return *out;
     free(out);
     return NULL;
 }
 
-float *truth_get_open(const truth_request *r, const scene *s, const scene_view *view, char *error, size_t error_size)
+float *truth_get_open(const truth_request *r, const scene *s, const scene_view *view, failure *fault)
 {
     char path[PATH_LENGTH], ignored[256];
     int width, height, channels;
     if (!r->cache)
-        return trace_open(r, s, view, error, error_size);
-    if (!find_cached(r, s, view, "-open.pfm", path, error, error_size))
+        return trace_open(r, s, view, fault);
+    if (!find_cached(r, s, view, "-open.pfm", path, fault))
         return NULL;
-    float *known = picture_read_pfm(path, &width, &height, &channels, ignored, sizeof ignored);
+    float *known = picture_read_pfm(path, &width, &height, &channels, FAULT(ignored));
     if (known && width == view->width && height == view->height && channels == 3)
         return known;
     free(known);
-    float *traced = trace_open(r, s, view, error, error_size);
-    if (traced && picture_write_pfm(path, view->width, view->height, 3, traced, error, error_size))
+    float *traced = trace_open(r, s, view, fault);
+    if (traced && picture_write_pfm(path, view->width, view->height, 3, traced, fault))
         return traced;
     free(traced);
     return NULL;
 }
 
-bool truth_get(const truth_request *r, const scene *s, const scene_view *view, bench_truth *out, char *error,
-               size_t error_size)
+bool truth_get(const truth_request *r, const scene *s, const scene_view *view, bench_truth *out, failure *fault)
 {
     *out = (bench_truth){0};
     if (!r->cache)
-        return trace(r, s, view, out, error, error_size);
+        return trace(r, s, view, out, fault);
     char truth_path[PATH_LENGTH], mask_path[PATH_LENGTH];
-    if (!find_cached(r, s, view, ".pfm", truth_path, error, error_size) ||
-        !find_cached(r, s, view, "-mask.png", mask_path, error, error_size))
+    if (!find_cached(r, s, view, ".pfm", truth_path, fault) || !find_cached(r, s, view, "-mask.png", mask_path, fault))
         return false;
     if (read_cached(truth_path, mask_path, view, out))
         return true;
-    return trace(r, s, view, out, error, error_size) &&
-           write_cached(truth_path, mask_path, view, out, error, error_size);
+    return trace(r, s, view, out, fault) && write_cached(truth_path, mask_path, view, out, fault);
 }
 
 void truth_destroy(bench_truth *t)

@@ -27,11 +27,10 @@ typedef struct truth_request {
 } truth_request;
 
 /* False, with one line in `error`. truth_destroy is due in either case. */
-bool truth_get(const truth_request *r, const scene *s, const scene_view *view, bench_truth *out, char *error,
-               size_t error_size);
+bool truth_get(const truth_request *r, const scene *s, const scene_view *view, bench_truth *out, failure *fault);
 /* The mean open direction of each pixel (trace_open_directions), three floats. The caller frees it. NULL, with one line
  * in `error`, on failure. */
-float *truth_get_open(const truth_request *r, const scene *s, const scene_view *view, char *error, size_t error_size);
+float *truth_get_open(const truth_request *r, const scene *s, const scene_view *view, failure *fault);
 void truth_destroy(bench_truth *t);
 
 /* Makes the folder and those above it. */

@@ -132,7 +132,7 @@ static bool run(const glssao_settings *settings, fit_sum *fits)
     for (int v = 0; ran && v < t.view_count; v++) {
         memset(&fits[v], 0, sizeof fits[v]);
         const effect_job job = {.gbuffer = &t.views[v].gbuffer, .settings = settings, .radius = t.views[v].radius};
-        ran = effects_run(&e, &t.reader, &job, t.picture, t.error, sizeof t.error);
+        ran = effects_run(&e, &t.reader, &job, t.picture, FAULT(t.error));
         if (ran)
             fit_add(&fits[v], t.picture, t.views[v].truth.accessibility, t.views[v].classes, count);
     }
@@ -279,12 +279,12 @@ static int keep_tuning_scenes(int count)
 
 static bool prepare(void)
 {
-    t.context = tool_open(&t.options, t.error, sizeof t.error);
-    if (!t.context || !map_reader_create(&t.reader, t.options.size[0], t.options.size[1], t.error, sizeof t.error))
+    t.context = tool_open(&t.options, FAULT(t.error));
+    if (!t.context || !map_reader_create(&t.reader, t.options.size[0], t.options.size[1], FAULT(t.error)))
         return false;
     const int count = keep_tuning_scenes(bench_scenes_list(&t.options, t.scenes));
     for (; count > 0 && t.view_count < count; t.view_count++)
-        if (!bench_view_create(&t.views[t.view_count], &t.scenes[t.view_count], &t.options, t.error, sizeof t.error))
+        if (!bench_view_create(&t.views[t.view_count], &t.scenes[t.view_count], &t.options, FAULT(t.error)))
             return false;
     t.picture = malloc((size_t)t.options.size[0] * (size_t)t.options.size[1] * sizeof *t.picture);
     return count > 0 && t.picture != NULL;

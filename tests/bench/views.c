@@ -176,33 +176,30 @@ static bool flatten(scene *s)
 }
 
 /* Both truths; the flat one last, because it changes the scene. */
-static bool trace(bench_view *v, scene *s, const scene_view *view, const options *o, char *error, size_t error_size)
+static bool trace(bench_view *v, scene *s, const scene_view *view, const options *o, failure *fault)
 {
     const truth_request request = {
         .name = v->name, .cache = o->cache, .radius = v->radius, .rays = o->rays, .seed = o->seed};
-    if (!truth_get(&request, s, view, &v->truth, error, error_size))
+    if (!truth_get(&request, s, view, &v->truth, fault))
         return false;
     if (!o->flat)
         return true;
-    if (!flatten(s)) {
-        snprintf(error, error_size, "out of memory");
-        return false;
-    }
-    return truth_get(&request, s, view, &v->flat, error, error_size);
+    if (!flatten(s))
+        return fault_set_memory(fault);
+    return truth_get(&request, s, view, &v->flat, fault);
 }
 
-bool bench_view_create(bench_view *v, const bench_scene *b, const options *o, char *error, size_t error_size)
+bool bench_view_create(bench_view *v, const bench_scene *b, const options *o, failure *fault)
 {
     *v = (bench_view){.radius = 0};
     memcpy(v->name, b->name, sizeof v->name);
     scene_view view;
-    scene *s = bench_scene_open(b, o->size[0], o->size[1], &view, &v->radius, error, error_size);
+    scene *s = bench_scene_open(b, o->size[0], o->size[1], &view, &v->radius, fault);
     if (!s)
         return false;
     v->triangles = count_triangles(s);
-    bool made = gbuffer_draw(&v->gbuffer, s, &view, 0, error, error_size) &&
-                gbuffer_draw(&v->beyond, s, &view, gbuffer_margin(view.width), error, error_size) &&
-                trace(v, s, &view, o, error, error_size);
+    bool made = gbuffer_draw(&v->gbuffer, s, &view, 0, fault) &&
+                gbuffer_draw(&v->beyond, s, &view, gbuffer_margin(view.width), fault) && trace(v, s, &view, o, fault);
     scene_destroy(s);
     if (!made)
         return false;
@@ -213,7 +210,7 @@ bool bench_view_create(bench_view *v, const bench_scene *b, const options *o, ch
            perception_create(&v->perception, v->truth.accessibility, v->classes, view.width, view.height) &&
            grain_create(&v->grain, v->truth.accessibility, v->classes, view.width, view.height);
     if (!made)
-        snprintf(error, error_size, "out of memory");
+        fault_set_memory(fault);
     return made;
 }
 

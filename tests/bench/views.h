@@ -31,5 +31,5 @@ typedef struct bench_view {
 } bench_view;
 
 /* False, with one line in `error`; bench_view_destroy is due in either case. */
-bool bench_view_create(bench_view *v, const bench_scene *b, const options *o, char *error, size_t error_size);
+bool bench_view_create(bench_view *v, const bench_scene *b, const options *o, failure *fault);
 void bench_view_destroy(bench_view *v);

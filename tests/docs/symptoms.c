@@ -164,7 +164,7 @@ int main(int argc, char **argv)
                 *right = shade(s, right_map, m == GLASS || m == FACETS ? (mistake)m : NONE, true);
         char path[1024], error[256];
         snprintf(path, sizeof path, "%s/symptom-%s.png", argv[1], names[m]);
-        if (!picture_write_png(path, W, H, 3, rgb, error, sizeof error)) {
+        if (!picture_write_png(path, W, H, 3, rgb, FAULT(error))) {
             fprintf(stderr, "%s\n", error);
             ++failures;
         }

@@ -290,7 +290,7 @@ TEST_GL(each_scene_causes_these_calls)
     for (size_t i = 0; i < sizeof scene_rows / sizeof *scene_rows; ++i) {
         const struct scene_row *row = &scene_rows[i];
         const scene empty = {.name = ""};
-        scene *s = row->scene[0] ? scene_make(row->scene, error, sizeof error) : NULL;
+        scene *s = row->scene[0] ? scene_make(row->scene, FAULT(error)) : NULL;
         if (row->change)
             row->change(s);
         const gl_counts counts = count_frame(s ? s : &empty, row);
@@ -331,7 +331,7 @@ TEST_GL(normals_are_drawn_where_they_are_read)
 {
     fixture *f = *state;
     char error[1024] = "";
-    scene *s = scene_make("plane", error, sizeof error);
+    scene *s = scene_make("plane", FAULT(error));
     assert_true(drawn_normals(f, s, false) > 0);
     make_unlit(s);
     assert_int_equal(drawn_normals(f, s, false), 0);
@@ -344,11 +344,11 @@ TEST_GL(normals_are_drawn_where_they_are_read)
 TEST_GL(hidden_sky_is_not_drawn_again)
 {
     char error[1024];
-    scene *s = scene_make("cornell", error, sizeof error);
-    scene_renderer *r = scene_renderer_create(s, error, sizeof error);
+    scene *s = scene_make("cornell", FAULT(error));
+    scene_renderer *r = scene_renderer_create(s, FAULT(error));
     scene_lighting lighting = scene_default_lighting();
     const scene_draw_options plain = {.shadows = false};
-    assert_true(scene_renderer_configure(r, &lighting, &plain, error, sizeof error));
+    assert_true(scene_renderer_configure(r, &lighting, &plain, FAULT(error)));
     GLuint color, framebuffer, depth = fixture_depth_texture(GL_DEPTH_COMPONENT24, W, H, NULL);
     gl.GenTextures(1, &color);
     gl.BindTexture(GL_TEXTURE_2D, color);

@@ -16,7 +16,7 @@ static glssao_frame draw_scene(glssao_effect *effect, const scene *s, const came
 {
     char error[1024];
     const scene_view view = camera_view(c, W, H);
-    scene_renderer *renderer = scene_renderer_create(s, error, sizeof error);
+    scene_renderer *renderer = scene_renderer_create(s, FAULT(error));
     assert_non_null(renderer);
     assert_int_equal(glssao_begin_normals(effect, depth), GLSSAO_OK);
     scene_draw_normals(renderer, &view);
@@ -97,7 +97,7 @@ TEST_GL(built_in_scenes_look_the_same)
     static const char *const names[] = {"columns", "cornell", "steps", "plane"};
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
         char error[256];
-        scene *s = scene_make(names[i], error, sizeof error);
+        scene *s = scene_make(names[i], FAULT(error));
         assert_non_null(s);
         camera c = camera_frame_scene(s, (float)W / H);
         const double share = compare_scene(*state, s, &c, 0.5f, true, names[i]);
@@ -135,7 +135,7 @@ TEST_GL(shared_scenes_look_the_same)
         if (!f)
             continue;
         fclose(f);
-        scene *s = scene_load(path, error, sizeof error);
+        scene *s = scene_load(path, FAULT(error));
         assert_non_null(s);
         camera c = {.up = {0, 1, 0}, .fov_y_rad = views[i].fov_deg * 0.01745329252f};
         memcpy(c.eye, views[i].eye, sizeof c.eye);

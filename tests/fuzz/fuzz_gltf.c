@@ -42,7 +42,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         abort();
     char error[1024] = "";
     const scene_load_options little = {.memory_bytes = 64 << 20}; /* so that no run takes long */
-    scene *s = scene_load_with(path, &little, error, sizeof error);
+    scene *s = scene_load_with(path, &little, FAULT(error));
     const char *flaw = NULL;
     if (s)
         flaw = scene_find_flaw(s);

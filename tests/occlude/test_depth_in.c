@@ -19,7 +19,7 @@ static void write_pfm(const char *name, const float *values, int channels)
     float rows[3 * COUNT];
     memcpy(rows, values, (size_t)channels * COUNT * sizeof *rows);
     turn_over(rows, WIDTH, HEIGHT, channels); /* the writer's rows begin at the bottom */
-    assert_true(picture_write_pfm(name, WIDTH, HEIGHT, channels, rows, error, sizeof error));
+    assert_true(picture_write_pfm(name, WIDTH, HEIGHT, channels, rows, FAULT(error)));
 }
 
 /* Runs the program and returns its exit code; its last line on stderr is in `error`. */
@@ -40,7 +40,7 @@ static int run(const char *arguments)
 static void read_result(const char *name, float out[COUNT])
 {
     int width, height, channels;
-    float *pixels = picture_read_pfm(name, &width, &height, &channels, error, sizeof error);
+    float *pixels = picture_read_pfm(name, &width, &height, &channels, FAULT(error));
     if (!pixels)
         fail_msg("%s", error);
     assert_true(width == WIDTH && height == HEIGHT && channels == 1);
@@ -201,7 +201,7 @@ TEST(test_every_format_holds_the_result)
         assert_int_equal(run(arguments), 0);
         int width, height;
         SCOPED(memory)
-        uint8_t *pixels = picture_read_png(i == 2 ? "out" : "a.png", &width, &height, error, sizeof error);
+        uint8_t *pixels = picture_read_png(i == 2 ? "out" : "a.png", &width, &height, FAULT(error));
         assert_true(pixels && width == WIDTH && height == HEIGHT);
         for (int y = 0; y < HEIGHT; ++y)
             for (int x = 0; x < WIDTH; ++x) {

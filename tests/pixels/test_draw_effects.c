@@ -223,16 +223,16 @@ TEST_GL(effects_are_there_only_where_called_for)
                                         "instances",  "blending",    "lights",      "sky"};
     char error[512];
     small_scene *s = frame_one_quad(small_scene_material(), NULL);
-    scene_renderer *r = scene_renderer_create(&s->scene, error, sizeof error);
+    scene_renderer *r = scene_renderer_create(&s->scene, FAULT(error));
     scene_lighting lighting = {.ambient = {1, 1, 1}, .direction_world = {0, -1, 0}};
     scene_effect effects[SCENE_EFFECT_COUNT];
-    assert_true(scene_renderer_configure(r, &lighting, &shadowed, error, sizeof error)); /* no light casts a shadow */
+    assert_true(scene_renderer_configure(r, &lighting, &shadowed, FAULT(error))); /* no light casts a shadow */
     scene_renderer_effects(r, &lighting, effects);
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         assert_false(uses(effects, names[i]));
     assert_int_equal(scene_shadow_map(r, NULL), 0);
     lighting.directional[1] = lighting.sky_tilt[0] = 1;
-    assert_true(scene_renderer_configure(r, &lighting, &shadowed, error, sizeof error));
+    assert_true(scene_renderer_configure(r, &lighting, &shadowed, FAULT(error)));
     scene_renderer_effects(r, &lighting, effects);
     assert_true(uses(effects, "shadow map") && uses(effects, "sky"));
     int size = 0;
@@ -242,8 +242,8 @@ TEST_GL(effects_are_there_only_where_called_for)
 
     /* All unlit: nothing receives shadows. */
     s->materials[0].unlit = true;
-    r = scene_renderer_create(&s->scene, error, sizeof error);
-    assert_true(scene_renderer_configure(r, &lighting, &shadowed, error, sizeof error));
+    r = scene_renderer_create(&s->scene, FAULT(error));
+    assert_true(scene_renderer_configure(r, &lighting, &shadowed, FAULT(error)));
     assert_int_equal(scene_shadow_map(r, NULL), 0);
     scene_renderer_destroy(r);
     free(s);

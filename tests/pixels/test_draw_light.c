@@ -288,7 +288,7 @@ static scene_environment *load_gradients(bool black)
             fputc(black ? 0 : 128, file);
         }
     assert_int_equal(fclose(file), 0);
-    scene_environment *e = scene_environment_load(path, error, sizeof error);
+    scene_environment *e = scene_environment_load(path, FAULT(error));
     remove(path);
     if (!e)
         fail_msg("%s", error);

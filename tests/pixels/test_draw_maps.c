@@ -19,7 +19,7 @@ static passes make_passes(void)
 {
     char error[512];
     passes p = {.scene = small_scene_create()};
-    p.renderer = scene_renderer_create(&p.scene->scene, error, sizeof error);
+    p.renderer = scene_renderer_create(&p.scene->scene, FAULT(error));
     assert_non_null(p.renderer);
     gl.GenTextures(1, &p.map);
     gl.BindTexture(GL_TEXTURE_2D, p.map);
@@ -143,7 +143,7 @@ TEST_GL(passes_leave_the_defaults)
     const scene_lighting lighting = scene_default_lighting();
     const scene_draw_options options = {.motion = true};
     char error[512];
-    assert_true(scene_renderer_configure(p.renderer, &lighting, &options, error, sizeof error));
+    assert_true(scene_renderer_configure(p.renderer, &lighting, &options, FAULT(error)));
     for (int k = 0; k < 5; k++) {
         /* Whatever state a pass finds, it draws the same and restores the state. */
         gl.Enable(GL_BLEND);
@@ -208,11 +208,11 @@ TEST_GL(motion_tells_where_points_were)
     const double moved[3] = {0.25, -0.125, 0.5}, eye_moved = 0.0625, z = -3 + moved[2];
     small_scene *first = make_moving_quad(0, 0, 0, 1), *then = make_moving_quad(0.25f, -0.125f, 0.5f, 1),
                 *other = make_moving_quad(0, 0, 0, 2);
-    scene_renderer *r = scene_renderer_create(&first->scene, error, sizeof error);
+    scene_renderer *r = scene_renderer_create(&first->scene, FAULT(error));
     assert_non_null(r);
     const scene_lighting none = {0};
-    assert_true(scene_renderer_configure(r, &none, &(scene_draw_options){.no_picture = true, .motion = true}, error,
-                                         sizeof error));
+    assert_true(
+        scene_renderer_configure(r, &none, &(scene_draw_options){.no_picture = true, .motion = true}, FAULT(error)));
     scene_view view = {.view_from_world = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
                        .clip_from_view = {1.5f, 0, 0, 0, 0, 1.5f, 0, 0, 0, 0, -1, -1, 0, 0, -0.5f, 0},
                        .width = SIDE,

@@ -182,11 +182,11 @@ TEST_GL(images_beyond_the_driver_are_refused)
     small_scene *s = frame_one_quad(material, NULL);
     small_scene_add_texture(s, 1 << 20, 1, texel);
     char error[512] = "";
-    assert_null(scene_renderer_create(&s->scene, error, sizeof error));
+    assert_null(scene_renderer_create(&s->scene, FAULT(error)));
     assert_non_null(strstr(error, "1048576 x 1"));
     /* An unused one does no harm. */
     s->materials[0].base_color_texture = -1;
-    scene_renderer *r = scene_renderer_create(&s->scene, error, sizeof error);
+    scene_renderer *r = scene_renderer_create(&s->scene, FAULT(error));
     assert_non_null(r);
     scene_renderer_destroy(r);
     scene_renderer_destroy(NULL);

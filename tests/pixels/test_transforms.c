@@ -19,7 +19,7 @@ typedef struct shaded {
 static shaded shade(fixture *f, const small_scene *s, const scene_view *view, glssao_technique technique)
 {
     char error[256];
-    scene_renderer *renderer = scene_renderer_create(&s->scene, error, sizeof error);
+    scene_renderer *renderer = scene_renderer_create(&s->scene, FAULT(error));
     if (!renderer)
         fail_msg("%s", error);
     SCOPED(effect) glssao_effect *effect = fixture_effect(f, WIDTH, HEIGHT);

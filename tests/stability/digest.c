@@ -136,11 +136,11 @@ static subject room(analytic_projection kind)
 static gbuffer drawn(const char *name, int margin)
 {
     char error[512];
-    scene *s = scene_make(name, error, sizeof error);
+    scene *s = scene_make(name, FAULT(error));
     gbuffer g;
     const camera c = camera_frame_scene(s, (float)WIDTH / (float)HEIGHT);
     const scene_view view = camera_view(&c, WIDTH, HEIGHT);
-    if (!s || !gbuffer_draw(&g, s, &view, margin, error, sizeof error)) {
+    if (!s || !gbuffer_draw(&g, s, &view, margin, FAULT(error))) {
         fprintf(stderr, "%s: %s\n", name, error);
         exit(1);
     }

@@ -18,7 +18,7 @@ static void write(const picture *p, const char *what)
             grey[y * W * TIMES + x] = (uint8_t)(255.0f * p->values[y / TIMES * W + x / TIMES] + 0.5f);
     char path[512], error[256] = "";
     snprintf(path, sizeof path, "%s/%s-%s.png", folder, what, name);
-    if (!picture_write_png(path, W * TIMES, H * TIMES, 1, grey, error, sizeof error))
+    if (!picture_write_png(path, W * TIMES, H * TIMES, 1, grey, FAULT(error)))
         fail_msg("%s", error);
     free(grey);
 }

@@ -72,10 +72,10 @@ frame frame_draw_with(const small_scene *s, const scene_view *view, const scene_
                       const scene_draw_options *options, unsigned ambient_map)
 {
     char error[512];
-    scene_renderer *r = scene_renderer_create(&s->scene, error, sizeof error);
+    scene_renderer *r = scene_renderer_create(&s->scene, FAULT(error));
     if (!r)
         fail_msg("%s", error);
-    if (options && !scene_renderer_configure(r, lighting, options, error, sizeof error))
+    if (options && !scene_renderer_configure(r, lighting, options, FAULT(error)))
         fail_msg("%s", error);
     const frame f = draw_by(r, view, lighting, !options || !options->no_prepass, ambient_map);
     scene_renderer_destroy(r);

@@ -9,7 +9,7 @@ enum { ERROR_LENGTH = 512 };
 trace_scene *trace_shot_open(const scene *s)
 {
     char error[ERROR_LENGTH] = "";
-    trace_scene *t = trace_scene_create(s, error, sizeof error);
+    trace_scene *t = trace_scene_create(s, FAULT(error));
     if (!t) {
         fail_msg("%s", error);
     }
@@ -22,7 +22,7 @@ double trace_shot_point(const trace_scene *t, float x, float y, float z, float r
     const float position[1][3] = {{x, y, z}}, up[1][3] = {{0, 1, 0}};
     const trace_options options = {.radius = radius, .samples = samples, .threads = 1};
     float out = -1;
-    if (!trace_points(t, position, up, 1, TRACE_COSINE, 1e-5f, &options, &out, NULL, error, sizeof error)) {
+    if (!trace_points(t, position, up, 1, TRACE_COSINE, 1e-5f, &options, &out, NULL, FAULT(error))) {
         fail_msg("%s", error);
     }
     return (double)out;
@@ -43,7 +43,7 @@ trace_shot trace_shot_take(const scene *s, const scene_view *view, trace_options
     char error[ERROR_LENGTH] = "";
     trace_shot out;
     trace_scene *t = trace_shot_open(s);
-    if (!trace_accessibility(t, view, &options, out.accessibility, out.foreground, &out.stats, error, sizeof error)) {
+    if (!trace_accessibility(t, view, &options, out.accessibility, out.foreground, &out.stats, FAULT(error))) {
         fail_msg("%s", error);
     }
     trace_scene_destroy(t);

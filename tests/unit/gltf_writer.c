@@ -185,7 +185,7 @@ static void destroy(void *what)
 scene *gltf_scene(const char *path, const scene_load_options *options)
 {
     char error[1024] = "";
-    scene *s = scene_load_with(path, options, error, sizeof error);
+    scene *s = scene_load_with(path, options, FAULT(error));
     if (!s)
         fail_msg("%s", error);
     test_release_later(destroy, s);

@@ -176,7 +176,7 @@ TEST(wrong_animations_are_named)
     for (size_t i = 0; i < sizeof faults / sizeof faults[0]; i++) {
         char error[1024] = "";
         const scene_load_options timed = {.timed = true, .time_s = 2.5};
-        scene *s = scene_load_with(gltf_write(&w, "wrong.gltf", faults[i][0]), &timed, error, sizeof error);
+        scene *s = scene_load_with(gltf_write(&w, "wrong.gltf", faults[i][0]), &timed, FAULT(error));
         if (s || !strstr(error, faults[i][1]) || strchr(error, '\n') || !strstr(error, "wrong.gltf: "))
             fail_msg("\"%s\" instead of \"%s\"", s ? "loaded" : error, faults[i][1]);
         (void)gltf_scene(gltf_write(&w, "wrong.gltf", faults[i][0]), NULL); /* at rest */

@@ -89,7 +89,7 @@ static const char *write_room(const char *name, const float *x, bool coloured)
 
     const uint8_t grey[4] = {200, 200, 200, 255};
     char error[256];
-    assert_true(picture_write_png(gltf_writer_path("grey.png"), 1, 1, 4, grey, error, sizeof error));
+    assert_true(picture_write_png(gltf_writer_path("grey.png"), 1, 1, 4, grey, FAULT(error)));
     char rest[2048];
     snprintf(rest, sizeof rest,
              "\"extensionsUsed\":[\"ACME_thing\"],\"extensions\":{\"ACME_thing\":{\"deep\":[true,null,1e-7]}},"

@@ -118,7 +118,7 @@ TEST(frame_sees_the_whole_bounds)
                 const scene s = scaled(shapes(shape), powf(10, (float)power));
                 const camera c = camera_frame_scene(&s, aspects[a]);
                 char error[200] = "";
-                if (!camera_check(&c, error, sizeof error))
+                if (!camera_check(&c, FAULT(error)))
                     fail_msg("shape %d, scale 1e%d: %s", shape, power, error);
                 const scene_view view = camera_view(&c, (int)(2000 * aspects[a]), 2000);
                 double ndc[3];
@@ -170,7 +170,7 @@ static void check_margins(const scene *s, const camera_framing *how, const char 
 {
     const camera c = camera_frame(s, how);
     char error[200];
-    if (!camera_check(&c, error, sizeof error))
+    if (!camera_check(&c, FAULT(error)))
         fail_msg("%s: %s", what, error);
     double at[4];
     edges(s, &c, how->aspect, at);
@@ -276,7 +276,7 @@ TEST(frame_of_an_empty_scene_is_at_distance_one)
     const camera c = camera_frame_scene(&s, 1);
     char error[200];
     assert_float_equal(hypot(hypot((double)c.eye[0], (double)c.eye[1]), (double)c.eye[2]), 1, 1e-6f);
-    assert_true(camera_check(&c, error, sizeof error));
+    assert_true(camera_check(&c, FAULT(error)));
 }
 
 TEST(frame_scales_with_the_scene)
@@ -320,9 +320,9 @@ TEST(planes_are_valid_with_everything_behind)
     char error[200];
     camera c = from(0, 0, -5);
     camera_fit_planes(&c, &behind);
-    assert_true(camera_check(&c, error, sizeof error));
+    assert_true(camera_check(&c, FAULT(error)));
     camera_fit_planes(&c, &point);
-    assert_true(camera_check(&c, error, sizeof error));
+    assert_true(camera_check(&c, FAULT(error)));
 }
 
 TEST(planes_of_a_flat_scene_leave_room)
@@ -388,10 +388,10 @@ TEST(check_names_the_field)
     bad[7].far_plane = 1;
     bad[8].far_plane = INFINITY;
     char error[200];
-    assert_true(camera_check(&good, error, sizeof error));
+    assert_true(camera_check(&good, FAULT(error)));
     for (int i = 0; i < 9; i++) {
         error[0] = '\0';
-        assert_false(camera_check(&bad[i], error, sizeof error));
+        assert_false(camera_check(&bad[i], FAULT(error)));
         if (!strstr(error, named[i]) || strchr(error, '\n'))
             fail_msg("\"%s\" does not name \"%s\"", error, named[i]);
     }
@@ -403,7 +403,7 @@ TEST(check_takes_tiny_and_huge_cameras)
     for (float scale = 1e-6f; scale < 1e7f; scale *= 1e3f) {
         const camera c = {
             .eye = {0, 0, scale}, .up = {0, scale, 0}, .fov_y_rad = 1, .near_plane = 0.1f * scale, .far_plane = scale};
-        assert_true(camera_check(&c, error, sizeof error));
+        assert_true(camera_check(&c, FAULT(error)));
     }
 }
 

@@ -155,12 +155,12 @@ TEST_WITH(abandoned_files_are_gone, remove_file)
     char error[256];
     whole_file file;
     write_file("old");
-    assert_true(whole_file_open(&file, path, error, sizeof error));
+    assert_true(whole_file_open(&file, path, FAULT(error)));
     char *temporary = file.temporary; /* stays: a signal handler may still read it */
     assert_int_equal(access(temporary, F_OK), 0);
     whole_file_abandon_all();
     assert_int_not_equal(access(temporary, F_OK), 0);
-    assert_false(whole_file_close(&file, true, error, sizeof error));
+    assert_false(whole_file_close(&file, true, FAULT(error)));
     assert_int_equal(access(path, F_OK), 0);
     free(temporary);
 }

@@ -79,7 +79,7 @@ static environment *load(radiance_fn f, bool runs)
 {
     static uint8_t bytes[MOST_BYTES];
     write_file(path, bytes, make_radiance(f, runs, bytes));
-    environment *e = environment_load(path, error, sizeof error);
+    environment *e = environment_load(path, FAULT(error));
     if (!e)
         fail_msg("%s", error);
     remove(path);
@@ -185,8 +185,8 @@ TEST(bytes_are_srgb)
 {
     static uint8_t grey[8 * 4 * 3];
     memset(grey, 188, sizeof grey); /* 0.5, linear */
-    assert_true(picture_write_png(png_path, 8, 4, 3, grey, error, sizeof error));
-    environment *e = environment_load(png_path, error, sizeof error);
+    assert_true(picture_write_png(png_path, 8, 4, 3, grey, FAULT(error)));
+    environment *e = environment_load(png_path, FAULT(error));
     remove(png_path);
     assert_non_null(e);
     assert_near((double)e->sky.rgb[0], pow((188 / 255.0 + 0.055) / 1.055, 2.4), 1e-5, "grey");
@@ -211,7 +211,7 @@ TEST(large_pictures_are_halved)
     }
     write_file(path, bytes, size);
     free(bytes);
-    environment *e = environment_load(path, error, sizeof error);
+    environment *e = environment_load(path, FAULT(error));
     remove(path);
     assert_non_null(e);
     assert_int_equal(e->sky.width, ENVIRONMENT_MOST_WIDTH);
@@ -221,7 +221,7 @@ TEST(large_pictures_are_halved)
 
 static void assert_refused(const char *name, const char *why)
 {
-    environment *e = environment_load(name, error, sizeof error);
+    environment *e = environment_load(name, FAULT(error));
     assert_null(e);
     assert_non_null(strstr(error, name));
     assert_null(strchr(error, '\n'));

@@ -73,7 +73,7 @@ TEST(an_unknown_material_extension_warns)
         gltf_write(&w, "newer.gltf", "'extensionsRequired':['KHR_materials_newer']," GLTF_MESH "," GLTF_NODE), NULL);
     assert_warning(s, "it requires KHR_materials_newer, and is drawn with the core material");
     const char *path = gltf_write(&w, "other.gltf", "'extensionsRequired':['KHR_newer']," GLTF_MESH "," GLTF_NODE);
-    assert_null(scene_load(path, error, sizeof error));
+    assert_null(scene_load(path, FAULT(error)));
     assert_non_null(strstr(error, "the extension KHR_newer is required but not supported"));
 }
 
@@ -130,7 +130,7 @@ TEST(a_variant_is_chosen_by_name_or_number)
         scene *s = gltf_scene(path, &(scene_load_options){.variant = choices[i].variant});
         assert_float_equal(material_of(s, 0)->metallic, choices[i].metallic, 1e-6f);
     }
-    assert_null(scene_load_with(path, &(scene_load_options){.variant = "green"}, error, sizeof error));
+    assert_null(scene_load_with(path, &(scene_load_options){.variant = "green"}, FAULT(error)));
     assert_non_null(strstr(error, "it has no variant 'green'; there are 2: red, blue"));
 }
 
@@ -152,9 +152,9 @@ TEST(a_scene_and_an_animation_are_chosen_by_number)
     s = gltf_scene(path, &(scene_load_options){.timed = true, .time_s = 0.5, .animation = 2});
     assert_float_equal(s->instances[0].world_from_mesh[12], 0, 0);
     assert_float_equal(s->instances[0].world_from_mesh[13], 2, 1e-6f);
-    assert_null(scene_load_with(path, &(scene_load_options){.scene = 3}, error, sizeof error));
+    assert_null(scene_load_with(path, &(scene_load_options){.scene = 3}, FAULT(error)));
     assert_non_null(strstr(error, "it has no scene 3; there are 2"));
-    assert_null(scene_load_with(path, &(scene_load_options){.animation = 3}, error, sizeof error));
+    assert_null(scene_load_with(path, &(scene_load_options){.animation = 3}, FAULT(error)));
     assert_non_null(strstr(error, "it has no animation 3; there are 2"));
 }
 
@@ -239,13 +239,13 @@ TEST(a_root_allows_files_beside_the_folder)
     snprintf(text, sizeof text, "%s", write_external("../beside.bin"));
     snprintf(file, sizeof file, "%s/file.gltf", inner);
     assert_int_equal(rename(text, file), 0);
-    assert_null(scene_load(file, error, sizeof error));
+    assert_null(scene_load(file, FAULT(error)));
     assert_non_null(strstr(error, "'../beside.bin' is not a file in the glTF file's folder"));
     scene *s = gltf_scene(file, &(scene_load_options){.root = root});
     assert_int_equal(scene_count_triangles(s), 1);
     snprintf(text, sizeof text, "%s", write_external("../../outside.bin"));
     assert_int_equal(rename(text, file), 0);
-    assert_null(scene_load_with(file, &(scene_load_options){.root = root}, error, sizeof error));
+    assert_null(scene_load_with(file, &(scene_load_options){.root = root}, FAULT(error)));
     assert_non_null(strstr(error, "is not a file in the glTF file's folder or below --root"));
 }
 
@@ -372,7 +372,7 @@ TEST(packed_geometry_is_unpacked)
     for (size_t i = 0; i < sizeof files / sizeof *files; ++i) {
         if (!files[i].built) {
             char error[1024] = "";
-            assert_null(scene_load(in_folder(files[i].name), error, sizeof error));
+            assert_null(scene_load(in_folder(files[i].name), FAULT(error)));
             assert_non_null(strstr(error, files[i].package));
             continue;
         }
@@ -422,8 +422,8 @@ TEST(solid_pictures_fit_the_budget_by_their_decoded_size)
 {
     char error[1024];
     assert_int_equal(load("flat4k-x3.glb")->image_count, 3);
-    assert_null(scene_load_with(in_folder("flat4k-x3.glb"), &(scene_load_options){.memory_bytes = 150 << 20}, error,
-                                sizeof error));
+    assert_null(
+        scene_load_with(in_folder("flat4k-x3.glb"), &(scene_load_options){.memory_bytes = 150 << 20}, FAULT(error)));
     assert_non_null(strstr(error, "the file's images: 64 MiB needed, and 21 of the 150 MiB allowed are left"));
 }
 

@@ -44,7 +44,7 @@ static int visit(const char *path, const struct stat *about, int type, struct FT
     if (type != FTW_F || !is_gltf(path))
         return 0;
     char error[1024] = "";
-    scene *s = scene_load(path, error, sizeof error);
+    scene *s = scene_load(path, FAULT(error));
     seen.files++;
     seen.loaded += s != NULL;
     seen.refused += s == NULL;
@@ -121,7 +121,7 @@ static const expectation scenes[] = {
 static scene *load(const char *file)
 {
     char error[1024] = "";
-    scene *s = scene_load(in_folder(file), error, sizeof error);
+    scene *s = scene_load(in_folder(file), FAULT(error));
     if (!s)
         fail_msg("%s", error);
     return s;
@@ -249,7 +249,7 @@ TEST(harmful_faults_are_refused)
             continue;
         char file[1100];
         snprintf(file, sizeof file, "invalid/%s", path);
-        scene *s = scene_load(in_folder(file), error, sizeof error);
+        scene *s = scene_load(in_folder(file), FAULT(error));
         erroneous++;
         erroneous_refused += s == NULL;
         harmful += must_be_refused(codes);

@@ -45,8 +45,8 @@ TEST_WITH(png_round_trips_odd_sizes, remove_file)
     for (int k = 0; k < 12; k++) {
         const int width = sizes[k / 3][0], height = sizes[k / 3][1], channels = channel_counts[k % 3];
         int read_width = 0, read_height = 0;
-        assert_true(picture_write_png(path, width, height, channels, pixels, error, sizeof error));
-        SCOPED(memory) uint8_t *read = picture_read_png(path, &read_width, &read_height, error, sizeof error);
+        assert_true(picture_write_png(path, width, height, channels, pixels, FAULT(error)));
+        SCOPED(memory) uint8_t *read = picture_read_png(path, &read_width, &read_height, FAULT(error));
         assert_non_null(read);
         assert_int_equal(read_width, width);
         assert_int_equal(read_height, height);
@@ -65,7 +65,7 @@ TEST_WITH(png_of_colour_is_marked_srgb, remove_file)
 {
     const uint8_t pixels[3] = {1, 2, 3};
     for (int channels = 1; channels <= 3; channels += 2) {
-        assert_true(picture_write_png(path, 1, 1, channels, pixels, error, sizeof error));
+        assert_true(picture_write_png(path, 1, 1, channels, pixels, FAULT(error)));
         char bytes[256] = "";
         FILE *file = fopen(path, "rb");
         const size_t size = fread(bytes, 1, sizeof bytes - 4, file);
@@ -83,8 +83,8 @@ TEST_WITH(pfm_round_trips_every_bit, remove_file)
     const int sizes[][3] = {{1, 1, 1}, {3, 3, 1}, {1, 9, 1}, {9, 1, 1}, {3, 1, 3}, {1, 3, 3}};
     for (int k = 0; k < 6; k++) {
         int width = 0, height = 0, channels = 0;
-        assert_true(picture_write_pfm(path, sizes[k][0], sizes[k][1], sizes[k][2], values, error, sizeof error));
-        SCOPED(memory) float *read = picture_read_pfm(path, &width, &height, &channels, error, sizeof error);
+        assert_true(picture_write_pfm(path, sizes[k][0], sizes[k][1], sizes[k][2], values, FAULT(error)));
+        SCOPED(memory) float *read = picture_read_pfm(path, &width, &height, &channels, FAULT(error));
         assert_non_null(read);
         assert_int_equal(width, sizes[k][0]);
         assert_int_equal(height, sizes[k][1]);
@@ -97,7 +97,7 @@ TEST_WITH(pfm_bytes_are_little_endian, remove_file)
 {
     const float one = 1;
     char bytes[32];
-    assert_true(picture_write_pfm(path, 1, 1, 1, &one, error, sizeof error));
+    assert_true(picture_write_pfm(path, 1, 1, 1, &one, FAULT(error)));
     FILE *file = fopen(path, "rb");
     const size_t size = fread(bytes, 1, sizeof bytes, file);
     fclose(file);
@@ -113,10 +113,10 @@ TEST(errors_name_path_and_cause)
     int a, b, c;
     for (int k = 0; k < 4; k++) {
         error[0] = '\0';
-        assert_false(k == 0   ? picture_write_png(nowhere, 1, 1, 1, &byte, error, sizeof error)
-                     : k == 1 ? picture_write_pfm(nowhere, 1, 1, 1, &value, error, sizeof error)
-                     : k == 2 ? picture_read_pfm(nowhere, &a, &b, &c, error, sizeof error) != NULL
-                              : picture_read_png(nowhere, &a, &b, error, sizeof error) != NULL);
+        assert_false(k == 0   ? picture_write_png(nowhere, 1, 1, 1, &byte, FAULT(error))
+                     : k == 1 ? picture_write_pfm(nowhere, 1, 1, 1, &value, FAULT(error))
+                     : k == 2 ? picture_read_pfm(nowhere, &a, &b, &c, FAULT(error)) != NULL
+                              : picture_read_png(nowhere, &a, &b, FAULT(error)) != NULL);
         assert_non_null(strstr(error, nowhere));
         assert_non_null(strstr(error, "No such file"));
         assert_null(strchr(error, '\n'));
@@ -127,10 +127,10 @@ TEST_WITH(arguments_out_of_range_write_nothing, remove_file)
 {
     const uint8_t bytes[4] = {0};
     const float value = 0;
-    assert_false(picture_write_png(path, 0, 1, 1, bytes, error, sizeof error));
-    assert_false(picture_write_png(path, 1, 1, 2, bytes, error, sizeof error));
-    assert_false(picture_write_pfm(path, 1, 1 << 24, 1, &value, error, sizeof error));
-    assert_false(picture_write_pfm(path, 1, 1, 4, &value, error, sizeof error));
+    assert_false(picture_write_png(path, 0, 1, 1, bytes, FAULT(error)));
+    assert_false(picture_write_png(path, 1, 1, 2, bytes, FAULT(error)));
+    assert_false(picture_write_pfm(path, 1, 1 << 24, 1, &value, FAULT(error)));
+    assert_false(picture_write_pfm(path, 1, 1, 4, &value, FAULT(error)));
     assert_false(file_exists(path));
 }
 
@@ -141,9 +141,9 @@ TEST(full_disk_is_reported)
         skip();
     static uint8_t pixels[256 * 256 * 3];
     static float values[256 * 256];
-    assert_false(picture_write_png("/dev/full", 256, 256, 3, pixels, error, sizeof error));
+    assert_false(picture_write_png("/dev/full", 256, 256, 3, pixels, FAULT(error)));
     assert_string_equal(error, "/dev/full: No space left on device");
-    assert_false(picture_write_pfm("/dev/full", 256, 256, 1, values, error, sizeof error));
+    assert_false(picture_write_pfm("/dev/full", 256, 256, 1, values, FAULT(error)));
     assert_string_equal(error, "/dev/full: No space left on device");
     assert_true(file_exists("/dev/full"));
 }
@@ -179,8 +179,8 @@ static bool write_beyond_the_limit(void)
     small.rlim_cur = 1000;
     signal(SIGXFSZ, SIG_IGN);
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
-    const bool png_written = picture_write_png(path, 64, 64, 3, pixels, error, sizeof error);
-    const bool pfm_written = picture_write_pfm(path, 64, 64, 1, values, error, sizeof error);
+    const bool png_written = picture_write_png(path, 64, 64, 3, pixels, FAULT(error));
+    const bool pfm_written = picture_write_pfm(path, 64, 64, 1, values, FAULT(error));
     setrlimit(RLIMIT_FSIZE, &limit);
     return png_written || pfm_written;
 }
@@ -215,13 +215,13 @@ TEST_WITH(old_file_is_replaced_where_it_is, remove_file)
     write_bytes("old", 3);
     assert_int_equal(chmod(path, 0640), 0);
     assert_int_equal(symlink(path, link_name), 0);
-    const bool written = picture_write_png(link_name, 1, 1, 1, &pixel, error, sizeof error);
+    const bool written = picture_write_png(link_name, 1, 1, 1, &pixel, FAULT(error));
     const bool is_link = lstat(link_name, &status) == 0 && S_ISLNK(status.st_mode);
     remove(link_name);
     assert_true(written && is_link);
     assert_int_equal(stat(path, &status), 0);
     assert_int_equal(status.st_mode & 0777, 0640);
-    uint8_t *read = picture_read_png(path, &width, &height, error, sizeof error);
+    uint8_t *read = picture_read_png(path, &width, &height, FAULT(error));
     assert_non_null(read);
     assert_int_equal(read[0], 7);
     free(read);
@@ -262,7 +262,7 @@ TEST_WITH(hostile_pfm_is_refused, remove_file)
         int width, height, channels;
         write_bytes(files[i].bytes, files[i].size);
         error[0] = '\0';
-        if (picture_read_pfm(path, &width, &height, &channels, error, sizeof error))
+        if (picture_read_pfm(path, &width, &height, &channels, FAULT(error)))
             fail_msg("file %zu was taken", i);
         assert_ptr_equal(strstr(error, path), error);
     }
@@ -273,7 +273,7 @@ TEST_WITH(broken_png_is_refused, remove_file)
     uint8_t pixels[64];
     for (int i = 0; i < 64; i++)
         pixels[i] = (uint8_t)(i * i);
-    assert_true(picture_write_png(path, 8, 8, 1, pixels, error, sizeof error));
+    assert_true(picture_write_png(path, 8, 8, 1, pixels, FAULT(error)));
     char bytes[512];
     FILE *file = fopen(path, "rb");
     const size_t size = fread(bytes, 1, sizeof bytes, file);
@@ -281,7 +281,7 @@ TEST_WITH(broken_png_is_refused, remove_file)
     for (size_t cut = 0; cut < size - 12; cut++) { /* without the 12 bytes of the end marker the file may be accepted */
         int width, height;
         write_bytes(bytes, cut);
-        if (picture_read_png(path, &width, &height, error, sizeof error))
+        if (picture_read_png(path, &width, &height, FAULT(error)))
             fail_msg("%zu of %zu bytes were taken", cut, size);
     }
 }
@@ -305,7 +305,7 @@ TEST(jpeg_is_upright_and_close)
 {
     const char name[] = "test_picture.jpg";
     uint8_t *pixels = two_colors(40, 30, 3), row[3 * 40];
-    assert_true(picture_write(name, 40, 30, 3, pixels, error, sizeof error));
+    assert_true(picture_write(name, 40, 30, 3, pixels, FAULT(error)));
     free(pixels);
     struct jpeg_decompress_struct jpeg;
     struct jpeg_error_mgr handler;
@@ -339,7 +339,7 @@ TEST(webp_keeps_its_alpha)
     static uint8_t bytes[65536];
     uint8_t *pixels = two_colors(40, 30, 4);
     assert_true(picture_has_webp());
-    assert_true(picture_write(name, 40, 30, 4, pixels, error, sizeof error));
+    assert_true(picture_write(name, 40, 30, 4, pixels, FAULT(error)));
     free(pixels);
     FILE *file = fopen(name, "rb");
     assert_non_null(file);
@@ -358,7 +358,7 @@ TEST(webp_keeps_its_alpha)
     WebPFree(read);
 #else
     assert_false(picture_has_webp());
-    assert_false(picture_write_webp("a.webp", 1, 1, 3, (uint8_t[3]){0}, error, sizeof error));
+    assert_false(picture_write_webp("a.webp", 1, 1, 3, (uint8_t[3]){0}, FAULT(error)));
     assert_non_null(strstr(error, "libwebp"));
     assert_false(file_exists("a.webp"));
 #endif
@@ -367,14 +367,14 @@ TEST(webp_keeps_its_alpha)
 TEST(lossy_formats_refuse_what_they_cannot_hold)
 {
     const uint8_t pixel[4] = {0};
-    assert_false(picture_write("a.jpg", 1, 1, 4, pixel, error, sizeof error));
+    assert_false(picture_write("a.jpg", 1, 1, 4, pixel, FAULT(error)));
     assert_non_null(strstr(error, "a.jpg"));
-    assert_false(picture_write("a.jpeg", 65501, 1, 3, pixel, error, sizeof error));
+    assert_false(picture_write("a.jpeg", 65501, 1, 3, pixel, FAULT(error)));
     assert_non_null(strstr(error, "65500"));
-    assert_false(picture_write("a.webp", 1, 1, 1, pixel, error, sizeof error));
-    assert_false(picture_write("no-folder/a.jpg", 1, 1, 3, pixel, error, sizeof error));
+    assert_false(picture_write("a.webp", 1, 1, 1, pixel, FAULT(error)));
+    assert_false(picture_write("no-folder/a.jpg", 1, 1, 3, pixel, FAULT(error)));
     assert_non_null(strstr(error, "no-folder/a.jpg"));
-    assert_false(picture_write("/dev/full", 1, 1, 3, pixel, error, sizeof error));
+    assert_false(picture_write("/dev/full", 1, 1, 3, pixel, FAULT(error)));
     assert_false(file_exists("a.jpg") || file_exists("a.jpeg") || file_exists("a.webp"));
 }
 

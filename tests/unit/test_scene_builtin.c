@@ -11,7 +11,7 @@ TEST(built_in_scenes_are_valid_and_suggest_a_camera)
 {
     for (int i = 0; i < 4; ++i) {
         char error[256] = "";
-        scene *s = scene_make(names[i], error, sizeof error);
+        scene *s = scene_make(names[i], FAULT(error));
         assert_non_null(s);
         assert_null(scene_find_flaw(s));
         assert_string_equal(s->name, names[i]);
@@ -25,7 +25,7 @@ TEST(built_in_scenes_are_valid_and_suggest_a_camera)
 TEST(built_in_scenes_wind_counter_clockwise)
 {
     for (int i = 0; i < 4; ++i) {
-        scene *s = scene_make(names[i], NULL, 0);
+        scene *s = scene_make(names[i], &(failure){0});
         assert_non_null(s);
         for (uint32_t k = 0; k < s->index_count; k += 3) {
             const scene_vertex *v[3];
@@ -46,7 +46,7 @@ TEST(built_in_scenes_wind_counter_clockwise)
 
 TEST(columns_stand_in_two_rows)
 {
-    scene *s = scene_make("columns", NULL, 0);
+    scene *s = scene_make("columns", &(failure){0});
     assert_memory_equal(s->bounds_min, ((float[3]){-10, 0, -15}), 3 * sizeof(float));
     assert_memory_equal(s->bounds_max, ((float[3]){10, 4, 15}), 3 * sizeof(float));
     assert_int_equal(s->instance_count, 22);
@@ -56,9 +56,9 @@ TEST(columns_stand_in_two_rows)
 TEST(an_unknown_name_is_an_error)
 {
     char error[256] = "";
-    assert_null(scene_make("sponza", error, sizeof error));
+    assert_null(scene_make("sponza", FAULT(error)));
     assert_non_null(strstr(error, "sponza"));
-    assert_null(scene_make("", NULL, 0));
+    assert_null(scene_make("", &(failure){0}));
     scene_destroy(NULL);
 }
 

@@ -157,7 +157,7 @@ TEST(spending_renderer_frees_opaque_texels)
     }
     SCOPED(drawn) frame before = frame_draw(s, &frame_front, &lighting, 0);
     char error[512];
-    scene_renderer *r = scene_renderer_create_spending(&s->scene, NULL, error, sizeof error);
+    scene_renderer *r = scene_renderer_create_spending(&s->scene, NULL, FAULT(error));
     assert_non_null(r);
     assert_null(s->images[0].rgba);
     assert_ptr_equal(s->images[1].rgba, texels[1]);
@@ -192,7 +192,7 @@ TEST(vertices_are_uploaded_without_what_no_draw_call_reads)
             frame_add_quad(s, material, NULL);
             s->vertices[s->scene.vertex_count - 1].color[2] = cases[i].colored ? 0.5f : 1;
         }
-        scene_renderer *r = scene_renderer_create(&s->scene, error, sizeof error);
+        scene_renderer *r = scene_renderer_create(&s->scene, FAULT(error));
         assert_non_null(r);
         GLint all = 0;
         for (int k = 0; k < DRAW_VERTEX_PARTS; k++) {
@@ -215,7 +215,7 @@ TEST(more_vertices_than_a_buffer_takes_are_refused)
     char error[512];
     small_scene *s = frame_one_quad(small_scene_material(), NULL);
     s->scene.vertex_count = 178956971; /* 2^31 / 12, rounded up */
-    assert_null(scene_renderer_create(&s->scene, error, sizeof error));
+    assert_null(scene_renderer_create(&s->scene, FAULT(error)));
     assert_string_equal(error, "178956971 vertices: a vertex buffer takes up to 178956970 of them");
     free(s);
 }

@@ -10,7 +10,7 @@
 static void assert_refused(const char *path, const char *fault)
 {
     char error[1024] = "";
-    assert_null(scene_load(path, error, sizeof error));
+    assert_null(scene_load(path, FAULT(error)));
     if (strncmp(error, path, strlen(path)) != 0 || !strstr(error, fault) || strchr(error, '\n'))
         fail_msg("'%s' where '%s' was expected", error, fault);
 }
@@ -215,7 +215,7 @@ TEST(images_that_cannot_be_had_are_left_out_with_a_warning)
         assert_int_equal(s->warning_count, 1);
         if (!strstr(s->warnings[0], faults[i].fault))
             fail_msg("'%s' where '%s' was expected", s->warnings[0], faults[i].fault);
-        assert_null(scene_load_with(path, &(scene_load_options){.strict = true}, error, sizeof error));
+        assert_null(scene_load_with(path, &(scene_load_options){.strict = true}, FAULT(error)));
         assert_non_null(strstr(error, faults[i].fault));
     }
 }
@@ -228,8 +228,8 @@ TEST(files_that_are_something_else_are_named)
     assert_refused(gltf_write_bytes("zip.glb", "PK\x03\x04\0\0\0\0", 8), "this is a ZIP archive");
     assert_refused(gltf_write(NULL, "page.gltf", "<!DOCTYPE HTML><p>404</p>"), "this is an HTML page");
     char error[1024] = "";
-    assert_null(environment_load(gltf_write(NULL, "lfs.hdr", "version https://git-lfs.github.com/spec/v1\n"), error,
-                                 sizeof error));
+    assert_null(
+        environment_load(gltf_write(NULL, "lfs.hdr", "version https://git-lfs.github.com/spec/v1\n"), FAULT(error)));
     assert_non_null(strstr(error, "lfs.hdr: this is a Git LFS pointer"));
 }
 
@@ -259,7 +259,7 @@ TEST(json_that_would_take_the_stack_or_the_memory_is_refused)
     strcat(text, "]}");
     const scene_load_options small = {.memory_bytes = 4 << 20};
     (void)gltf_scene(gltf_write(NULL, "full.gltf", text), NULL);
-    assert_null(scene_load_with(gltf_writer_path("full.gltf"), &small, error, sizeof error));
+    assert_null(scene_load_with(gltf_writer_path("full.gltf"), &small, FAULT(error)));
     assert_non_null(strstr(error, "its JSON: 10 MiB needed, and 3 of the 4 MiB allowed are left"));
     free(text);
 }
@@ -276,7 +276,7 @@ TEST(lists_are_charged_by_what_the_parser_makes_of_them)
     strcpy(text + used, "]}");
     const scene_load_options small = {.memory_bytes = 64 << 20};
     const char *path = gltf_write(NULL, "materials.gltf", text);
-    assert_null(scene_load_with(path, &small, error, sizeof error));
+    assert_null(scene_load_with(path, &small, FAULT(error)));
     assert_non_null(strstr(error, "its materials: "));
     free(text);
 }
@@ -338,7 +338,7 @@ TEST(a_wrong_byte_anywhere_gives_a_valid_scene_or_an_error)
             char error[512] = "";
             random = random * 1664525u + 1013904223u;
             bytes[at] = (uint8_t)(round == 0 ? right ^ 1u << (random >> 29) : random >> 24);
-            scene *s = scene_load(gltf_write_bytes("wrong.glb", bytes, size), error, sizeof error);
+            scene *s = scene_load(gltf_write_bytes("wrong.glb", bytes, size), FAULT(error));
             assert_true(s ? !scene_find_flaw(s) : *error && !strchr(error, '\n'));
             loaded += s != NULL;
             scene_destroy(s);

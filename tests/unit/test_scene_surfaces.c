@@ -127,7 +127,7 @@ TEST(wrong_ones_are_refused_by_name)
     gltf_writer w = triangle();
     for (size_t i = 0; i < sizeof faults / sizeof *faults; i++) {
         char error[1024] = "";
-        assert_null(scene_load(gltf_write(&w, "wrong.gltf", faults[i][0]), error, sizeof error));
+        assert_null(scene_load(gltf_write(&w, "wrong.gltf", faults[i][0]), FAULT(error)));
         if (!strstr(error, faults[i][1]))
             fail_msg("'%s' where '%s' was expected", error, faults[i][1]);
     }

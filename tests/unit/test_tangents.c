@@ -127,7 +127,7 @@ TEST(file_made_by_mikktspace_has_the_same)
         skip();
     }
     fclose(file);
-    scene *s = scene_load(path, error, sizeof error);
+    scene *s = scene_load(path, FAULT(error));
     if (!s)
         fail_msg("%s", error);
     assert_non_null(s->tangents);

@@ -324,13 +324,13 @@ TEST(wrong_arguments_are_named)
     trace_scene *t = trace_shot_open(&s->scene);
     static float out[TRACE_SHOT_PIXELS];
     const trace_options no_rays = {.radius = 1}, not_a_radius = {.radius = NAN, .samples = 1};
-    assert_false(trace_accessibility(t, &view, &no_rays, out, NULL, NULL, error, sizeof error));
+    assert_false(trace_accessibility(t, &view, &no_rays, out, NULL, NULL, FAULT(error)));
     assert_non_null(strstr(error, "0 rays"));
-    assert_false(trace_accessibility(t, &view, &not_a_radius, out, NULL, NULL, error, sizeof error));
+    assert_false(trace_accessibility(t, &view, &not_a_radius, out, NULL, NULL, FAULT(error)));
     assert_non_null(strstr(error, "nan"));
     memset(view.clip_from_view, 0, sizeof view.clip_from_view);
     const trace_options fine = {.radius = 1, .samples = 1};
-    assert_false(trace_accessibility(t, &view, &fine, out, NULL, NULL, error, sizeof error));
+    assert_false(trace_accessibility(t, &view, &fine, out, NULL, NULL, FAULT(error)));
     assert_non_null(strstr(error, "inverse"));
     trace_scene_destroy(t);
     trace_scene_destroy(NULL);
@@ -354,7 +354,7 @@ TEST(tracing_ends_when_told_to)
     trace_stats stats;
     const trace_options options = {
         .radius = 1, .samples = 64, .threads = 1, .stopped = is_stopped, .stopped_user = &asked};
-    assert_false(trace_accessibility(t, &view, &options, out, NULL, &stats, error, sizeof error));
+    assert_false(trace_accessibility(t, &view, &options, out, NULL, &stats, FAULT(error)));
     assert_string_equal(error, "stopped");
     assert_true(asked > 0);
     assert_int_equal(stats.rays, 0);

@@ -28,16 +28,15 @@ static void set_up_scene(setup *t, const scene *s, const camera *c, float radius
     char error[ERROR_LENGTH];
     const scene_view view = camera_view(c, W, H);
     t->radius = radius;
-    if (!(t->traced = trace_scene_create(s, error, sizeof error)) ||
-        !(t->renderer = scene_renderer_create(s, error, sizeof error)) ||
-        !gbuffer_draw(&t->gbuffer, s, &view, 0, error, sizeof error))
+    if (!(t->traced = trace_scene_create(s, FAULT(error))) || !(t->renderer = scene_renderer_create(s, FAULT(error))) ||
+        !gbuffer_draw(&t->gbuffer, s, &view, 0, FAULT(error)))
         fail_msg("%s", error);
 }
 
 static void set_up(setup *t, const char *name, bool orthographic)
 {
     char error[ERROR_LENGTH];
-    *t = (setup){.scene = scene_make(name, error, sizeof error)};
+    *t = (setup){.scene = scene_make(name, FAULT(error))};
     camera c = camera_frame_scene(t->scene, (float)W / H);
     if (orthographic)
         c.half_height = 2;
@@ -80,7 +79,7 @@ static void truth_of(const setup *t, float truth[W * H], uint8_t seen[W * H])
 {
     char error[ERROR_LENGTH] = "";
     const trace_options options = {.radius = t->radius, .samples = 256};
-    if (!trace_accessibility(t->traced, &t->gbuffer.view, &options, truth, seen, NULL, error, sizeof error))
+    if (!trace_accessibility(t->traced, &t->gbuffer.view, &options, truth, seen, NULL, FAULT(error)))
         fail_msg("%s", error);
 }
 
@@ -231,7 +230,7 @@ TEST_GL(counts_are_kept)
     for (uint32_t seed = 0; seed < 8; seed++) {
         const trace_options options = {.radius = t.radius, .samples = 4, .seed = seed, .threads = 2};
         trace_picture *p =
-            trace_picture_begin(t.traced, &t.gbuffer.view, &surfaces, counts, &options, out, error, sizeof error);
+            trace_picture_begin(t.traced, &t.gbuffer.view, &surfaces, counts, &options, out, FAULT(error));
         trace_stats stats;
         for (int y = 0; p && y <= H; y += 7)
             trace_picture_feed(p, y + 7 <= H ? y : H);

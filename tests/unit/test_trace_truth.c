@@ -94,7 +94,7 @@ TEST(open_directions_have_their_closed_form_beside_a_wall)
     const float eye[3] = {2.5f, 2, 50};
     const scene_view view = trace_shot_view(eye, (float[3]){0, 0.2f, 49}, 1);
     const trace_options options = {.radius = 1, .samples = 4096};
-    assert_true(trace_open_directions(t, &view, &options, got, NULL, error, sizeof error));
+    assert_true(trace_open_directions(t, &view, &options, got, NULL, FAULT(error)));
     int floors = 0, walls = 0;
     for (int i = 0; i < TRACE_SHOT_PIXELS; i++) {
         const float *m = view.view_from_world, *p = view.clip_from_view;
@@ -158,7 +158,7 @@ TEST(corner_of_a_box_blocks_two_segments)
 static scene *make_resting_sphere(void)
 {
     char error[ERROR_LENGTH];
-    scene_fault fault = {.file = "sphere", .text = error, .size = sizeof error};
+    failure fault = {.file = "sphere", .text = error, .size = sizeof error};
     scene_builder b;
     const scene_material matte = scene_default_material();
     float lifted[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 1};
@@ -243,7 +243,7 @@ TEST(uniform_rays_see_the_solid_angle)
     const float position[1][3] = {{0, 0, 0}}, up[1][3] = {{0, 1, 0}};
     const trace_options options = {.radius = 4, .samples = SAMPLES};
     float out = -1;
-    assert_true(trace_points(t, position, up, 1, TRACE_UNIFORM, 0, &options, &out, NULL, error, sizeof error));
+    assert_true(trace_points(t, position, up, 1, TRACE_UNIFORM, 0, &options, &out, NULL, FAULT(error)));
     assert_near_truth((double)out, 0.25, SAMPLES); /* a cap of the hemisphere: 1 - cos, cos = 1/4 */
     trace_scene_destroy(t);
     free(s);

@@ -55,7 +55,7 @@ static image read_file(const char *path)
 {
     char error[512];
     image out = {0};
-    uint8_t *rgba = picture_read_png(path, &out.width, &out.height, error, sizeof error);
+    uint8_t *rgba = picture_read_png(path, &out.width, &out.height, FAULT(error));
     if (!rgba) {
         fprintf(stderr, "%s\n", error);
         exit(2);
@@ -99,7 +99,7 @@ static int shot(unsigned long window, const char *path, const char *before_path)
             break;
     }
     XCloseDisplay(display);
-    const bool written = now.rgb && picture_write_png(path, now.width, now.height, 3, now.rgb, error, sizeof error);
+    const bool written = now.rgb && picture_write_png(path, now.width, now.height, 3, now.rgb, FAULT(error));
     free(now.rgb);
     free(before.rgb);
     return written ? 0 : 2;
