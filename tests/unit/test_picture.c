@@ -50,14 +50,13 @@ TEST_WITH(png_round_trips_odd_sizes, remove_file)
         assert_non_null(read);
         assert_int_equal(read_width, width);
         assert_int_equal(read_height, height);
-        for (int i = 0; i < width * height; i++) {
+        for (int i = 0; i < width * height; i++)
             for (int c = 0; c < 4; c++) {
                 const int wanted = c < 3           ? pixels[i * channels + (channels == 1 ? 0 : c)]
                                    : channels == 4 ? pixels[i * channels + 3]
                                                    : 255;
                 assert_int_equal(read[4 * i + c], wanted);
             }
-        }
     }
 }
 

@@ -332,7 +332,7 @@ TEST(a_wrong_byte_anywhere_gives_a_valid_scene_or_an_error)
     uint32_t random = 12345;
     int loaded = 0;
     print_message("seed %u\n", random);
-    for (size_t at = 0; at < size; ++at) {
+    for (size_t at = 0; at < size; ++at)
         for (int round = 0; round < 3; ++round) {
             const uint8_t right = bytes[at];
             char error[512] = "";
@@ -344,7 +344,6 @@ TEST(a_wrong_byte_anywhere_gives_a_valid_scene_or_an_error)
             scene_destroy(s);
             bytes[at] = right;
         }
-    }
     print_message("%d of %zu damaged files load\n", loaded, 3 * size);
 }
 

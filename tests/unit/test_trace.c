@@ -11,17 +11,15 @@ enum { ERROR_LENGTH = 512 };
 static double mean(const trace_shot *p)
 {
     double sum = 0;
-    for (int i = 0; i < TRACE_SHOT_PIXELS; i++) {
+    for (int i = 0; i < TRACE_SHOT_PIXELS; i++)
         sum += (double)p->accessibility[i];
-    }
     return sum / TRACE_SHOT_PIXELS;
 }
 
 static void multiply_point(const float m[16], const float p[3], float w, float out[3])
 {
-    for (int r = 0; r < 3; r++) {
+    for (int r = 0; r < 3; r++)
         out[r] = m[r] * p[0] + m[4 + r] * p[1] + m[8 + r] * p[2] + m[12 + r] * w;
-    }
 }
 
 /* A corner of three walls with a sphere in it. Placed under the transform's inverse if `inverse` is given. */
@@ -57,13 +55,12 @@ static void make_transform(float angle, const float scale[3], float out[16], flo
     memset(out, 0, 16 * sizeof *out);
     memset(inverse, 0, 16 * sizeof *out);
     memset(transpose, 0, 16 * sizeof *out);
-    for (int col = 0; col < 3; col++) {
+    for (int col = 0; col < 3; col++)
         for (int row = 0; row < 3; row++) {
             out[4 * col + row] = rotation[col][row] * scale[col];
             inverse[4 * row + col] = rotation[col][row] / scale[col];
             transpose[4 * row + col] = rotation[col][row] * scale[col];
         }
-    }
     out[15] = inverse[15] = transpose[15] = 1;
 }
 
@@ -89,18 +86,16 @@ TEST(nodes_may_turn_mirror_and_stretch)
             small_scene_begin_mesh(s, small_scene_add_material(s, small_scene_material()));
             add_hollow(s, inverse, transpose, scales[i][0] * scales[i][1] * scales[i][2] < 0);
             small_scene_add_instance(s, out);
-            if (instances == 2) {
+            if (instances == 2)
                 small_scene_add_instance(s, elsewhere);
-            }
             const trace_shot p = trace_shot_take(&s->scene, &view, options);
             assert_in_range(trace_shot_foreground(&p), trace_shot_foreground(&truth) - 2,
                             trace_shot_foreground(&truth) + 2);
             /* Each pixel agrees to noise, since a normal's last bit may turn the directions. The mean of all agrees
              * much closer. */
             const double noise = trace_shot_difference(&p, &truth), bias = mean(&p) - mean(&truth);
-            if (!(noise < 0.01 && fabs(bias) < 5e-4)) {
+            if (!(noise < 0.01 && fabs(bias) < 5e-4))
                 fail_msg("scale %zu, %d instances: differs by %g, in the mean by %g", i, instances, noise, bias);
-            }
             free(s);
         }
     }
@@ -123,11 +118,9 @@ static small_scene *make_hollow(scene_view *out_view, float scale)
     small_scene *s = small_scene_create();
     small_scene_begin_mesh(s, small_scene_add_material(s, small_scene_material()));
     add_hollow(s, NULL, NULL, false);
-    for (uint32_t i = 0; i < s->scene.vertex_count; i++) {
-        for (int k = 0; k < 3; k++) {
+    for (uint32_t i = 0; i < s->scene.vertex_count; i++)
+        for (int k = 0; k < 3; k++)
             s->vertices[i].position[k] *= scale;
-        }
-    }
     small_scene_add_instance(s, NULL);
     *out_view = trace_shot_view((float[3]){3, 2.5f, 4}, (float[3]){0, -0.2f, 0}, scale);
     return s;
@@ -145,9 +138,8 @@ TEST(error_falls_with_the_root_of_the_rays)
         const double error = rms_difference(&p, &truth);
         /* At most the error of independent samples of the worst variance, and at least halved each time. */
         assert_true(error <= 0.5 / sqrt(samples));
-        if (before > 0 && !(error <= before / 2)) {
+        if (before > 0 && !(error <= before / 2))
             fail_msg("%d rays: error %g after %g", samples, error, before);
-        }
         before = error;
     }
     free(s);
@@ -211,9 +203,8 @@ TEST(back_faces_are_unseen_but_block)
         const trace_shot from_behind = trace_shot_take(&s->scene, &behind, options);
         assert_int_equal(trace_shot_foreground(&from_front), TRACE_SHOT_PIXELS);
         assert_int_equal(trace_shot_foreground(&from_behind), double_sided ? TRACE_SHOT_PIXELS : 0);
-        for (int i = 0; i < TRACE_SHOT_PIXELS; i++) {
+        for (int i = 0; i < TRACE_SHOT_PIXELS; i++)
             assert_true(from_front.accessibility[i] == 1 && from_behind.accessibility[i] == 1);
-        }
         free(s);
     }
     for (int facing_down = 0; facing_down < 2; facing_down++) {
@@ -254,12 +245,10 @@ TEST(projections_agree)
     scene_view off_centre = view;
     off_centre.clip_from_view[8] -= 1;
     const trace_shot moved = trace_shot_take(&s->scene, &off_centre, options);
-    for (int y = 0; y < TRACE_SHOT_SIDE; y++) {
-        for (int x = TRACE_SHOT_SIDE / 2; x < TRACE_SHOT_SIDE; x++) {
+    for (int y = 0; y < TRACE_SHOT_SIDE; y++)
+        for (int x = TRACE_SHOT_SIDE / 2; x < TRACE_SHOT_SIDE; x++)
             assert_int_equal(moved.foreground[y * TRACE_SHOT_SIDE + x],
                              usual.foreground[y * TRACE_SHOT_SIDE + x - TRACE_SHOT_SIDE / 2]);
-        }
-    }
 
     /* Orthographic, forwards and reversed: a quad two of 32 pixels wide, cut by the near and far planes when it leaves
      * them. */
@@ -271,9 +260,8 @@ TEST(projections_agree)
         const bool backwards = i & 1;
         const float far_end = i < 2 ? far_plane : 40;
         scene_view parallel = {.width = TRACE_SHOT_SIDE, .height = TRACE_SHOT_SIDE};
-        for (int k = 0; k < 16; k += 5) {
+        for (int k = 0; k < 16; k += 5)
             parallel.view_from_world[k] = parallel.clip_from_view[k] = 1;
-        }
         parallel.clip_from_view[10] = (backwards ? 2 : -2) / (far_end - near_plane);
         parallel.clip_from_view[14] = (backwards ? 1 : -1) * (far_end + near_plane) / (far_end - near_plane);
         const trace_shot p = trace_shot_take(&quad->scene, &parallel, options);
@@ -297,9 +285,8 @@ TEST(flat_instances_are_seen)
     const scene_view view = trace_shot_view((float[3]){0, 0, 4}, (float[3]){0, 0, 0}, 1);
     const trace_shot p = trace_shot_take(&s->scene, &view, (trace_options){.radius = 1, .samples = 16});
     assert_true(trace_shot_foreground(&p) > TRACE_SHOT_PIXELS / 4);
-    for (int i = 0; i < TRACE_SHOT_PIXELS; i++) {
+    for (int i = 0; i < TRACE_SHOT_PIXELS; i++)
         assert_true(p.accessibility[i] >= 0 && p.accessibility[i] <= 1);
-    }
     free(s);
 }
 
@@ -310,9 +297,8 @@ TEST(nothing_is_fully_accessible)
     const scene_view view = trace_shot_view((float[3]){0, 0, 4}, (float[3]){0, 0, 0}, 1);
     const trace_shot p = trace_shot_take(&s->scene, &view, (trace_options){.radius = 1, .samples = 16});
     assert_int_equal(trace_shot_foreground(&p), 0);
-    for (int i = 0; i < TRACE_SHOT_PIXELS; i++) {
+    for (int i = 0; i < TRACE_SHOT_PIXELS; i++)
         assert_true(p.accessibility[i] == 1);
-    }
     free(s);
 }
 

@@ -16,9 +16,8 @@ static void assert_near_truth(double measured, double truth, int samples)
 {
     /* The binomial deviation bounds that of the stratified samples; 1e-4 covers the offset and the tessellation. */
     const double tolerance = 3 * sqrt(truth * (1 - truth) / samples) + 1e-4;
-    if (!(fabs(measured - truth) <= tolerance)) {
+    if (!(fabs(measured - truth) <= tolerance))
         fail_msg("%.6f instead of %.6f, tolerance %.6f", measured, truth, tolerance);
-    }
 }
 
 /* A floor at y = 0, and walls at x = 0 and z = 0 if wanted, all far larger than the radii here. */
@@ -29,12 +28,10 @@ static small_scene *make_room(int walls)
     small_scene_begin_mesh(s, small_scene_add_material(s, small_scene_material()));
     const float depth[3] = {0, 0, size}, width[3] = {size, 0, 0}, height[3] = {0, size, 0}, corner[3] = {0, 0, 0};
     small_scene_add_quad(s, corner, depth, width);
-    if (walls > 0) {
+    if (walls > 0)
         small_scene_add_quad(s, (float[3]){0, 0, 0}, height, depth);
-    }
-    if (walls > 1) {
+    if (walls > 1)
         small_scene_add_quad(s, corner, width, height);
-    }
     small_scene_add_instance(s, NULL);
     return s;
 }
@@ -47,9 +44,8 @@ TEST(empty_plane_is_fully_accessible)
         const scene_view view = trace_shot_view((float[3]){50, height, 50}, (float[3]){55, 0, 52}, 1);
         const trace_shot p = trace_shot_take(&s->scene, &view, (trace_options){.radius = 3, .samples = 64});
         assert_true(trace_shot_foreground(&p) > TRACE_SHOT_PIXELS / 8);
-        for (int i = 0; i < TRACE_SHOT_PIXELS; i++) {
+        for (int i = 0; i < TRACE_SHOT_PIXELS; i++)
             assert_true(p.accessibility[i] == 1);
-        }
     }
     free(s);
 }
@@ -101,22 +97,19 @@ TEST(open_directions_have_their_closed_form_beside_a_wall)
         const double x = (2 * (i % SIDE + 0.5) / SIDE - 1) / (double)p[0];
         const double y = (2 * (i / SIDE + 0.5) / SIDE - 1) / (double)p[5];
         double way[3], wanted[3] = {0, 0, 0};
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3; k++)
             way[k] = x * (double)m[4 * k] + y * (double)m[4 * k + 1] - (double)m[4 * k + 2];
-        }
         const double to_floor = way[1] < 0 ? -(double)eye[1] / way[1] : INFINITY, to_wall = -(double)eye[0] / way[0];
         const bool is_floor = to_floor < to_wall;
-        if (way[0] >= 0 || (!is_floor && (double)eye[1] + to_wall * way[1] < 1e-3)) {
+        if (way[0] >= 0 || (!is_floor && (double)eye[1] + to_wall * way[1] < 1e-3))
             continue;
-        }
         mean_beside_a_wall(is_floor ? (double)eye[0] + to_floor * way[0] : (double)eye[1] + to_wall * way[1],
                            &wanted[!is_floor], &wanted[is_floor]);
         for (int k = 0; k < 3; k++) {
             const double in_view =
                 wanted[0] * (double)m[k] + wanted[1] * (double)m[4 + k] + wanted[2] * (double)m[8 + k];
-            if (!(fabs((double)got[i][k] - in_view) < 3e-3)) {
+            if (!(fabs((double)got[i][k] - in_view) < 3e-3))
                 fail_msg("pixel %d, axis %d: %.4f instead of %.4f", i, k, (double)got[i][k], in_view);
-            }
         }
         floors += is_floor;
         walls += !is_floor;
@@ -176,18 +169,16 @@ static double blocked_by_sphere(double d, double radius)
 {
     enum { STEPS = 1500 };
     int blocked = 0, total = 0;
-    for (int j = 0; j < STEPS; j++) {
+    for (int j = 0; j < STEPS; j++)
         for (int i = 0; i < STEPS; i++) {
             const double x = 2 * (i + 0.5) / STEPS - 1, z = 2 * (j + 0.5) / STEPS - 1, square = x * x + z * z;
-            if (square >= 1) {
+            if (square >= 1)
                 continue;
-            }
             total++;
             /* |t w - c| = 1 with the centre c = (-d, 1, 0) from the point: t^2 - 2 t (w . c) + d^2 = 0. */
             const double along = sqrt(1 - square) - x * d, under_root = along * along - d * d;
             blocked += along > 0 && under_root >= 0 && along - sqrt(under_root) <= radius;
         }
-    }
     return (double)blocked / total;
 }
 
@@ -252,15 +243,13 @@ TEST(uniform_rays_see_the_solid_angle)
 static double under(scene_material material, const uint8_t *rgba, float vertex_alpha)
 {
     small_scene *s = small_scene_create();
-    if (rgba) {
+    if (rgba)
         material.base_color_texture = small_scene_add_texture(s, 2, 2, rgba);
-    }
     small_scene_begin_mesh(s, small_scene_add_material(s, material));
     scene_vertex *v =
         small_scene_add_quad(s, (float[3]){-500, 1, -500}, (float[3]){1000, 0, 0}, (float[3]){0, 0, 1000});
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 4; i++)
         v[i].color[3] = vertex_alpha;
-    }
     small_scene_add_instance(s, NULL);
     trace_scene *t = trace_shot_open(&s->scene);
     const double out = trace_shot_point(t, 0, 0, 0, INFINITY, 4096);
