@@ -53,17 +53,17 @@ static double depth_at(const projection *p, double distance)
 
 TEST_GL(view_distance_is_the_analytic_one)
 {
-    const double n = 0.25, f = 64;
+    const double n = 0.25, far = 64;
     const projection projections[] = {
-        {"perspective", -(f + n) / (f - n), -2 * f * n / (f - n), -1, 0, n, 0.99 * f},
+        {"perspective", -(far + n) / (far - n), -2 * far * n / (far - n), -1, 0, n, 0.99 * far},
         {"infinite", -1, -2 * n, -1, 0, n, 500},
-        {"reversed", (f + n) / (f - n), 2 * f * n / (f - n), -1, 0, n, 0.99 * f},
+        {"reversed", (far + n) / (far - n), 2 * far * n / (far - n), -1, 0, n, 0.99 * far},
         {"reversed infinite", 1, 2 * n, -1, 0, n, 500},
-        {"orthographic", -2 / (f - n), -(f + n) / (f - n), 0, 1, n, 0.99 * f},
-        {"reversed orthographic", 2 / (f - n), (f + n) / (f - n), 0, 1, n, 0.99 * f},
+        {"orthographic", -2 / (far - n), -(far + n) / (far - n), 0, 1, n, 0.99 * far},
+        {"reversed orthographic", 2 / (far - n), (far + n) / (far - n), 0, 1, n, 0.99 * far},
         /* Planes on both sides of the eye; those behind it have a negative distance. */
-        {"orthographic from behind", -2 / (f + 100), -(f - 100) / (f + 100), 0, 1, -99, 0.99 * f},
-        {"tiny perspective", -(f + n) / (f - n), -2e-4 * f * n / (f - n), -1, 0, 1e-4 * n, 0.99e-4 * f},
+        {"orthographic from behind", -2 / (far + 100), -(far - 100) / (far + 100), 0, 1, -99, 0.99 * far},
+        {"tiny perspective", -(far + n) / (far - n), -2e-4 * far * n / (far - n), -1, 0, 1e-4 * n, 0.99e-4 * far},
     };
     passes p = make_passes();
     for (size_t k = 0; k < sizeof projections / sizeof projections[0]; k++) {
@@ -208,7 +208,7 @@ TEST_GL(motion_tells_where_points_were)
     const double moved[3] = {0.25, -0.125, 0.5}, eye_moved = 0.0625, z = -3 + moved[2];
     small_scene *first = make_moving_quad(0, 0, 0, 1), *then = make_moving_quad(0.25f, -0.125f, 0.5f, 1),
                 *other = make_moving_quad(0, 0, 0, 2);
-    scene_renderer *r = scene_renderer_create(&first->scene, FAULT(error));
+    SCOPED(renderer) scene_renderer *r = scene_renderer_create(&first->scene, FAULT(error));
     assert_non_null(r);
     const scene_lighting none = {0};
     assert_true(
@@ -252,7 +252,6 @@ TEST_GL(motion_tells_where_points_were)
     assert_true(seen > SIDE * SIDE / 4 && seen < SIDE * SIDE);
     gl.DeleteFramebuffers(1, &framebuffer);
     gl.DeleteTextures(2, textures);
-    scene_renderer_destroy(r);
     free(first);
     free(then);
     free(other);

@@ -40,10 +40,9 @@ trace_shot trace_shot_take(const scene *s, const scene_view *view, trace_options
 {
     char error[ERROR_LENGTH] = "";
     trace_shot out;
-    trace_scene *t = trace_shot_open(s);
+    SCOPED(traced) trace_scene *t = trace_shot_open(s);
     if (!trace_accessibility(t, view, &options, out.accessibility, out.foreground, &out.stats, FAULT(error)))
         fail_msg("%s", error);
-    trace_scene_destroy(t);
     return out;
 }
 

@@ -222,7 +222,7 @@ TEST(all_else_is_kept)
     const char *out = output_path("out.glb");
     assert_int_equal(run("", write_room("in.gltf", floor_x, true), out), 0);
     size_t size;
-    char *data = read_file(out, &size);
+    SCOPED(memory) char *data = read_file(out, &size);
     const char *const kept[] = {"\"ACME_thing\":{\"deep\":[true,null,1e-07]}",
                                 "\"extras\":{\"kept\":[1,2.5,\"x\"]}",
                                 "\"name\":\"fall\"",
@@ -234,7 +234,6 @@ TEST(all_else_is_kept)
         if (!contains(data, size, kept[i]))
             fail_msg("%s is not in the file", kept[i]);
     assert_false(contains(data, size, "\"uri\"")); /* stands alone */
-    free(data);
     scene *s = gltf_scene(out, NULL);
     assert_int_equal(s->image_count, 1);
     assert_int_equal(s->images[0].rgba[0], 200);

@@ -213,9 +213,8 @@ TEST(back_faces_are_unseen_but_block)
         small_scene_begin_mesh(s, small_scene_add_material(s, small_scene_material()));
         small_scene_add_quad(s, (float[3]){-500, 1, -500}, facing_down ? wide : deep, facing_down ? deep : wide);
         small_scene_add_instance(s, NULL);
-        trace_scene *t = trace_shot_open(&s->scene);
+        SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
         assert_true(trace_shot_point(t, 0, 0, 0, INFINITY, 64) < 0.02);
-        trace_scene_destroy(t);
         free(s);
     }
 }
@@ -307,7 +306,7 @@ TEST(wrong_arguments_are_named)
     char error[ERROR_LENGTH] = "";
     scene_view view;
     small_scene *s = make_hollow(&view, 1);
-    trace_scene *t = trace_shot_open(&s->scene);
+    SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     static float out[TRACE_SHOT_PIXELS];
     const trace_options no_rays = {.radius = 1}, not_a_radius = {.radius = NAN, .samples = 1};
     assert_false(trace_accessibility(t, &view, &no_rays, out, NULL, NULL, FAULT(error)));
@@ -318,7 +317,6 @@ TEST(wrong_arguments_are_named)
     const trace_options fine = {.radius = 1, .samples = 1};
     assert_false(trace_accessibility(t, &view, &fine, out, NULL, NULL, FAULT(error)));
     assert_non_null(strstr(error, "inverse"));
-    trace_scene_destroy(t);
     trace_scene_destroy(NULL);
     free(s);
 }
@@ -335,7 +333,7 @@ TEST(tracing_ends_when_told_to)
     scene_view view;
     int asked = 0;
     small_scene *s = make_hollow(&view, 1);
-    trace_scene *t = trace_shot_open(&s->scene);
+    SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     static float out[TRACE_SHOT_PIXELS];
     trace_stats stats;
     const trace_options options = {
@@ -344,7 +342,6 @@ TEST(tracing_ends_when_told_to)
     assert_string_equal(error, "stopped");
     assert_true(asked > 0);
     assert_int_equal(stats.rays, 0);
-    trace_scene_destroy(t);
     free(s);
 }
 

@@ -61,13 +61,12 @@ TEST(wall_blocks_a_segment_of_the_disk)
 {
     enum { SAMPLES = 1 << 14 };
     small_scene *s = make_room(1);
-    trace_scene *t = trace_shot_open(&s->scene);
+    SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     const float distances[] = {0.01f, 0.2f, 0.5f, 0.9f, 0.99f, 1.01f};
     for (size_t i = 0; i < sizeof distances / sizeof distances[0]; i++) {
         const double measured = trace_shot_point(t, distances[i], 0, 50, 1, SAMPLES);
         assert_near_truth(measured, 1 - segment((double)distances[i]), SAMPLES);
     }
-    trace_scene_destroy(t);
     free(s);
 }
 
@@ -86,7 +85,7 @@ TEST(open_directions_have_their_closed_form_beside_a_wall)
     static float got[TRACE_SHOT_PIXELS][3];
     char error[ERROR_LENGTH];
     small_scene *s = make_room(1);
-    trace_scene *t = trace_shot_open(&s->scene);
+    SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     const float eye[3] = {2.5f, 2, 50};
     const scene_view view = trace_shot_view(eye, (float[3]){0, 0.2f, 49}, 1);
     const trace_options options = {.radius = 1, .samples = 4096};
@@ -115,7 +114,6 @@ TEST(open_directions_have_their_closed_form_beside_a_wall)
         walls += !is_floor;
     }
     assert_true(floors > TRACE_SHOT_PIXELS / 8 && walls > TRACE_SHOT_PIXELS / 8);
-    trace_scene_destroy(t);
     free(s);
 }
 
@@ -136,14 +134,13 @@ TEST(corner_of_a_box_blocks_two_segments)
 {
     enum { SAMPLES = 1 << 14 };
     small_scene *s = make_room(2);
-    trace_scene *t = trace_shot_open(&s->scene);
+    SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     const float at[][2] = {{0.001f, 0.001f}, {0.1f, 0.3f}, {0.5f, 0.5f}, {0.8f, 0.7f}, {0.3f, 1.2f}};
     for (size_t i = 0; i < sizeof at / sizeof at[0]; i++) {
         const double a = (double)at[i][0], b = (double)at[i][1];
         const double truth = 1 - segment(a) - segment(b) + disk_corner(a, b);
         assert_near_truth(trace_shot_point(t, at[i][0], 0, at[i][1], 1, SAMPLES), truth, SAMPLES);
     }
-    trace_scene_destroy(t);
     free(s);
 }
 
@@ -185,8 +182,8 @@ static double blocked_by_sphere(double d, double radius)
 TEST(sphere_on_a_plane_blocks_its_form_factor)
 {
     enum { SAMPLES = 1 << 14 };
-    scene *s = make_resting_sphere();
-    trace_scene *t = trace_shot_open(s);
+    SCOPED(scene) scene *s = make_resting_sphere();
+    SCOPED(traced) trace_scene *t = trace_shot_open(s);
     const float distances[] = {0.2f, 0.5f, 1, 2, 5};
     for (size_t i = 0; i < sizeof distances / sizeof distances[0]; i++) {
         const double d = (double)distances[i];
@@ -196,8 +193,6 @@ TEST(sphere_on_a_plane_blocks_its_form_factor)
         assert_near_truth(trace_shot_point(t, distances[i], 0, 0, 0.8f, SAMPLES), 1 - blocked_by_sphere(d, 0.8),
                           SAMPLES);
     }
-    trace_scene_destroy(t);
-    scene_destroy(s);
 }
 
 /* A ceiling at height 1 above the point at the origin, with the floor's material before it. */
@@ -214,14 +209,13 @@ TEST(radius_cuts_hard)
 {
     enum { SAMPLES = 1 << 14 };
     small_scene *s = make_ceiling(small_scene_material());
-    trace_scene *t = trace_shot_open(&s->scene);
+    SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     assert_true(trace_shot_point(t, 0, 0, 0, 0.999f, 256) == 1);
     assert_true(trace_shot_point(t, 0, 0, 0, 0, 256) == 1);
     for (double radius = 1.25; radius < 20; radius *= 2) {
         /* Blocked where 1 / cos <= R. */
         assert_near_truth(trace_shot_point(t, 0, 0, 0, (float)radius, SAMPLES), 1 / (radius * radius), SAMPLES);
     }
-    trace_scene_destroy(t);
     free(s);
 }
 
@@ -230,13 +224,12 @@ TEST(uniform_rays_see_the_solid_angle)
     enum { SAMPLES = 1 << 14 };
     char error[ERROR_LENGTH];
     small_scene *s = make_ceiling(small_scene_material());
-    trace_scene *t = trace_shot_open(&s->scene);
+    SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     const float position[1][3] = {{0, 0, 0}}, up[1][3] = {{0, 1, 0}};
     const trace_options options = {.radius = 4, .samples = SAMPLES};
     float out = -1;
     assert_true(trace_points(t, position, up, 1, TRACE_UNIFORM, 0, &options, &out, NULL, FAULT(error)));
     assert_near_truth((double)out, 0.25, SAMPLES); /* a cap of the hemisphere: 1 - cos, cos = 1/4 */
-    trace_scene_destroy(t);
     free(s);
 }
 
@@ -251,9 +244,8 @@ static double under(scene_material material, const uint8_t *rgba, float vertex_a
     for (int i = 0; i < 4; i++)
         v[i].color[3] = vertex_alpha;
     small_scene_add_instance(s, NULL);
-    trace_scene *t = trace_shot_open(&s->scene);
+    SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     const double out = trace_shot_point(t, 0, 0, 0, INFINITY, 4096);
-    trace_scene_destroy(t);
     free(s);
     return out;
 }
