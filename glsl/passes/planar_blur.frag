@@ -44,8 +44,9 @@ RESULT result()
 #if WIDE
     vec2 x = vec2(3.0 * gInvRenderTargetSize.x, 0.0);
     vec2 y = vec2(0.0, 3.0 * gInvRenderTargetSize.y);
-    CONTENTS contents =
-        blurred_wide(paired_at(uv - x), paired_at(uv - y), center, paired_at(uv + y), paired_at(uv + x));
+    float mean = blurred_wide(paired_at(uv - x).xy, paired_at(uv - y).xy, center.xy, paired_at(uv + y).xy,
+                              paired_at(uv + x).xy);
+    CONTENTS contents = with_accessibility(center, mean);
 #else
     vec2 way = gHorizontalBlur != 0 ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
     vec2 by = float(1 << STRIDE) * way * gInvRenderTargetSize;

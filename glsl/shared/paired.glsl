@@ -31,7 +31,7 @@ uint normal_code(vec3 normal_view)
     return code.x << 5 | code.y;
 }
 
-uint normal_code(PAIRED paired)
+uint normal_code(vec2 paired)
 {
     return floatBitsToUint(paired.x) & 1023u;
 }
@@ -42,7 +42,7 @@ vec2 projected_normal(uint code)
     return vec2(ivec2(code >> 5, code & 31u)) - 15.0;
 }
 
-float accessibility_of(PAIRED paired)
+float accessibility_of(vec2 paired)
 {
     return uintBitsToFloat(floatBitsToUint(paired.x) & ~1023u);
 }
@@ -62,6 +62,16 @@ vec2 paired_accessibility(float accessibility, float linear, uint code)
 }
 
 #if BENT
+uint normal_code(PAIRED paired)
+{
+    return normal_code(paired.xy);
+}
+
+float accessibility_of(PAIRED paired)
+{
+    return accessibility_of(paired.xy);
+}
+
 PAIRED paired(CONTENTS contents, float linear, uint code)
 {
     vec2 yz = roundEven(contents.zw);

@@ -92,12 +92,13 @@ CONTENTS blurred(PAIRED before_2, PAIRED before, PAIRED center, PAIRED after, PA
 #endif
 }
 
-// The same for a later round, from itself and the four at three pixels from it.
-CONTENTS blurred_wide(PAIRED left, PAIRED below, PAIRED center, PAIRED above, PAIRED right)
+// Accessibility after a later round, from itself and the four at three pixels from it. The first round leaves little noise in
+// directions, and in a crease they differ more than by noise, so later ones leave hidden vectors alone.
+float blurred_wide(vec2 left, vec2 below, vec2 center, vec2 above, vec2 right)
 {
 #if BRANCHES
-    if (is_same(left, center) && is_same(below, center) && is_same(above, center) && is_same(right, center))
-        return contents_of(center);
+    if (all(equal(vec4(left.x, below.x, above.x, right.x), center.xxxx)))
+        return accessibility_of(center);
 #endif
     float tolerance = line_tolerance(center.y);
     float hollow = BLUR_HOLLOW * radius_in_linear(center.y);
@@ -125,11 +126,15 @@ CONTENTS blurred_wide(PAIRED left, PAIRED below, PAIRED center, PAIRED above, PA
     apart.yz = joins.y && joins.z ? pair.yy : apart.yz;
     weights *= max(vec4(0.0), 1.0 - apart * apart);
 #endif
-    float mean = weighted_mean(own, 0.25, taps, weights);
+    return weighted_mean(own, 0.25, taps, weights);
+}
+
+// The contents of a paired value with other accessibility.
+CONTENTS with_accessibility(PAIRED paired, float accessibility)
+{
 #if BENT
-    // The first round leaves little noise in directions, and in a crease they differ more than by noise.
-    return vec4(mean, contents_of(center).yzw);
+    return vec4(accessibility, contents_of(paired).yzw);
 #else
-    return mean;
+    return accessibility;
 #endif
 }

@@ -102,7 +102,7 @@ static const struct shader {
                         {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                          shader_paired_glsl, shader_history_glsl, shader_history_frag, shader_entry_glsl}},
     [SHADER_STEADY] = {"steady",
-                       BIT(RADIUS_GROWS) | BIT(PERSPECTIVE) | BIT(COMPUTE) | BIT(RAYS),
+                       BIT(RADIUS_GROWS) | BIT(PERSPECTIVE) | BIT(COMPUTE) | BIT(RAYS) | BIT(BRANCHES),
                        {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_paired_glsl,
                         shader_history_glsl, shader_steady_frag, shader_entry_glsl}},
     [SHADER_APPLY] = {"apply",
@@ -132,10 +132,10 @@ static const struct shader {
 };
 
 /* Invocations of a work group, and the rows of a tile that they share (glsl/passes/planar_tile.comp). Found by
- * experiment, docs/decisions/0052. */
+ * experiment, docs/decisions/0052 and 0225. */
 static const struct group {
-    int x, y, rows;
-} row_group = {32, 8, 0}, horizon_group = {8, 16, 0}, tile_group = {32, 14, 28};
+    int x, y, rows; /* `rows` is a multiple of `y` */
+} row_group = {32, 8, 0}, horizon_group = {8, 16, 0}, tile_group = {32, 12, 24};
 
 static const struct group *group_of(enum glssao__shader shader)
 {
