@@ -36,7 +36,7 @@ TEST_GL(instances_have_the_normals_of_baked_triangles)
     for (size_t k = 0; k < sizeof scales / sizeof scales[0]; k++) {
         float m[16];
         small_scene_turned_and_scaled(scales[k][0], scales[k][1], scales[k][2], m);
-        small_scene *s = small_scene_create();
+        SCOPED(memory) small_scene *s = small_scene_create();
         small_scene_begin_mesh(s, small_scene_add_material(s, small_scene_material()));
         small_scene_add_sphere(s);
         small_scene_add_instance(s, m);
@@ -57,7 +57,6 @@ TEST_GL(instances_have_the_normals_of_baked_triangles)
         if (compared < 100 || differently_covered > 2 || !(worst < 1e-3))
             fail_msg("scale %zu: %d pixels compared, %d covered by one alone, normals differ by up to %g", k, compared,
                      differently_covered, worst);
-        free(s);
     }
 }
 
@@ -127,7 +126,7 @@ TEST_GL(depth_equal_covers_what_the_prepass_covered)
 {
     enum { LARGE = 256 };
     static const uint8_t checker[2 * 2 * 4] = {90, 90, 90, 255, 90, 90, 90, 0, 90, 90, 90, 0, 90, 90, 90, 255};
-    small_scene *s = small_scene_create();
+    SCOPED(memory) small_scene *s = small_scene_create();
     const int texture = small_scene_add_texture(s, 2, 2, checker);
     uint32_t random = 1;
     for (int variant = 0; variant < 32; variant++) {
@@ -168,7 +167,6 @@ TEST_GL(depth_equal_covers_what_the_prepass_covered)
     assert_memory_equal(drawn.color, g.color, LARGE * LARGE * sizeof *drawn.color);
     assert_memory_equal(drawn.depth, g.depth, LARGE * LARGE * sizeof *drawn.depth);
     assert_int_equal(g.counts.normals, 0);
-    free(s);
 }
 
 TEST_MAIN("draw", fixture_setup, fixture_teardown)

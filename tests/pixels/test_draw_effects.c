@@ -211,7 +211,7 @@ TEST_GL(effects_are_there_only_where_called_for)
     static const char *const names[] = {"shadow map", "normal maps", "reflections", "alpha test",
                                         "instances",  "blending",    "lights",      "sky"};
     char error[512];
-    small_scene *s = frame_one_quad(small_scene_material(), NULL);
+    SCOPED(memory) small_scene *s = frame_one_quad(small_scene_material(), NULL);
     scene_renderer *r = scene_renderer_create(&s->scene, FAULT(error));
     scene_lighting lighting = {.ambient = {1, 1, 1}, .direction_world = {0, -1, 0}};
     scene_effect effects[SCENE_EFFECT_COUNT];
@@ -235,7 +235,6 @@ TEST_GL(effects_are_there_only_where_called_for)
     assert_true(scene_renderer_configure(r, &lighting, &shadowed, FAULT(error)));
     assert_int_equal(scene_shadow_map(r, NULL), 0);
     scene_renderer_destroy(r);
-    free(s);
 }
 
 /* An effect that the scene does not need changes no pixel: a renderer with every effect on takes longer and draws the

@@ -241,7 +241,7 @@ TEST_GL(punctual_lights_fall_off_as_the_extension_says)
 
 TEST_GL(lights_of_the_scene_take_the_suns_place)
 {
-    small_scene *s = frame_one_quad(small_scene_material(), NULL);
+    SCOPED(memory) small_scene *s = frame_one_quad(small_scene_material(), NULL);
     scene_light lights[3] = {
         {.kind = SCENE_LIGHT_POINT, .color = {1, 1, 1}, .position_world = {0, 0, 30}},
         {.kind = SCENE_LIGHT_DIRECTIONAL, .color = {100, 50, 0}, .direction_world = {1, 0, 0}},
@@ -262,7 +262,6 @@ TEST_GL(lights_of_the_scene_take_the_suns_place)
     l = scene_lighting_of(&s->scene, rest);
     assert_float_equal(l.directional[0], 2, 0);
     assert_float_equal(l.lights[1].color[0], 1, 0);
-    free(s);
 }
 
 /* A picture whose channels are gradients along the world's axes: 0.5 + 0.4 x, and so on; or black. */
@@ -319,7 +318,7 @@ TEST_GL(a_picture_surrounds_the_scene)
         material.metallic_roughness = surfaces[i].metal;
         material.metallic = 1;
         material.roughness = surfaces[i].roughness;
-        small_scene *s = frame_one_quad(material, NULL);
+        SCOPED(memory) small_scene *s = frame_one_quad(material, NULL);
         scene_lighting_surround(&lighting, &s->scene, e);
         assert_true(lighting.directional[0] == 0 && scene_lighting_has_ambient(&lighting));
         set_normals(s, n[0], n[1], n[2]);
@@ -346,7 +345,6 @@ TEST_GL(a_picture_surrounds_the_scene)
             assert_gradients(drawn.color[0], seen, 1, 1, "sky");
             assert_int_equal(drawn.counts.sky, 1);
         }
-        free(s);
     }
     scene_environment_destroy(e);
     e = load_gradients(true);
@@ -360,7 +358,7 @@ static frame draw_world(const float up[3], const scene_environment *e)
 {
     double turn[3][3];
     camera_find_turn(up, turn);
-    small_scene *s = small_scene_create();
+    SCOPED(memory) small_scene *s = small_scene_create();
     for (int ball = 0; ball < 2; ball++) {
         scene_material material = small_scene_material();
         material.metallic_roughness = ball == 0;
@@ -384,7 +382,6 @@ static frame draw_world(const float up[3], const scene_environment *e)
     const camera c = camera_frame(&s->scene, &how);
     const scene_view view = camera_view(&c, FRAME_SIZE, FRAME_SIZE);
     frame f = frame_draw_with(s, &view, &lighting, &(scene_draw_options){.shadows = true, .shadow_size = 512}, 0);
-    free(s);
     return f;
 }
 

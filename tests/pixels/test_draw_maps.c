@@ -206,8 +206,8 @@ TEST_GL(motion_tells_where_points_were)
     enum { SIDE = 48 };
     char error[512];
     const double moved[3] = {0.25, -0.125, 0.5}, eye_moved = 0.0625, z = -3 + moved[2];
-    small_scene *first = make_moving_quad(0, 0, 0, 1), *then = make_moving_quad(0.25f, -0.125f, 0.5f, 1),
-                *other = make_moving_quad(0, 0, 0, 2);
+    SCOPED(memory) small_scene *first = make_moving_quad(0, 0, 0, 1), *other = make_moving_quad(0, 0, 0, 2);
+    SCOPED(memory) small_scene *then = make_moving_quad(0.25f, -0.125f, 0.5f, 1);
     SCOPED(renderer) scene_renderer *r = scene_renderer_create(&first->scene, FAULT(error));
     assert_non_null(r);
     const scene_lighting none = {0};
@@ -252,9 +252,6 @@ TEST_GL(motion_tells_where_points_were)
     assert_true(seen > SIDE * SIDE / 4 && seen < SIDE * SIDE);
     gl.DeleteFramebuffers(1, &framebuffer);
     gl.DeleteTextures(2, textures);
-    free(first);
-    free(then);
-    free(other);
 }
 
 TEST_MAIN("draw maps", fixture_setup, fixture_teardown)

@@ -171,7 +171,7 @@ TEST_GL(images_beyond_the_driver_are_refused)
     static const uint8_t texel[4];
     scene_material material = small_scene_material();
     material.base_color_texture = 0;
-    small_scene *s = frame_one_quad(material, NULL);
+    SCOPED(memory) small_scene *s = frame_one_quad(material, NULL);
     small_scene_add_texture(s, 1 << 20, 1, texel);
     char error[512] = "";
     assert_null(scene_renderer_create(&s->scene, FAULT(error)));
@@ -181,7 +181,6 @@ TEST_GL(images_beyond_the_driver_are_refused)
     SCOPED(renderer) scene_renderer *r = scene_renderer_create(&s->scene, FAULT(error));
     assert_non_null(r);
     scene_renderer_destroy(NULL);
-    free(s);
 }
 
 TEST_MAIN("draw materials", fixture_setup, fixture_teardown)

@@ -139,7 +139,7 @@ TEST(spending_renderer_frees_opaque_texels)
 {
     const scene_lighting lighting = scene_default_lighting();
     uint8_t *texels[2];
-    small_scene *s = small_scene_create();
+    SCOPED(memory) small_scene *s = small_scene_create();
     for (int i = 0; i < 2; i++) {
         texels[i] = malloc(2 * 2 * 4);
         memset(texels[i], i == 0 ? 255 : 200, 2 * 2 * 4);
@@ -162,7 +162,6 @@ TEST(spending_renderer_frees_opaque_texels)
     SCOPED(drawn) frame after = frame_draw_by(r, &frame_front, &lighting, 0);
     assert_memory_equal(before.color, after.color, FRAME_SIZE * FRAME_SIZE * sizeof *before.color);
     free(texels[1]);
-    free(s);
 }
 
 /* A quad without normals, and in most cases a second one: the buffer holds what either needs. */
@@ -180,7 +179,7 @@ TEST(vertices_are_uploaded_without_what_no_draw_call_reads)
                  {true, true, true, POSITION + NORMAL + UVS + COLOR}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char error[512];
-        small_scene *s = frame_one_quad(small_scene_material(), NULL);
+        SCOPED(memory) small_scene *s = frame_one_quad(small_scene_material(), NULL);
         s->primitives[0].flat = true;
         if (cases[i].second) {
             scene_material material = small_scene_material();
@@ -201,7 +200,6 @@ TEST(vertices_are_uploaded_without_what_no_draw_call_reads)
         }
         gl.BindBuffer(GL_ARRAY_BUFFER, 0);
         assert_int_equal(all, (int)s->scene.vertex_count * cases[i].floats * 4);
-        free(s);
     }
 }
 
@@ -209,11 +207,10 @@ TEST(vertices_are_uploaded_without_what_no_draw_call_reads)
 TEST(more_vertices_than_a_buffer_takes_are_refused)
 {
     char error[512];
-    small_scene *s = frame_one_quad(small_scene_material(), NULL);
+    SCOPED(memory) small_scene *s = frame_one_quad(small_scene_material(), NULL);
     s->scene.vertex_count = 178956971; /* 2^31 / 12, rounded up */
     assert_null(scene_renderer_create(&s->scene, FAULT(error)));
     assert_string_equal(error, "178956971 vertices: a vertex buffer takes up to 178956970 of them");
-    free(s);
 }
 
 TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -122,7 +122,7 @@ TEST(file_made_by_mikktspace_has_the_same)
         skip();
     }
     fclose(file);
-    scene *s = scene_load(path, FAULT(error));
+    SCOPED(scene) scene *s = scene_load(path, FAULT(error));
     if (!s)
         fail_msg("%s", error);
     assert_non_null(s->tangents);
@@ -143,7 +143,6 @@ TEST(file_made_by_mikktspace_has_the_same)
     }
     print_message("%u of %u corners within 5 degrees\n", near, corners);
     assert_true(corners > 200000 && near > 0.95 * corners);
-    scene_destroy(s);
 }
 
 TEST_MAIN("tangents", NULL, NULL)

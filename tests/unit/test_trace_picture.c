@@ -125,7 +125,7 @@ TEST_GL(no_surface_blocks_its_own_rays)
 {
     for (int i = 0; i < 12; i++) {
         const float distance = powf(10, (float)(i / 4)), height = distance * powf(0.25f, (float)(i % 4));
-        small_scene *s = small_scene_create();
+        SCOPED(memory) small_scene *s = small_scene_create();
         small_scene_begin_mesh(s, small_scene_add_material(s, small_scene_material()));
         small_scene_add_quad(s, (float[3]){-500, 0, -500}, (float[3]){0, 0, 1000}, (float[3]){1000, 0, 0});
         small_scene_add_instance(s, NULL);
@@ -142,7 +142,6 @@ TEST_GL(no_surface_blocks_its_own_rays)
         assert_true(seen > W * H / 20);
         if (blocked > 0)
             fail_msg("from %g, %g up: %d of %d pixels are blocked", (double)distance, (double)height, blocked, seen);
-        free(s);
     }
 }
 
@@ -150,7 +149,7 @@ TEST_GL(no_surface_blocks_its_own_rays)
 TEST_GL(alpha_tests_let_rays_through)
 {
     for (int hole = 0; hole < 2; hole++) {
-        small_scene *s = small_scene_create();
+        SCOPED(memory) small_scene *s = small_scene_create();
         scene_material roof = small_scene_material();
         roof.alpha = SCENE_ALPHA_MASK;
         roof.alpha_cutoff = 0.5f;
@@ -170,7 +169,6 @@ TEST_GL(alpha_tests_let_rays_through)
         for (int k = 0; k < W * H; k++)
             least = got[k] >= 0 && got[k] < least ? got[k] : least;
         assert_true(hole ? least == 1 : least < 0.5f);
-        free(s);
     }
 }
 

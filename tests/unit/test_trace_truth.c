@@ -38,7 +38,7 @@ static small_scene *make_room(int walls)
 
 TEST(empty_plane_is_fully_accessible)
 {
-    small_scene *s = make_room(0);
+    SCOPED(memory) small_scene *s = make_room(0);
     for (int step = 0; step < 8; step++) {
         const float height = 0.02f + 0.7f * (float)step;
         const scene_view view = trace_shot_view((float[3]){50, height, 50}, (float[3]){55, 0, 52}, 1);
@@ -47,7 +47,6 @@ TEST(empty_plane_is_fully_accessible)
         for (int i = 0; i < TRACE_SHOT_PIXELS; i++)
             assert_true(p.accessibility[i] == 1);
     }
-    free(s);
 }
 
 /* Cosine-weighted directions are a uniform disk seen from above. A wall at distance d blocks those within the radius R
@@ -60,14 +59,13 @@ static double segment(double c)
 TEST(wall_blocks_a_segment_of_the_disk)
 {
     enum { SAMPLES = 1 << 14 };
-    small_scene *s = make_room(1);
+    SCOPED(memory) small_scene *s = make_room(1);
     SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     const float distances[] = {0.01f, 0.2f, 0.5f, 0.9f, 0.99f, 1.01f};
     for (size_t i = 0; i < sizeof distances / sizeof distances[0]; i++) {
         const double measured = trace_shot_point(t, distances[i], 0, 50, 1, SAMPLES);
         assert_near_truth(measured, 1 - segment((double)distances[i]), SAMPLES);
     }
-    free(s);
 }
 
 /* The mean open direction where floor and wall meet, at that distance from the other one and with a radius of 1. The
@@ -84,7 +82,7 @@ TEST(open_directions_have_their_closed_form_beside_a_wall)
     enum { SIDE = TRACE_SHOT_SIDE };
     static float got[TRACE_SHOT_PIXELS][3];
     char error[ERROR_LENGTH];
-    small_scene *s = make_room(1);
+    SCOPED(memory) small_scene *s = make_room(1);
     SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     const float eye[3] = {2.5f, 2, 50};
     const scene_view view = trace_shot_view(eye, (float[3]){0, 0.2f, 49}, 1);
@@ -114,7 +112,6 @@ TEST(open_directions_have_their_closed_form_beside_a_wall)
         walls += !is_floor;
     }
     assert_true(floors > TRACE_SHOT_PIXELS / 8 && walls > TRACE_SHOT_PIXELS / 8);
-    free(s);
 }
 
 /* The share of the disk with both x >= a and y >= b. */
@@ -133,7 +130,7 @@ static double disk_corner(double a, double b)
 TEST(corner_of_a_box_blocks_two_segments)
 {
     enum { SAMPLES = 1 << 14 };
-    small_scene *s = make_room(2);
+    SCOPED(memory) small_scene *s = make_room(2);
     SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     const float at[][2] = {{0.001f, 0.001f}, {0.1f, 0.3f}, {0.5f, 0.5f}, {0.8f, 0.7f}, {0.3f, 1.2f}};
     for (size_t i = 0; i < sizeof at / sizeof at[0]; i++) {
@@ -141,7 +138,6 @@ TEST(corner_of_a_box_blocks_two_segments)
         const double truth = 1 - segment(a) - segment(b) + disk_corner(a, b);
         assert_near_truth(trace_shot_point(t, at[i][0], 0, at[i][1], 1, SAMPLES), truth, SAMPLES);
     }
-    free(s);
 }
 
 /* A sphere of radius 1 that touches the plane y = 0 at the origin. */
@@ -208,7 +204,7 @@ static small_scene *make_ceiling(scene_material material)
 TEST(radius_cuts_hard)
 {
     enum { SAMPLES = 1 << 14 };
-    small_scene *s = make_ceiling(small_scene_material());
+    SCOPED(memory) small_scene *s = make_ceiling(small_scene_material());
     SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     assert_true(trace_shot_point(t, 0, 0, 0, 0.999f, 256) == 1);
     assert_true(trace_shot_point(t, 0, 0, 0, 0, 256) == 1);
@@ -216,26 +212,24 @@ TEST(radius_cuts_hard)
         /* Blocked where 1 / cos <= R. */
         assert_near_truth(trace_shot_point(t, 0, 0, 0, (float)radius, SAMPLES), 1 / (radius * radius), SAMPLES);
     }
-    free(s);
 }
 
 TEST(uniform_rays_see_the_solid_angle)
 {
     enum { SAMPLES = 1 << 14 };
     char error[ERROR_LENGTH];
-    small_scene *s = make_ceiling(small_scene_material());
+    SCOPED(memory) small_scene *s = make_ceiling(small_scene_material());
     SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     const float position[1][3] = {{0, 0, 0}}, up[1][3] = {{0, 1, 0}};
     const trace_options options = {.radius = 4, .samples = SAMPLES};
     float out = -1;
     assert_true(trace_points(t, position, up, 1, TRACE_UNIFORM, 0, &options, &out, NULL, FAULT(error)));
     assert_near_truth((double)out, 0.25, SAMPLES); /* a cap of the hemisphere: 1 - cos, cos = 1/4 */
-    free(s);
 }
 
 static double under(scene_material material, const uint8_t *rgba, float vertex_alpha)
 {
-    small_scene *s = small_scene_create();
+    SCOPED(memory) small_scene *s = small_scene_create();
     if (rgba)
         material.base_color_texture = small_scene_add_texture(s, 2, 2, rgba);
     small_scene_begin_mesh(s, small_scene_add_material(s, material));
@@ -246,7 +240,6 @@ static double under(scene_material material, const uint8_t *rgba, float vertex_a
     small_scene_add_instance(s, NULL);
     SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     const double out = trace_shot_point(t, 0, 0, 0, INFINITY, 4096);
-    free(s);
     return out;
 }
 
