@@ -344,14 +344,10 @@ TEST_GL(hidden_sky_is_not_drawn_again)
     scene_lighting lighting = scene_default_lighting();
     const scene_draw_options plain = {.shadows = false};
     assert_true(scene_renderer_configure(r, &lighting, &plain, FAULT(error)));
-    GLuint color, framebuffer, depth = fixture_depth_texture(GL_DEPTH_COMPONENT24, W, H, NULL);
-    gl.GenTextures(1, &color);
-    gl.BindTexture(GL_TEXTURE_2D, color);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, W, H, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
-    gl.GenFramebuffers(1, &framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
+    SCOPED(texture) const GLuint depth = fixture_depth_texture(GL_DEPTH_COMPONENT24, W, H, NULL);
+    SCOPED(texture) const GLuint color = fixture_texture(GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, W, H, NULL);
+    GLuint framebuffer;
+    assert_true(gl_make_framebuffer(color, depth, &framebuffer));
     camera near_wall = camera_frame_scene(s, (float)W / H), far_off = near_wall;
     for (int k = 0; k < 3; ++k) /* close to its target */
         near_wall.eye[k] += 0.9f * (near_wall.target[k] - near_wall.eye[k]);
@@ -371,7 +367,6 @@ TEST_GL(hidden_sky_is_not_drawn_again)
     }
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     gl.DeleteFramebuffers(1, &framebuffer);
-    gl.DeleteTextures(2, (const GLuint[2]){color, depth});
 }
 
 TEST_MAIN(NULL, fixture_setup, fixture_teardown)

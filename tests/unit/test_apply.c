@@ -229,7 +229,7 @@ static GLuint make_unusual(enum unusual kind, GLuint *out_texture, GLuint *out_r
         return framebuffer;
     }
     const int level = kind == SECOND_LEVEL;
-    *out_texture = apply_make_texture(GL_RGBA8, W << level, H << level, GL_RGBA, NULL);
+    *out_texture = gl_make_texture(GL_RGBA8, GL_RGBA, GL_FLOAT, W << level, H << level, NULL);
     gl.BindTexture(GL_TEXTURE_2D, *out_texture);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, level);
     if (level)

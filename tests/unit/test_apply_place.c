@@ -81,7 +81,7 @@ TEST_GL(four_views_in_one_framebuffer)
         for (int i = 0; i < 4 * W * H; ++i)
             strengths[i] = (float)(i % 13) / 12.0f;
         SCOPED(texture) const GLuint atlas = fixture_depth_texture(GL_DEPTH_COMPONENT32F, 2 * W, 2 * H, depth);
-        SCOPED(texture) const GLuint strength = apply_make_texture(GL_R32F, 2 * W, 2 * H, GL_RED, strengths);
+        SCOPED(texture) const GLuint strength = gl_make_texture(GL_R32F, GL_RED, GL_FLOAT, 2 * W, 2 * H, strengths);
         SCOPED(applied)
         apply_target plain = apply_make_target(GL_RGBA32F, 2 * W, 2 * H),
                      weighted = apply_make_target(GL_RGBA32F, 2 * W, 2 * H);
@@ -220,7 +220,7 @@ TEST_GL(bad_options_are_named_and_change_nothing)
 {
     apply_room r = apply_open_room(f, GLSSAO_PATH_FRAGMENT);
     apply_target t = apply_make_target(GL_RGBA32F, W, H);
-    const GLuint small = apply_make_texture(GL_R8, W / 2, H, GL_RED, NULL);
+    const GLuint small = gl_make_texture(GL_R8, GL_RED, GL_FLOAT, W / 2, H, NULL);
     GLuint integer, array;
     gl.GenTextures(1, &integer);
     gl.BindTexture(GL_TEXTURE_2D, integer);

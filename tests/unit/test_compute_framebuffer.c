@@ -92,7 +92,7 @@ TEST_GL(every_depth_format_arrives)
             SCOPED(host) host h = make_host(&formats[i], samples, W, H);
             for (int again = 0; again < 2; ++again) {
                 if (glssao_compute_framebuffer(effect, h.framebuffer, &frame, &settings) != GLSSAO_OK)
-                    fail_msg("%s, %d samples: %s", formats[i].name, samples, (f)->log);
+                    fail_msg("%s, %d samples: %s", formats[i].name, samples, f->log);
                 check_depth(effect, W, H, SPLIT, formats[i].name);
             }
         }
