@@ -94,6 +94,17 @@ vec4 history_at(vec3 position_view, vec3 normal_view, vec2 uv, float tolerance)
     return sum > 0.01 ? vec4(means, dot(weights, frames), change) / sum : vec4(0.0);
 }
 
+#if !RAYS
+// How much of the disc that samples reach lies in the picture, along each side: about a point at a uv and view distance. An
+// estimate lacks occluders from beyond the picture's edge, so it is too bright there.
+float seen_share(vec2 uv, float distance, vec4 origin, vec4 direction)
+{
+    vec2 reach = radius_at(distance) / abs(origin.xy + distance * direction.xy);
+    vec2 seen = clamp(0.5 + 0.5 * min(uv, 1.0 - uv) / reach, 0.25, 1.0);
+    return seen.x * seen.y;
+}
+#endif
+
 RESULT result()
 {
     ivec2 pixel = ivec2(pixel_center());
@@ -105,6 +116,9 @@ RESULT result()
     vec3 normal_view = normal_view_at_uv(uv);
     vec2 now = estimate_at(pixel);
     vec4 last = vec4(0.0);
+#if !RAYS
+    float seen = 1.0, weight = 1.0; // what the last frame's estimate counts against this one's
+#endif
     if (gHistory.y > 0.0) {
         vec3 position = (gLastView * vec4(position_view_from_uv(uv, distance), 1.0)).xyz;
         vec3 normal = mat3(gLastView) * normal_view;
@@ -121,6 +135,11 @@ RESULT result()
         }
 #endif
         last = history_at(position, normal, place, tolerance);
+#if !RAYS
+        seen = seen_share(uv, distance, gRayOrigin, gRayDirection);
+        float ratio = seen_share(place, -position.z, gLastRayOrigin, gLastRayDirection) / seen;
+        weight = last.z > 0.5 ? pow(ratio, SEEN) : 1.0;
+#endif
     }
 #if RAYS
     // Where no ray tells anything, what is known stays.
@@ -130,7 +149,14 @@ RESULT result()
                              normal_code(normal_view));
     now.x = now.x >= 0.0 ? now.x : is_known ? last.x : now.y;
 #endif
-    float frames = min(floor(last.z + 0.5) + 1.0, gHistory.x);
+    float frames = floor(last.z + 0.5);
+#if RAYS
+    frames = min(frames + 1.0, gHistory.x);
+#else
+    // As many of this frame's weight. Those that saw more count as several.
+    frames = frames > gHistory.x ? frames - 1.0 : min(frames + 1.0, gHistory.x);
+    frames = clamp(floor(weight * frames + gNoise.x), 1.0, min(SEEN_MOST * gHistory.x, 63.0));
+#endif
     // What changes for longer than noise does is taken over at once, and what was known before is soon forgotten.
     float change = frames > 1.0 ? mix(last.w, now.y - last.y, LATELY) : 0.0;
     float noise = NOISE + min(DETAIL * abs(last.x - last.y), NOISE);
@@ -140,10 +166,16 @@ RESULT result()
     // At full size the blur leaves less. A frame that is darker has found an occluder; a lighter one may have lost it from sight.
     noise *= change < 0.0 ? QUIET * QUIET : QUIET;
 #endif
+#if !RAYS
+    // In motion, and after it, a frame may be lighter because it lost an occluder from sight.
+    if (change > 0.0 && (frames > gHistory.x || abs(weight - 1.0) > 0.01))
+        noise += LOST * (1.0 - seen);
+#endif
     float share_of_noise = abs(change) / noise;
     float jump = clamp(share_of_noise - 1.0, 0.0, 1.0);
     float doubt = clamp(2.0 * share_of_noise - 1.0, 0.0, 1.0);
-    frames = min(frames, max(FORGET, floor(gHistory.x * (1.0 - doubt))));
+    if (doubt > 0.0)
+        frames = min(frames, max(FORGET, floor(gHistory.x * (1.0 - doubt))));
     vec2 means = clamp(last.xy + jump * change, 0.0, 1.0);
     change -= jump * change;
 #if RAW && !RAYS

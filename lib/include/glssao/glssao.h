@@ -135,8 +135,8 @@ typedef struct glssao_settings { /* fill with glssao_default_settings() first */
     glssao_tiles tiles;          /* whether tiles that nothing can occlude are skipped */
     bool no_angle_weight;        /* classic, for teaching: occluders count at any angle, so flat surfaces darken */
     uint32_t noise_index;        /* each value gives another noise pattern: the frame's number if you average frames */
-    int history;                 /* 0 to 63: the most earlier frames in a pixel's mean; 0: none. Full-size result. Needs
-                                    frame.view; not with bent normals */
+    int history;                 /* 0 to 63: the most earlier frames in a pixel's mean, more where they saw more of what is
+                                    around it; 0: none. Full-size result. Needs frame.view; not with bent normals */
     float thickness;             /* horizon: multiplies the estimated thickness of occluders, 0.001 to 1000; 0: 1 */
     float fade_far_start, fade_far_end; /* scene units of view distance, 0 <= start <= end: occlusion is full up to
                                     start and fades to nothing at end. 0, 0: never */
