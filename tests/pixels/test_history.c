@@ -269,7 +269,6 @@ TEST_GL(motion_keeps_the_history)
  * less far off than the floor of what is seen. Without the weights of what was seen, the ratio is 0.81. */
 TEST_GL(what_left_the_picture_still_occludes)
 {
-    fixture *f = *state;
     enum { MORE = 48 };
     glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_ULTRA, 16);
     settings.radius = 3.0f;
