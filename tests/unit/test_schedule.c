@@ -449,9 +449,8 @@ TEST(loops_are_written_out)
          "{ const int i = 0; { { const int k = 0; { c; } }\n{ const int k = 1; { c; } }\n } }\n"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
-        char *unrolled = glssao__unroll(cases[i].source, true);
+        SCOPED(memory) char *unrolled = glssao__unroll(cases[i].source, true);
         assert_string_equal(unrolled, cases[i].wanted);
-        free(unrolled);
     }
     static const char *const loop = "UNROLL_IF_SHORT for (int i = 0; i < 1; ++i) { x; }";
     char *kept = glssao__unroll(loop, false), *unrolled = glssao__unroll(loop, true);
