@@ -24,9 +24,9 @@ PAGE
 strip() { # name, title, credit, options of glssao-render...
     local name=$1 title=$2 credit=$3
     shift 3
-    "$render" -s 640x480 --no-ao -o "$work/off.png" "$@" 2>/dev/null
-    "$render" -s 640x480 -o "$work/on.png" "$@" 2>/dev/null
-    "$render" -s 640x480 -t raytrace -o "$work/truth.png" "$@" 2>/dev/null
+    "$render" -s 640x480 --no-ao -o "$work/off.png" "$@"
+    "$render" -s 640x480 -o "$work/on.png" "$@"
+    "$render" -s 640x480 -t raytrace -o "$work/truth.png" "$@"
     convert "$work/off.png" "$work/on.png" "$work/truth.png" +append -resize 50% -quality 88 -strip "$out/$name.jpg"
     printf '\n## %s\n\n%s\n\n![%s: off, on, ray-traced](pictures/gallery/%s.jpg)\n' "$title" "$credit" "$title" "$name" >>"$page"
 }
@@ -55,7 +55,7 @@ cat >>"$page" <<'PAGE'
 A matte surface above, a glossy one below, under a dim sky with one lamp: lit by accessibility alone, by bent normals as
 `glssao-render --bent-normals` does, and by rays (HIGH, `glssao-bench --bent`; [accuracy-bent.md](accuracy-bent.md) has the errors).
 PAGE
-"$bench" --bent --scenes "$scenes" --pick steps,zdm2,hermes --size 640x360 --rays 256 --cache "$work/cache" --out "$work/bent" 2>/dev/null
+"$bench" --bent --scenes "$scenes" --pick steps,zdm2,hermes --size 640x360 --rays 256 --cache "$work/cache" --out "$work/bent"
 for name in steps:Steps zdm2-courtyard:Courtyard hermes-scan:Hermes; do
     convert "$work/bent/bent-${name%%:*}.png" -resize 50% -quality 88 -strip "$out/bent-${name%%:*}.jpg"
     printf '\n![%s: accessibility, bent normals, ray-traced](pictures/gallery/bent-%s.jpg)\n' "${name#*:}" "${name%%:*}" >>"$page"

@@ -60,23 +60,17 @@ static bool cast_points(caster *c, const bake_points *p, float *out)
  * of a closed object. */
 static bool cast_instance(caster *c, const bake_part *part, bake_points *p, float *values, float *scratch)
 {
-    if (!cast_points(c, p, values)) {
+    if (!cast_points(c, p, values))
         return false;
-    }
-    if (!part->double_sided) {
+    if (!part->double_sided)
         return true;
-    }
-    for (size_t i = 0; i < p->count; i++) {
-        for (int k = 0; k < 3; k++) {
+    for (size_t i = 0; i < p->count; i++)
+        for (int k = 0; k < 3; k++)
             p->normals[i][k] *= -1;
-        }
-    }
-    if (!cast_points(c, p, scratch)) {
+    if (!cast_points(c, p, scratch))
         return false;
-    }
-    for (size_t i = 0; i < p->count; i++) {
+    for (size_t i = 0; i < p->count; i++)
         values[i] = fmaxf(values[i], scratch[i]);
-    }
     return true;
 }
 
@@ -96,18 +90,15 @@ static bool cast_part(caster *c, bake_part *part)
         }
         float *sums = memory, *values = memory + points.count, *scratch = values + points.count;
         ok = ok && cast_instance(c, part, &points, values, scratch);
-        for (size_t k = 0; ok && k < points.count; k++) {
+        for (size_t k = 0; ok && k < points.count; k++)
             sums[k] += values[k] / (float)part->instance_count;
-        }
         c->steps_done += c->step;
     }
-    for (size_t k = 0; ok && k < points.count; k++) {
+    for (size_t k = 0; ok && k < points.count; k++)
         memory[k] = fmaxf(memory[k], c->options->floor_value);
-    }
     ok = ok && (!part->instance_count || bake_spread(part, &points, memory, method, c->fault));
-    for (uint32_t k = 0; !part->instance_count && k < part->vertex_count; k++) {
+    for (uint32_t k = 0; !part->instance_count && k < part->vertex_count; k++)
         part->accessibility[k] = 1;
-    }
     bake_points_free(&points);
     free(memory);
     return ok;
@@ -118,9 +109,8 @@ static bool cast_part(caster *c, bake_part *part)
 static float choose_offset(const scene *s)
 {
     float largest = 0;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         largest = fmaxf(largest, fmaxf(fabsf(s->bounds_min[i]), fabsf(s->bounds_max[i])));
-    }
     return 0x1p-18f * largest;
 }
 
@@ -128,9 +118,8 @@ bool bake_cast(bake_model *m, const bake_options *o, bake_stats *out, failure *f
 {
     const scene_load_options file = bake_load_options(o);
     scene *s = scene_load_with(o->input, &file, fault);
-    for (size_t i = 0; s && i < s->warning_count; i++) {
+    for (size_t i = 0; s && i < s->warning_count; i++)
         fprintf(stderr, "%s: warning: %s\n", o->input, s->warnings[i]);
-    }
     trace_scene *t = s ? trace_scene_create(s, fault) : NULL;
     if (!t) {
         scene_destroy(s);
@@ -139,9 +128,8 @@ bool bake_cast(bake_model *m, const bake_options *o, bake_stats *out, failure *f
     }
     caster c = {.options = o, .scene = t, .fault = fault, .bar = progress_start("casting")};
     c.origin = m->origin;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         m->origin[i] = s->origin[i];
-    }
     c.offset = o->offset >= 0 ? o->offset : choose_offset(s);
     double area = 0, triangles = 0;
     for (size_t i = 0; i < m->part_count; i++) {
@@ -151,9 +139,8 @@ bool bake_cast(bake_model *m, const bake_options *o, bake_stats *out, failure *f
     }
     c.triangles_per_area = area > 0 ? triangles / area : 0;
     bool ok = true;
-    for (size_t i = 0; ok && i < m->part_count; i++) {
+    for (size_t i = 0; ok && i < m->part_count; i++)
         ok = cast_part(&c, &m->parts[i]);
-    }
     progress_clear();
     trace_scene_destroy(t);
     scene_destroy(s);

@@ -23,13 +23,11 @@ static bake_part *find_part(bake_model *m, const gltf_mesh *mesh, size_t node, c
         const gltf_primitive *other = &mesh->primitives[m->parts[i].primitives[0]];
         const char *const names[] = {"POSITION", "NORMAL", "COLOR_0"};
         bool same = p->target_count == 0 && other->target_count == 0;
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3; k++)
             same = same &&
                    gltf_find_attribute(&p->attributes, names[k]) == gltf_find_attribute(&other->attributes, names[k]);
-        }
-        if (same) {
+        if (same)
             return &m->parts[i];
-        }
     }
     return NULL;
 }
@@ -37,9 +35,8 @@ static bake_part *find_part(bake_model *m, const gltf_mesh *mesh, size_t node, c
 static double (*read_places(reader *r, size_t node, size_t *out_count))[16]
 {
     const gltf_node *n = &r->loader.document->nodes[node];
-    if (n->instanced && n->skin < 0) {
+    if (n->instanced && n->skin < 0)
         return gltf_read_instances(&r->loader, node, out_count);
-    }
     double(*place)[16] = calloc(1, sizeof *place);
     *out_count = 1;
     if (!place) {
@@ -47,9 +44,8 @@ static double (*read_places(reader *r, size_t node, size_t *out_count))[16]
         return NULL;
     }
     if (n->skin >= 0) { /* posed in world space */
-        for (int i = 0; i < 16; i += 5) {
+        for (int i = 0; i < 16; i += 5)
             place[0][i] = 1;
-        }
     } else {
         memcpy(place[0], r->loader.world_from_node[node], sizeof place[0]);
     }
@@ -77,9 +73,8 @@ static bake_part *add_part(reader *r)
 static bool add_primitive_number(bake_part *part, size_t number, failure *fault)
 {
     size_t *numbers = realloc(part->primitives, (part->primitive_count + 1) * sizeof *numbers);
-    if (!numbers) {
+    if (!numbers)
         return fault_set_memory(fault);
-    }
     part->primitives = numbers;
     part->primitives[part->primitive_count++] = number;
     return true;
@@ -88,15 +83,13 @@ static bool add_primitive_number(bake_part *part, size_t number, failure *fault)
 static bool add_triangles(reader *r, bake_part *part, const gltf_primitive *p)
 {
     gltf_triangles triangles;
-    if (!gltf_make_triangles(&r->loader, p, &triangles)) {
+    if (!gltf_make_triangles(&r->loader, p, &triangles))
         return false;
-    }
     uint32_t *indices = realloc(part->indices, ((size_t)part->index_count + triangles.count + 1) * sizeof *indices);
     if (indices) {
         part->indices = indices;
-        if (triangles.count) {
+        if (triangles.count)
             memcpy(indices + part->index_count, triangles.indices, triangles.count * sizeof *indices);
-        }
         part->index_count += triangles.count;
     }
     free(triangles.indices);
@@ -124,23 +117,19 @@ static bool take_vertices(reader *r, bake_part *part, size_t node)
 static bool read_primitive(reader *r, size_t node, const gltf_mesh *mesh, size_t number)
 {
     const gltf_primitive *p = &mesh->primitives[number];
-    if (p->mode < GLTF_TRIANGLES || gltf_find_attribute(&p->attributes, "POSITION") < 0) {
+    if (p->mode < GLTF_TRIANGLES || gltf_find_attribute(&p->attributes, "POSITION") < 0)
         return true;
-    }
     gltf_free_vertices(&r->loader.recent); /* its arrays go to the part: nothing is read twice */
-    if (!gltf_read_vertices(&r->loader, p, node, &(gltf_uv_slots){.count = 0})) {
+    if (!gltf_read_vertices(&r->loader, p, node, &(gltf_uv_slots){.count = 0}))
         return false;
-    }
     bake_part *part = find_part(r->model, mesh, node, p);
     if (!part) {
         part = add_part(r);
-        if (!part) {
+        if (!part)
             return false;
-        }
         part->node = node;
-        if (!add_triangles(r, part, p) || !take_vertices(r, part, node)) {
+        if (!add_triangles(r, part, p) || !take_vertices(r, part, node))
             return false;
-        }
     } else if (!add_triangles(r, part, p)) {
         return false;
     }
@@ -153,20 +142,15 @@ static bool read_branch(gltf_loader *l, size_t node)
     reader *r = (reader *)l; /* its first member */
     const gltf_document *d = l->document;
     const gltf_node *n = &d->nodes[node];
-    if (l->drawn[node] || n->hidden) {
+    if (l->drawn[node] || n->hidden)
         return true;
-    }
     l->drawn[node] = true;
-    for (size_t i = 0; n->mesh >= 0 && i < d->meshes[n->mesh].primitive_count; i++) {
-        if (!read_primitive(r, node, &d->meshes[n->mesh], i)) {
+    for (size_t i = 0; n->mesh >= 0 && i < d->meshes[n->mesh].primitive_count; i++)
+        if (!read_primitive(r, node, &d->meshes[n->mesh], i))
             return false;
-        }
-    }
-    for (size_t i = 0; i < n->child_count; i++) {
-        if (!read_branch(l, (size_t)n->children[i])) {
+    for (size_t i = 0; i < n->child_count; i++)
+        if (!read_branch(l, (size_t)n->children[i]))
             return false;
-        }
-    }
     return true;
 }
 
@@ -181,13 +165,11 @@ bool bake_model_open(bake_model *m, const bake_options *o, failure *fault)
 {
     const scene_load_options file = bake_load_options(o);
     *m = (bake_model){.warnings = {.strict = file.strict}};
-    if (!gltf_document_open(&m->document, o->input, &file, &m->warnings, fault)) {
+    if (!gltf_document_open(&m->document, o->input, &file, &m->warnings, fault))
         return false;
-    }
     reader r = {.loader = {.document = &m->document, .fault = fault}, .model = m};
-    if (!gltf_check(&m->document, fault)) {
+    if (!gltf_check(&m->document, fault))
         return false;
-    }
     const bool ok =
         gltf_loader_begin(&r.loader) && gltf_place_nodes(&r.loader) && gltf_visit_shown(&r.loader, read_branch);
     gltf_loader_end(&r.loader);
@@ -208,8 +190,7 @@ void bake_model_close(bake_model *m)
     }
     free(m->parts);
     scene_warnings_free(&m->warnings);
-    if (m->document.owner) {
+    if (m->document.owner)
         gltf_document_close(&m->document);
-    }
     *m = (bake_model){0};
 }

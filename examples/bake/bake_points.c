@@ -15,13 +15,11 @@ typedef struct vector {
 static vector to_world(const double m[16], const bake_part *part, uint32_t vertex)
 {
     double p[3];
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++)
         p[k] = (double)part->positions[vertex][k] + part->center[k];
-    }
     vector out;
-    for (int r = 0; r < 3; r++) {
+    for (int r = 0; r < 3; r++)
         out.x[r] = m[r] * p[0] + m[4 + r] * p[1] + m[8 + r] * p[2] + m[12 + r];
-    }
     return out;
 }
 
@@ -55,17 +53,15 @@ static double mirror_sign(const double m[16])
 static void store_unit(vector v, float out[3])
 {
     const double length = sqrt(dot(v, v));
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         out[i] = length > 0 ? (float)(v.x[i] / length) : (float)(i == 1);
-    }
 }
 
 /* Twice the triangle's area, along its front's normal. */
 static vector face_vector(const bake_part *part, const double m[16], uint32_t triangle, vector corners[3])
 {
-    for (uint32_t k = 0; k < 3; k++) {
+    for (uint32_t k = 0; k < 3; k++)
         corners[k] = to_world(m, part, part->indices[3 * triangle + k]);
-    }
     const vector face = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
     const double sign = mirror_sign(m);
     return (vector){{sign * face.x[0], sign * face.x[1], sign * face.x[2]}};
@@ -118,9 +114,8 @@ static vector normal_to_world(const double m[16], const float n[3])
     vector out = {{0, 0, 0}};
     for (int c = 0; c < 3; c++) {
         const vector cofactors = cross(column(m, (c + 1) % 3), column(m, (c + 2) % 3));
-        for (int r = 0; r < 3; r++) {
+        for (int r = 0; r < 3; r++)
             out.x[r] += sign * cofactors.x[r] * (double)n[c];
-        }
     }
     return out;
 }
@@ -138,19 +133,16 @@ static bool make_vertices(bake_points *p, const bake_part *part, const double m[
     for (uint32_t t = 0; t < part->index_count / 3; t++) {
         vector corners[3];
         const vector face = face_vector(part, m, t, corners);
-        for (uint32_t k = 0; k < 3; k++) {
-            for (int i = 0; i < 3; i++) {
+        for (uint32_t k = 0; k < 3; k++)
+            for (int i = 0; i < 3; i++)
                 sums[part->indices[3 * t + k]].x[i] += face.x[i];
-            }
-        }
     }
     for (uint32_t i = 0; i < part->vertex_count; i++) {
         const vector at = to_world(m, part, i);
         const vector given = part->normals ? normal_to_world(m, part->normals[i]) : (vector){{0, 0, 0}};
         store_unit(dot(given, given) > 0 ? given : sums[i], p->normals[i]);
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3; k++)
             p->positions[i][k] = (float)(at.x[k] - origin[k]);
-        }
     }
     free(sums);
     return true;
@@ -180,9 +172,8 @@ bool bake_points_make(bake_points *p, const bake_part *part, size_t instance, co
                       bake_method method, double triangles_per_area, failure *fault)
 {
     const double *m = part->world_from_mesh[instance];
-    if (method == BAKE_VERTICES) {
+    if (method == BAKE_VERTICES)
         return make_vertices(p, part, m, origin, fault);
-    }
     const uint32_t triangles = part->index_count / 3;
     uint32_t *counts = malloc((size_t)(triangles + 1) * sizeof *counts);
     float *areas = malloc((size_t)(triangles + 1) * sizeof *areas);
@@ -201,11 +192,10 @@ bool bake_points_make(bake_points *p, const bake_part *part, size_t instance, co
         const vector face = face_vector(part, m, t, corners);
         for (uint32_t i = 0; i < counts[t]; i++, at++) {
             place_point(i, counts[t], p->weights[at]);
-            for (int k = 0; k < 3; k++) {
+            for (int k = 0; k < 3; k++)
                 p->positions[at][k] = (float)((double)p->weights[at][0] * (corners[0].x[k] - origin[k]) +
                                               (double)p->weights[at][1] * (corners[1].x[k] - origin[k]) +
                                               (double)p->weights[at][2] * (corners[2].x[k] - origin[k]));
-            }
             store_unit(face, p->normals[at]);
             p->triangles[at] = t;
             p->areas[at] = areas[t];

@@ -19,19 +19,16 @@ static bool spread_mean(bake_part *part, const bake_points *points, const float 
         double sum;
         uint32_t count;
     } *sums = calloc((size_t)part->vertex_count + 1, sizeof *sums);
-    if (!sums) {
+    if (!sums)
         return fault_set_memory(fault);
-    }
-    for (size_t i = 0; i < points->count; i++) {
+    for (size_t i = 0; i < points->count; i++)
         for (uint32_t k = 0; k < 3; k++) {
             const uint32_t vertex = part->indices[3 * points->triangles[i] + k];
             sums[vertex].sum += (double)values[i];
             sums[vertex].count++;
         }
-    }
-    for (uint32_t i = 0; i < part->vertex_count; i++) {
+    for (uint32_t i = 0; i < part->vertex_count; i++)
         part->accessibility[i] = sums[i].count ? (float)(sums[i].sum / sums[i].count) : 1;
-    }
     free(sums);
     return true;
 }
@@ -53,18 +50,16 @@ static const uint32_t *corners_of(const equations *e, size_t point)
  * differences along the edges. */
 static void apply(const equations *e, const double *x, double *out)
 {
-    for (size_t i = 0; i < e->count; i++) {
+    for (size_t i = 0; i < e->count; i++)
         out[i] = 0;
-    }
     for (size_t i = 0; i < e->points->count; i++) {
         const uint32_t *c = corners_of(e, i);
         const float *w = e->points->weights[i];
         const double area = (double)e->points->areas[i];
         const double value = (double)w[0] * x[c[0]] + (double)w[1] * x[c[1]] + (double)w[2] * x[c[2]];
         const double mean = (x[c[0]] + x[c[1]] + x[c[2]]) / 3;
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3; k++)
             out[c[k]] += area * ((double)w[k] * value + smoothness * (x[c[k]] - mean));
-        }
     }
 }
 
@@ -82,9 +77,8 @@ static void find_diagonal(const equations *e, double *out)
 static double dot(const double *a, const double *b, size_t count)
 {
     double sum = 0;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count; i++)
         sum += a[i] * b[i];
-    }
     return sum;
 }
 
@@ -110,9 +104,8 @@ static void solve(const equations *e, double *x, double *residual, const double 
             residual[i] -= length * image[i];
             next += diagonal[i] > 0 ? residual[i] * residual[i] / diagonal[i] : 0;
         }
-        for (size_t i = 0; i < n; i++) {
+        for (size_t i = 0; i < n; i++)
             direction[i] = (diagonal[i] > 0 ? residual[i] / diagonal[i] : 0) + next / error * direction[i];
-        }
         error = next;
     }
 }
@@ -129,33 +122,26 @@ static bool spread_fit(bake_part *part, const bake_points *points, const float *
     }
     double *x = memory, *right = x + n, *diagonal = right + n, *direction = diagonal + n, *image = direction + n;
     const equations e = {.part = part, .points = points, .count = n};
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < n; i++)
         x[i] = (double)part->accessibility[i];
-    }
-    for (size_t i = 0; i < points->count; i++) {
-        for (int k = 0; k < 3; k++) {
+    for (size_t i = 0; i < points->count; i++)
+        for (int k = 0; k < 3; k++)
             right[corners_of(&e, i)[k]] += (double)points->areas[i] * (double)points->weights[i][k] * (double)values[i];
-        }
-    }
     find_diagonal(&e, diagonal);
     solve(&e, x, right, diagonal, direction, image);
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < n; i++)
         part->accessibility[i] = (float)fmin(fmax(x[i], 0), 1);
-    }
     free(memory);
     return true;
 }
 
 bool bake_spread(bake_part *part, const bake_points *points, const float *values, bake_method method, failure *fault)
 {
-    if (method == BAKE_FIT) {
+    if (method == BAKE_FIT)
         return spread_fit(part, points, values, fault);
-    }
-    if (method == BAKE_TRIANGLES) {
+    if (method == BAKE_TRIANGLES)
         return spread_mean(part, points, values, fault);
-    }
-    for (size_t i = 0; i < points->count; i++) {
+    for (size_t i = 0; i < points->count; i++)
         part->accessibility[i] = values[i];
-    }
     return true;
 }

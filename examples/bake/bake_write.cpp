@@ -160,14 +160,13 @@ uint16_t to_unorm(float value)
 size_t add_colors(const bake_part &part, bool accessibility_only, output *out)
 {
     std::string bytes;
-    for (uint32_t i = 0; i < part.vertex_count; ++i) {
+    for (uint32_t i = 0; i < part.vertex_count; ++i)
         for (int c = 0; c < 4; ++c) {
             const float given = part.colors && !(accessibility_only && c < 3) ? part.colors[i][c] : 1;
             const uint16_t value = to_unorm(c < 3 ? given * part.accessibility[i] : given);
             bytes += static_cast<char>(value & 0xff);
             bytes += static_cast<char>(value >> 8);
         }
-    }
     const int unsigned_short = 5123, array_buffer = 34962;
     const size_t view = append(out, bytes.data(), bytes.size(), array_buffer);
     json &accessors = out->root["accessors"];

@@ -73,9 +73,8 @@ static FILE *open_temporary(const char *path, char **out_name)
     static atomic_uint count;
     const size_t size = strlen(path) + 64;
     char *name = malloc(size);
-    if (!name) {
+    if (!name)
         return NULL;
-    }
     snprintf(name, size, "%s.%ld-%u.part", path, (long)getpid(), atomic_fetch_add(&count, 1));
     enter(name); /* before the file exists: a signal may arrive at any time */
     const int descriptor = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -114,13 +113,11 @@ bool whole_file_open(whole_file *f, const char *path, failure *fault)
     const bool is_protected = exists && access(f->path, W_OK) != 0; /* renaming would replace it all the same */
     if (is_regular && !is_protected) {
         f->file = open_temporary(f->path, &f->temporary);
-        if (f->file && exists) {
+        if (f->file && exists)
             (void)fchmod(fileno(f->file), status.st_mode & 07777);
-        }
     }
-    if (!f->file) {
+    if (!f->file)
         f->file = fopen(path, "wb");
-    }
     if (!f->file) {
         fault_set(fault, "%s: %s", path, strerror(errno));
         free(f->path);
@@ -148,9 +145,8 @@ bool whole_file_close(whole_file *f, bool written, failure *fault)
         fault_set(fault, "%s: %s", f->name, strerror(errno));
         written = false;
     }
-    if (!written && is_regular) {
+    if (!written && is_regular)
         remove(f->temporary ? f->temporary : f->path);
-    }
     if (!f->temporary || leave(f->temporary))
         free(f->temporary);
     free(f->path);

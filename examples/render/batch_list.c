@@ -115,12 +115,10 @@ bool batch_list_read(batch_list *list, const options *defaults, failure *why)
     *list = (batch_list){.count = 0};
     const char *reason;
     list->text = read_text(defaults->batch, &size, &reason);
-    if (!list->text) {
+    if (!list->text)
         return fault_set(why, "%s: %s", defaults->batch, reason);
-    }
-    if (strlen(list->text) != size) {
+    if (strlen(list->text) != size)
         return fault_set(why, "%s: contains a zero byte, so it is not text", defaults->batch);
-    }
     static const char byte_order_mark[] = "\xef\xbb\xbf"; /* as Windows editors write it */
     const size_t skipped = strncmp(list->text, byte_order_mark, 3) == 0 ? 3 : 0;
     int number = 1;
@@ -132,9 +130,8 @@ bool batch_list_read(batch_list *list, const options *defaults, failure *why)
         room = add_job(list, defaults, number, line);
         line = next;
     }
-    if (!room || !batch_find_clashes(list)) {
+    if (!room || !batch_find_clashes(list))
         return fault_set(why, "%s: out of memory", defaults->batch);
-    }
     return true;
 }
 

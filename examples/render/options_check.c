@@ -17,14 +17,13 @@
 static bool same_file(const options *o, failure *why)
 {
     const char *const files[] = {o->output, o->ao, o->normals, o->depth, o->stats};
-    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++)
         for (size_t k = 0; k < i; k++) {
             if (files[i] && files[k] && strcmp(files[i], files[k]) == 0) {
                 fault_set(why, "%s is named for two outputs", files[i]);
                 return true;
             }
         }
-    }
     return false;
 }
 
@@ -42,12 +41,10 @@ static bool check_samples(const options *o, failure *why)
     const int count = settings.sample_count, most = o->technique == GLSSAO_CLASSIC ? 14 : 64;
     if (count == 0 || o->technique == OPTIONS_RAYTRACE)
         return true;
-    if (o->technique == GLSSAO_HORIZON && !is_horizon_count(count)) {
+    if (o->technique == GLSSAO_HORIZON && !is_horizon_count(count))
         return fault_set(why, "--samples \"%d\": horizon takes 12, 16, 24, 32, 48 or 64", count);
-    }
-    if (count > most) {
+    if (count > most)
         return fault_set(why, "--samples \"%d\": this technique takes at most %d", count, most);
-    }
     return true;
 }
 
@@ -256,9 +253,8 @@ bool options_check(const options *o, options_program program, failure *why)
         return fault_set(why, "--isolate: needs a list, --batch LIST");
     if (program == OPTIONS_JOB && o->scene_path && strcmp(o->scene_path, "-") == 0)
         return fault_set(why, "-: only a run with one job reads its scene from standard input");
-    if (o->shard_count && program == OPTIONS_RENDER) {
+    if (o->shard_count && program == OPTIONS_RENDER)
         return fault_set(why, "--shard %d/%d: needs a list, --batch LIST", o->shard_index, o->shard_count);
-    }
     return check_together(o, program, why) && check_picture(o, program, why) && check_settings(o, why) &&
            check_samples(o, why) && check_extent(o, why);
 }

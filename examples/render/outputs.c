@@ -56,9 +56,8 @@ bool outputs_check(const options *o, failure *why)
         const bool numbered = o->frames && files[i] != o->stats;
         const int code =
             number_path(files[i], numbered ? 1 : 0, path, sizeof path) ? writing_error(path) : ENAMETOOLONG;
-        if (code) {
+        if (code)
             return fault_set(why, "%s: can't be written: %s", files[i], strerror(code));
-        }
     }
     return true;
 }

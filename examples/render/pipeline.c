@@ -94,9 +94,8 @@ static bool prepare_effect(pipeline *p, glssao_load_fn load, void *load_user, co
         p->kept = NULL;
     }
     if (!p->kept) {
-        if (o->program_cache && !is_folder(o->program_cache)) {
+        if (o->program_cache && !is_folder(o->program_cache))
             return fault_set(why, "--program-cache %s: no such folder", o->program_cache);
-        }
         const glssao_config config = {.load = load,
                                       .load_user = load_user,
                                       .log = hear,

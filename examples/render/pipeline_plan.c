@@ -74,8 +74,7 @@ void pipeline_print_plan(const pipeline *p, const scene_view *view)
     print_row("culling", hidden > 0, (int)(seen.opaque + seen.blended), p->width, p->height, text);
     scene_effect effects[SCENE_EFFECT_COUNT];
     scene_renderer_effects(p->renderer, &p->lighting, effects);
-    for (int i = 0; p->wants.picture && i < SCENE_EFFECT_COUNT; i++) {
+    for (int i = 0; p->wants.picture && i < SCENE_EFFECT_COUNT; i++)
         printf("%-12s %-5s %5s  %-12s %s\n", effects[i].name, effects[i].used ? "use" : "skip", "-", "-",
                effects[i].reason);
-    }
 }

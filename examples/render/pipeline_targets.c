@@ -15,9 +15,8 @@ static bool check_size(int width, int height, failure *why)
     gl.GetIntegerv(GL_MAX_VIEWPORT_DIMS, max_viewport);
     const int max_width = max_size < max_viewport[0] ? max_size : max_viewport[0];
     const int max_height = max_size < max_viewport[1] ? max_size : max_viewport[1];
-    if (width > max_width || height > max_height) {
+    if (width > max_width || height > max_height)
         return fault_set(why, "--size %dx%d: this context draws up to %dx%d", width, height, max_width, max_height);
-    }
     return true;
 }
 
@@ -67,10 +66,9 @@ bool pipeline_make_targets(pipeline *p, failure *why)
         !samples_open(&p->samples, p->width, p->height, p->depth, why))
         return false;
     const GLenum gl_error = gl.GetError();
-    if (!complete || gl_error != GL_NO_ERROR) {
+    if (!complete || gl_error != GL_NO_ERROR)
         return fault_set(why, "--size %dx%d: no framebuffer of that size (OpenGL error 0x%04x)", p->width, p->height,
                          gl_error);
-    }
     return true;
 }
 

@@ -223,10 +223,9 @@ bool report_write(const report *r, const char *path, failure *why)
     else
         print_settings(f, r);
     print_passes(f, r);
-    if (r->reached) {
+    if (r->reached)
         fprintf(f, "  \"estimates\": %d,\n  \"sampling_error\": %.6g,\n", r->reached->estimates,
                 r->reached->sampling_error);
-    }
     if (r->bench)
         print_bench(f, r->bench);
     fputs("  \"ms\": {", f);

@@ -19,9 +19,8 @@ bool session_open(session *s, const options *o, bool quiet, failure *why)
         return false;
     s->writer = writer_create();
     s->readback = s->writer ? readback_create(s->writer) : NULL;
-    if (!s->readback) {
+    if (!s->readback)
         return fault_set(why, "out of memory");
-    }
     if (!quiet)
         fprintf(stderr, "context: %s\n", context_description(s->context));
     return true;
@@ -124,9 +123,8 @@ static bool draw(session *s, float angle_rad, scene_view *out_view, failure *why
 bool session_bench(session *s, failure *why)
 {
     const int frames = s->options->bench;
-    if (!bench_create(&s->bench, frames)) {
+    if (!bench_create(&s->bench, frames))
         return fault_set(why, "--bench %d: out of memory", frames);
-    }
     stopwatch *times = &s->times;
     const stopwatch before = *times;
     glssao_stats stats = {0};

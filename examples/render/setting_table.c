@@ -100,12 +100,10 @@ bool setting_apply(const char *text, glssao_settings *settings, failure *why)
         for (int i = 0; i < setting_count; i++)
             if (strlen(setting_table[i].name) == name_length && !memcmp(setting_table[i].name, text, name_length))
                 found = &setting_table[i];
-        if (!found || text[name_length] != '=') {
+        if (!found || text[name_length] != '=')
             return fault_set(why, "\"%.*s\": unknown setting; write NAME=VALUE", (int)length, text);
-        }
-        if (!take(found, text + name_length + 1, length - name_length - 1, settings)) {
+        if (!take(found, text + name_length + 1, length - name_length - 1, settings))
             return fault_set(why, "\"%.*s\": not a valid value of %s", (int)length, text, found->name);
-        }
         text += length + (text[length] == ',');
     }
     return true;

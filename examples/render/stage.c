@@ -37,9 +37,8 @@ scene *stage_load_scene(const options *o, inputs *out_inputs, failure *why)
 static bool open(stage *st, const scene *s, failure *why)
 {
     *st = (stage){.scene = s, .lights = malloc((s->light_count + 1u) * sizeof *st->lights)};
-    if (!st->lights) {
+    if (!st->lights)
         return fault_set(why, "out of memory");
-    }
     st->lighting = scene_lighting_of(s, st->lights);
     return true;
 }

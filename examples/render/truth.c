@@ -17,9 +17,8 @@ bool truth_open(truth *t, const trace_scene *s, int width, int height, failure *
     truth_close(t);
     *t = (truth){.scene = s, .width = width, .height = height};
     t->accessibility = malloc((size_t)width * (size_t)height * sizeof *t->accessibility);
-    if (!t->accessibility) {
+    if (!t->accessibility)
         return fault_set(why, "--size %dx%d: out of memory", width, height);
-    }
     t->map = gl_make_texture(GL_R32F, GL_RED, GL_FLOAT, width, height, NULL);
     return true;
 }

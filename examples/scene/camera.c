@@ -142,23 +142,20 @@ bool camera_check(const camera *c, failure *fault)
     if (!(normalize(offset) > 4.0 * (double)FLT_EPSILON * largest))
         return fault_set(fault, "camera eye and target are the same point (%g, %g, %g)", (double)c->eye[0],
                          (double)c->eye[1], (double)c->eye[2]);
-    if (!(normalize(up) > 0.0)) {
+    if (!(normalize(up) > 0.0))
         return fault_set(fault, "camera up is (0, 0, 0)");
-    }
     cross(up, offset, right);
     if (!(sqrt(dot(right, right)) > 1e-4))
         return fault_set(fault, "camera up (%g, %g, %g) is along the line from eye to target", (double)c->up[0],
                          (double)c->up[1], (double)c->up[2]);
-    if (!(c->fov_y_rad > 0.0f && c->fov_y_rad < GLM_PIf)) {
+    if (!(c->fov_y_rad > 0.0f && c->fov_y_rad < GLM_PIf))
         return fault_set(fault, "camera fov of %g degrees is not between 0 and 180",
                          (double)c->fov_y_rad * 180.0 / GLM_PI);
-    }
     if (!(c->near_plane > 0.0f && isfinite(c->near_plane)))
         return fault_set(fault, "camera near plane %g is not a positive distance", (double)c->near_plane);
-    if (!(c->far_plane > c->near_plane && isfinite(c->far_plane))) {
+    if (!(c->far_plane > c->near_plane && isfinite(c->far_plane)))
         return fault_set(fault, "camera far plane %g is not beyond the near plane %g", (double)c->far_plane,
                          (double)c->near_plane);
-    }
     return true;
 }
 

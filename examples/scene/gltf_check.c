@@ -289,14 +289,13 @@ static bool check_ancestors(const gltf_document *d, int *parent, int *depth, fai
 {
     for (size_t n = 0; n < d->node_count; ++n)
         parent[n] = -1;
-    for (size_t n = 0; n < d->node_count; ++n) {
+    for (size_t n = 0; n < d->node_count; ++n)
         for (size_t i = 0; i < d->nodes[n].child_count; ++i) {
             const int child = d->nodes[n].children[i];
             if (parent[child] != -1)
                 return fault_set(fault, "node %d: two parents, nodes %d and %zu", child, parent[child], n);
             parent[child] = (int)n;
         }
-    }
     for (size_t n = 0; n < d->node_count; ++n) {
         int steps = 0, up = (int)n;
         while (up != -1 && !depth[up] && (size_t)steps <= d->node_count) {
@@ -316,7 +315,7 @@ static bool check_ancestors(const gltf_document *d, int *parent, int *depth, fai
 
 static bool check_scenes(const gltf_document *d, const int *parent, int *listed, failure *fault)
 {
-    for (size_t s = 0; s < d->scene_count; ++s) {
+    for (size_t s = 0; s < d->scene_count; ++s)
         for (size_t i = 0; i < d->scenes[s].node_count; ++i) {
             const int node = d->scenes[s].nodes[i];
             if (!need_index(node, d->node_count, "scene", s, "node", fault))
@@ -330,7 +329,6 @@ static bool check_scenes(const gltf_document *d, const int *parent, int *listed,
                 return false;
             listed[node] = (int)s + 1;
         }
-    }
     return d->default_scene == -1 || (d->default_scene >= 0 && (size_t)d->default_scene < d->scene_count) ||
            fault_set(fault, "scene %d does not exist, there are %zu", d->default_scene, d->scene_count);
 }

@@ -102,10 +102,9 @@ static bool repair_normals(gltf_loader *l, const gltf_triangles *triangles, scen
             for (int axis = 0; axis < 3; ++axis)
                 sums[triangles->indices[i + k]][axis] += face[axis];
     }
-    for (uint32_t i = 0; i < v->count; ++i) {
+    for (uint32_t i = 0; i < v->count; ++i)
         if (!has_direction(v->normals[i]))
             set_normal(&vertices[i], sums[i]);
-    }
     free(sums);
     return true;
 }

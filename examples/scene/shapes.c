@@ -37,7 +37,7 @@ static bool add_surface(scene_builder *b, surface_fn *at, const void *surface, u
     uint32_t first = 0;
     scene_vertex *vertex = scene_builder_add_vertices(b, (s_cells + 1) * (t_cells + 1), &first);
     bool ok = vertex;
-    for (uint32_t t = 0; ok && t <= t_cells; ++t) {
+    for (uint32_t t = 0; ok && t <= t_cells; ++t)
         for (uint32_t s = 0; s <= s_cells; ++s, ++vertex) {
             vertex->uv[0][0] = vertex->uv[1][0] = (float)s / (float)s_cells;
             vertex->uv[0][1] = vertex->uv[1][1] = 1 - (float)t / (float)t_cells;
@@ -48,13 +48,11 @@ static bool add_surface(scene_builder *b, surface_fn *at, const void *surface, u
             for (int c = 0; c < 4; ++c)
                 vertex->color[c] = 1;
         }
-    }
-    for (uint32_t t = 0; t < t_cells; ++t) {
+    for (uint32_t t = 0; t < t_cells; ++t)
         for (uint32_t s = 0; ok && s < s_cells; ++s) {
             const uint32_t here = first + t * (s_cells + 1) + s, above = here + s_cells + 1;
             ok = add_triangle(b, here, here + 1, above + 1) && add_triangle(b, here, above + 1, above);
         }
-    }
     return ok;
 }
 
@@ -81,7 +79,7 @@ bool shape_grid(scene_builder *b, const float corner[3], const float u[3], const
 
 bool shape_box(scene_builder *b)
 {
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 3; ++axis)
         for (int side = -1; side <= 1; side += 2) {
             /* u x v points along side * axis. */
             float corner[3] = {-0.5f, -0.5f, -0.5f}, u[3] = {0}, v[3] = {0};
@@ -91,7 +89,6 @@ bool shape_box(scene_builder *b)
             if (!shape_grid(b, corner, u, v, 1, 1))
                 return false;
         }
-    }
     return true;
 }
 

@@ -36,9 +36,8 @@ static void trace_one(const work *w, uint64_t number, const trace_point *point)
 {
     const float open =
         trace_point_accessibility(w->trace, &w->samples, w->radius, number, point, w->take, w->take_user);
-    if (w->out) {
+    if (w->out)
         w->out[number] = open;
-    }
 }
 
 /* Once a job: a counter that every thread writes for every point leaves no core its copy of the members beside it. */
@@ -75,12 +74,11 @@ static bool find_point(const work *w, int x, int y, trace_point *out)
 static void trace_tile(size_t tile, void *user)
 {
     work *w = user;
-    if (w->stopped && w->stopped(w->stopped_user)) {
+    if (w->stopped && w->stopped(w->stopped_user))
         return;
-    }
     const int left = (int)(tile % w->tiles_across) * TILE, bottom = (int)(tile / w->tiles_across) * TILE;
     int points = 0;
-    for (int y = bottom; y < bottom + TILE && y < w->height; y++) {
+    for (int y = bottom; y < bottom + TILE && y < w->height; y++)
         for (int x = left; x < left + TILE && x < w->width; x++) {
             const size_t pixel = (size_t)y * (size_t)w->width + (size_t)x;
             trace_point point;
@@ -91,11 +89,9 @@ static void trace_tile(size_t tile, void *user)
             } else if (w->out) {
                 w->out[pixel] = 1;
             }
-            if (w->foreground) {
+            if (w->foreground)
                 w->foreground[pixel] = seen;
-            }
         }
-    }
     count_points(w, points);
 }
 
@@ -120,17 +116,15 @@ static bool run(work *w, trace_distribution distribution, const trace_options *o
 {
     if (o->samples < 1 || o->samples > MOST_SAMPLES || !(o->radius >= 0))
         return fault_set(fault, "%d rays within a radius of %g: out of range", o->samples, (double)o->radius);
-    if (!trace_samples_open(&w->samples, o->samples, distribution, o->seed)) {
+    if (!trace_samples_open(&w->samples, o->samples, distribution, o->seed))
         return fault_set(fault, "%d rays: out of memory", o->samples);
-    }
     w->radius = o->radius;
     w->stopped = o->stopped;
     w->stopped_user = o->stopped_user;
     const double start = clock_wall_ms();
     trace_run_jobs(o->threads, jobs, job, w, o->progress, o->progress_user);
-    if (out_stats) {
+    if (out_stats)
         *out_stats = (trace_stats){.rays = atomic_load(&w->rays), .seconds = (clock_wall_ms() - start) * 1e-3};
-    }
     trace_samples_close(&w->samples);
     if (w->stopped && w->stopped(w->stopped_user))
         return fault_set(fault, "stopped");
@@ -175,9 +169,8 @@ static void add_open(const trace_fan *fan, void *user)
     const float *m = s->view_from_world;
     for (int i = 0; i < fan->count; i++) {
         const float *d = fan->directions[i];
-        for (int k = 0; k < 3 && !fan->blocked[i]; k++) {
+        for (int k = 0; k < 3 && !fan->blocked[i]; k++)
             s->out[fan->pixel][k] += (m[k] * d[0] + m[4 + k] * d[1] + m[8 + k] * d[2]) / (float)s->samples;
-        }
     }
 }
 

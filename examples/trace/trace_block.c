@@ -45,12 +45,10 @@ static int rays_of(const trace_picture *p, int x, int y)
     const int at = y * p->width + x, usual = p->pattern.rays;
     const int rays = !is_within(p, x, y) ? 0 : p->counts ? p->counts[at] : usual;
     p->out[at] = -1;
-    if (rays == 0 || !has_surface(p->seen.rows[y][x])) {
+    if (rays == 0 || !has_surface(p->seen.rows[y][x]))
         return 0;
-    }
-    if (!p->adaptive) {
+    if (!p->adaptive)
         return rays < usual ? rays : usual;
-    }
     const float share = count_beside(p, x, y, 1, 0) * count_beside(p, x, y, 0, 1) / 16;
     return usual * (share < 0.2f ? 4 : share < 0.5f ? 2 : 1);
 }
@@ -66,9 +64,8 @@ static void set_texel(const trace_picture *p, int x, int y, int rays, int i, tra
     b->x[i] = (float)x;
     b->y[i] = (float)y;
     b->distance[i] = texel[3];
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++)
         b->normal[k][i] = texel[k];
-    }
     b->texel[i] = y * p->width + x;
     b->directions[i] = directions_of(&p->pattern, x, y);
     b->more[i] = p->adaptive ? directions_of(&p->more, x, y) : NULL;
@@ -107,9 +104,8 @@ static void trace_packet(const trace_picture *p, trace_block *b, int first, int 
         rays.flags[i] = 0;
     }
     embree_occluded(p->trace->world, &query.embree, valid, &rays);
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < count; i++)
         b->blocked[first + i] += rays.tfar[i] < 0;
-    }
 }
 
 /* Fills the block with the texels that get rays. Those with one place in their 4 x 4 follow each other, since their
@@ -119,7 +115,7 @@ static void fill_block(const trace_picture *p, int left, int bottom, trace_block
 {
     uint8_t counts[BLOCK_TEXELS];
     int most = 0, least = MOST_RAYS, texels = 0;
-    for (int y = bottom; y < bottom + BLOCK && y < p->height; y++) {
+    for (int y = bottom; y < bottom + BLOCK && y < p->height; y++)
         for (int x = left; x < left + BLOCK && x < p->width; x++) {
             const int rays = rays_of(p, x, y);
             counts[(y - bottom) * BLOCK + x - left] = (uint8_t)rays;
@@ -127,22 +123,15 @@ static void fill_block(const trace_picture *p, int left, int bottom, trace_block
             least = rays > 0 && rays < least ? rays : least;
             texels += rays > 0;
         }
-    }
     b->count = 0;
-    for (int rays = most; rays >= least && b->count < texels; rays--) {
-        for (int place = 0; place < 16; place++) {
-            for (int y = bottom + place / 4; y < bottom + BLOCK && y < p->height; y += 4) {
-                for (int x = left + place % 4; x < left + BLOCK && x < p->width; x += 4) {
-                    if (counts[(y - bottom) * BLOCK + x - left] == rays) {
+    for (int rays = most; rays >= least && b->count < texels; rays--)
+        for (int place = 0; place < 16; place++)
+            for (int y = bottom + place / 4; y < bottom + BLOCK && y < p->height; y += 4)
+                for (int x = left + place % 4; x < left + BLOCK && x < p->width; x += 4)
+                    if (counts[(y - bottom) * BLOCK + x - left] == rays)
                         set_texel(p, x, y, rays, b->count++, b);
-                    }
-                }
-            }
-        }
-    }
-    for (int i = b->count; i % TRACE_PACKET; i++) {
+    for (int i = b->count; i % TRACE_PACKET; i++)
         set_texel(p, b->texel[0] % p->width, b->texel[0] / p->width, 0, i, b);
-    }
 }
 
 /* Whether the first `rays` rays of all texels of a block say the same. More of them would hardly say anything else: 256
@@ -150,13 +139,11 @@ static void fill_block(const trace_picture *p, int left, int bottom, trace_block
 static bool do_agree(trace_block *b, int rays)
 {
     int blocked = 0;
-    for (int i = 0; i < b->count; i++) {
+    for (int i = 0; i < b->count; i++)
         blocked += b->blocked[i];
-    }
     const bool agree = b->count >= LEAST_ALIKE && (blocked == 0 || blocked == rays * b->count);
-    for (int i = 0; agree && i < b->count; i++) {
+    for (int i = 0; agree && i < b->count; i++)
         b->rays[i] = rays;
-    }
     return agree;
 }
 
@@ -170,15 +157,12 @@ uint64_t trace_block_run(const trace_picture *p, int number)
     const int first = p->pattern.rays < 8 ? 1 : p->pattern.rays / 4;
     int count = b.count;
     for (int k = 0; count > 0; k++) {
-        while (count > 0 && b.rays[count - 1] <= k) {
+        while (count > 0 && b.rays[count - 1] <= k)
             count--;
-        }
-        for (int i = 0; i < count; i += TRACE_PACKET) {
+        for (int i = 0; i < count; i += TRACE_PACKET)
             trace_packet(p, &b, i, count - i < TRACE_PACKET ? count - i : TRACE_PACKET, k);
-        }
-        if (p->adaptive && k + 1 == first && do_agree(&b, first)) {
+        if (p->adaptive && k + 1 == first && do_agree(&b, first))
             break;
-        }
     }
     for (int i = 0; i < b.count; i++) {
         p->out[b.texel[i]] = 1 - (float)b.blocked[i] / (float)b.rays[i];

@@ -20,18 +20,15 @@ static const scene_image *image_of(const scene *s, const scene_material *m)
 bool trace_filter_needed(const scene *s, const scene_primitive *p)
 {
     const scene_material *m = material_of(s, p);
-    if (m->alpha != SCENE_ALPHA_MASK) {
+    if (m->alpha != SCENE_ALPHA_MASK)
         return false;
-    }
     float least = 1;
-    for (uint32_t i = 0; i < p->index_count; i++) {
+    for (uint32_t i = 0; i < p->index_count; i++)
         least = fminf(least, s->vertices[s->indices[p->first_index + i]].color[3]);
-    }
     const scene_image *image = image_of(s, m);
     uint8_t least_texel = 255;
-    for (size_t i = 0; image && !image->opaque && i < (size_t)image->width * (size_t)image->height; i++) {
+    for (size_t i = 0; image && !image->opaque && i < (size_t)image->width * (size_t)image->height; i++)
         least_texel = image->rgba[4 * i + 3] < least_texel ? image->rgba[4 * i + 3] : least_texel;
-    }
     return m->base_color[3] * least * ((float)least_texel / 255) < m->alpha_cutoff;
 }
 
@@ -60,9 +57,8 @@ static double texel_alpha(const scene_image *image, const scene_texture *texture
 static double sample_alpha(const scene_image *image, const scene_texture *texture, double u, double v)
 {
     const double x = u * image->width, y = v * image->height;
-    if (texture->mag_nearest) {
+    if (texture->mag_nearest)
         return texel_alpha(image, texture, x, y);
-    }
     const double left = floor(x - 0.5), top = floor(y - 0.5);
     const double across = x - 0.5 - left, down = y - 0.5 - top;
     const double upper =
@@ -98,14 +94,12 @@ static bool is_hole(const trace_part *part, unsigned triangle, double u, double 
 static void filter_alpha(const struct RTCFilterFunctionNArguments *a)
 {
     for (unsigned i = 0; i < a->N; i++) {
-        if (a->valid[i] != -1) {
+        if (a->valid[i] != -1)
             continue;
-        }
         double uv[2];
         embree_hit_uv(a->hit, a->N, i, uv);
-        if (is_hole(a->geometryUserPtr, embree_hit_number(a->hit, a->N, i, EMBREE_HIT_PRIMITIVE), uv[0], uv[1])) {
+        if (is_hole(a->geometryUserPtr, embree_hit_number(a->hit, a->N, i, EMBREE_HIT_PRIMITIVE), uv[0], uv[1]))
             a->valid[i] = 0;
-        }
     }
 }
 
@@ -113,9 +107,8 @@ static void filter_back_faces(const struct RTCFilterFunctionNArguments *a)
 {
     const trace_query *query = (const trace_query *)(const void *)a->context;
     for (unsigned i = 0; i < a->N; i++) {
-        if (a->valid[i] != -1) {
+        if (a->valid[i] != -1)
             continue;
-        }
         const trace_instance *instance;
         const trace_part *part = trace_find_part(query->trace, embree_hit_number(a->hit, a->N, i, EMBREE_HIT_INSTANCE),
                                                  embree_hit_number(a->hit, a->N, i, EMBREE_HIT_GEOMETRY), &instance);
@@ -124,9 +117,8 @@ static void filter_back_faces(const struct RTCFilterFunctionNArguments *a)
         double normal[3];
         trace_front_normal(&triangle, instance, normal);
         const double *d = query->direction_world;
-        if (!(normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2] < 0)) {
+        if (!(normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2] < 0))
             a->valid[i] = 0;
-        }
     }
 }
 
@@ -140,12 +132,10 @@ void trace_filter_install(RTCGeometry geometry, const trace_part *part, bool alp
 {
     const bool double_sided = material_of(part->scene, part->primitive)->double_sided;
     rtcSetGeometryUserData(geometry, (void *)(uintptr_t)part);
-    if (alpha_tested) {
+    if (alpha_tested)
         rtcSetGeometryOccludedFilterFunction(geometry, filter_alpha);
-    }
-    if (!double_sided || alpha_tested) {
+    if (!double_sided || alpha_tested)
         rtcSetGeometryIntersectFilterFunction(geometry, double_sided   ? filter_alpha
                                                         : alpha_tested ? filter_primary_alpha
                                                                        : filter_back_faces);
-    }
 }

@@ -22,9 +22,8 @@ typedef struct queue {
 static bool take_job(queue *q)
 {
     const size_t job = atomic_fetch_add(&q->next, 1);
-    if (job >= q->count) {
+    if (job >= q->count)
         return false;
-    }
     q->work(job, q->user);
     atomic_fetch_add(&q->done, 1);
     return true;
@@ -41,9 +40,8 @@ void trace_run_jobs(int threads, size_t count, void (*work)(size_t job, void *us
                     trace_progress_fn progress, void *progress_user)
 {
     queue q = {.count = count, .work = work, .user = user};
-    if (threads < 1) {
+    if (threads < 1)
         threads = (int)sysconf(_SC_NPROCESSORS_ONLN);
-    }
     pthread_t others[MOST_THREADS];
     int started = 0;
     while (started + 1 < threads && started < MOST_THREADS &&
@@ -51,14 +49,11 @@ void trace_run_jobs(int threads, size_t count, void (*work)(size_t job, void *us
         started++;
     }
     while (take_job(&q)) {
-        if (progress) {
+        if (progress)
             progress((double)atomic_load(&q.done) / (double)count, progress_user);
-        }
     }
-    for (int i = 0; i < started; i++) {
+    for (int i = 0; i < started; i++)
         pthread_join(others[i], NULL);
-    }
-    if (progress) {
+    if (progress)
         progress(1, progress_user);
-    }
 }

@@ -84,20 +84,17 @@ static void find_origins(const trace_lens *l, float radius, int count, trace_blo
                                 l->eye[2] + m[6] * x + m[7] * y - m[8] * t};
         const float size = fabsf(point[0]) + fabsf(point[1]) + fabsf(point[2]) + fabsf(t);
         const float offset = least(depth_error + pixel / 16 + 0x1p-20f * size, 0.25f * radius);
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3; k++)
             b->origin[k][i] = point[k];
-        }
         b->distance[i] = offset;
     }
 }
 
 static void move_origins(int count, trace_block *b)
 {
-    for (int k = 0; k < 3; k++) {
-        for (int i = 0; i < count; i++) {
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < count; i++)
             b->origin[k][i] += b->distance[i] * b->normal[k][i];
-        }
-    }
 }
 
 void trace_lens_place(const trace_lens *l, float radius, int count, trace_block *b)

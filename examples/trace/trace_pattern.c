@@ -24,9 +24,8 @@ static int place_in_block(int x, int y)
 static void choose_grid(int points, int out_bits[2])
 {
     int bits = 0;
-    while (1 << bits < points) {
+    while (1 << bits < points)
         bits++;
-    }
     out_bits[0] = (bits + 1) / 2;
     out_bits[1] = bits / 2;
 }
@@ -65,20 +64,17 @@ static void aim(const uint32_t point[2], float out[3])
 bool trace_pattern_open(trace_pattern *p, int rays, uint32_t seed)
 {
     int side = MOST_SIDE, grid[2];
-    while (side > BLOCK && side * side * rays > MOST_ROOM) {
+    while (side > BLOCK && side * side * rays > MOST_ROOM)
         side /= 2;
-    }
     const size_t count = (size_t)(side * side) * (size_t)rays;
     *p = (trace_pattern){.side = side, .rays = rays, .directions = malloc(count * sizeof *p->directions)};
-    if (!p->directions) {
+    if (!p->directions)
         return false;
-    }
     int room = 1; /* the rays of a pixel are an aligned run of points, and so stratified themselves */
-    while (room < rays) {
+    while (room < rays)
         room *= 2;
-    }
     choose_grid(BLOCK * BLOCK * room, grid);
-    for (int y = 0; y < side; y++) {
+    for (int y = 0; y < side; y++)
         for (int x = 0; x < side; x++) {
             const uint32_t block = (uint32_t)(y / BLOCK * side + x / BLOCK);
             for (int k = 0; k < rays; k++) {
@@ -87,7 +83,6 @@ bool trace_pattern_open(trace_pattern *p, int rays, uint32_t seed)
                 aim(point, p->directions[(size_t)(y * side + x) * (size_t)rays + (size_t)k]);
             }
         }
-    }
     return true;
 }
 

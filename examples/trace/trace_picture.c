@@ -20,13 +20,11 @@ static void take_blocks(trace_picture *p, bool patient)
     for (;;) {
         const int beyond = (p->next / p->blocks_across + 1) * BLOCK + (p->adaptive ? 2 : 0),
                   needed = beyond < p->height ? beyond : p->height;
-        if (p->next >= blocks || p->is_stopped) {
+        if (p->next >= blocks || p->is_stopped)
             break;
-        }
         if (p->rows < needed) {
-            if (!patient || p->is_ending) {
+            if (!patient || p->is_ending)
                 break;
-            }
             pthread_cond_wait(&p->fed, &p->lock);
             continue;
         }
@@ -107,13 +105,11 @@ bool trace_picture_end(trace_picture *p, trace_stats *out_stats)
     pthread_cond_broadcast(&p->fed);
     pthread_mutex_unlock(&p->lock);
     take_blocks(p, false);
-    for (int i = 0; i < p->thread_count; i++) {
+    for (int i = 0; i < p->thread_count; i++)
         pthread_join(p->threads[i], NULL);
-    }
     const bool done = !p->is_stopped;
-    if (out_stats) {
+    if (out_stats)
         *out_stats = (trace_stats){.rays = p->rays, .seconds = (clock_wall_ms() - p->start_ms) * 1e-3};
-    }
     pthread_cond_destroy(&p->fed);
     pthread_mutex_destroy(&p->lock);
     trace_pattern_close(&p->pattern);

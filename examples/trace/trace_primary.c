@@ -9,31 +9,26 @@
 
 static void multiply(const float a[16], const float b[16], double out[16])
 {
-    for (int c = 0; c < 4; c++) {
+    for (int c = 0; c < 4; c++)
         for (int r = 0; r < 4; r++) {
             out[4 * c + r] = 0;
-            for (int k = 0; k < 4; k++) {
+            for (int k = 0; k < 4; k++)
                 out[4 * c + r] += (double)a[4 * k + r] * (double)b[4 * c + k];
-            }
         }
-    }
 }
 
 /* Gauss-Jordan with row pivots; false where the matrix is singular. Overwrites m. */
 static bool invert(double m[16], double out[16])
 {
-    for (int i = 0; i < 16; i++) {
+    for (int i = 0; i < 16; i++)
         out[i] = i % 5 == 0;
-    }
     for (int c = 0; c < 4; c++) {
         int pivot = c;
-        for (int r = c + 1; r < 4; r++) {
+        for (int r = c + 1; r < 4; r++)
             pivot = fabs(m[4 * c + r]) > fabs(m[4 * c + pivot]) ? r : pivot;
-        }
         const double value = m[4 * c + pivot];
-        if (!(fabs(value) > 0) || !isfinite(value)) {
+        if (!(fabs(value) > 0) || !isfinite(value))
             return false;
-        }
         for (int k = 0; k < 4; k++) { /* swaps rows c and pivot, scales row c */
             const double x = m[4 * k + pivot], y = out[4 * k + pivot];
             m[4 * k + pivot] = m[4 * k + c];
@@ -56,9 +51,8 @@ bool trace_eye_open(const scene_view *view, trace_eye *out)
 {
     double clip_from_world[16];
     multiply(view->clip_from_view, view->view_from_world, clip_from_world);
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         out->forward[i] = -(double)view->view_from_world[4 * i + 2];
-    }
     return invert(clip_from_world, out->world_from_clip);
 }
 
@@ -70,9 +64,8 @@ bool trace_eye_ray(const trace_eye *eye, double x_ndc, double y_ndc, double out_
         const double clip[4] = {x_ndc, y_ndc, end ? 1 : -1, 1};
         for (int r = 0; r < 4; r++) {
             ends[end][r] = 0;
-            for (int k = 0; k < 4; k++) {
+            for (int k = 0; k < 4; k++)
                 ends[end][r] += eye->world_from_clip[4 * k + r] * clip[k];
-            }
         }
     }
     /* The world's w is 1 over the view distance in perspective, so 0 where an end lies at infinity. In front of the

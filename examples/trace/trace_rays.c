@@ -72,12 +72,10 @@ float trace_point_accessibility(const trace_scene *t, const trace_samples *sampl
             rays.flags[i] = 0;
         }
         embree_occluded(t->world, &query.embree, valid, &rays);
-        for (int i = 0; i < count; i++) {
+        for (int i = 0; i < count; i++)
             blocked += rays.tfar[i] < 0;
-        }
-        if (take) {
+        if (take)
             hand_over(&rays, count, number, point, take, user);
-        }
     }
     return 1 - (float)blocked / (float)samples->count;
 }

@@ -44,9 +44,8 @@ static inline uint32_t scrambled(uint32_t reversed, uint32_t seed)
  * where the map to the disk has its corner. */
 static void scramble(const uint32_t reversed[TRACE_PACKET], uint32_t seed, float out[TRACE_PACKET])
 {
-    for (int i = 0; i < TRACE_PACKET; i++) {
+    for (int i = 0; i < TRACE_PACKET; i++)
         out[i] = ((float)(int32_t)(reverse_bits(scrambled(reversed[i], seed)) >> 9) + 0.5f) * 0x1p-23f;
-    }
 }
 
 uint32_t trace_owen(uint32_t x, uint32_t seed)
@@ -70,12 +69,10 @@ bool trace_samples_open(trace_samples *s, int count, trace_distribution distribu
     *s = (trace_samples){.count = count, .distribution = distribution, .seed = seed};
     const int room = (count + TRACE_PACKET - 1) / TRACE_PACKET * TRACE_PACKET;
     s->second = malloc((size_t)room * sizeof *s->second);
-    if (!s->second) {
+    if (!s->second)
         return false;
-    }
-    for (int i = 0; i < room; i++) {
+    for (int i = 0; i < room; i++)
         s->second[i] = reverse_bits(trace_sobol((uint32_t)i, 1));
-    }
     return true;
 }
 
@@ -107,9 +104,8 @@ void trace_samples_get(const trace_samples *s, uint64_t point, int first, float 
 {
     const uint32_t key = trace_mix(trace_mix(trace_mix(s->seed) ^ (uint32_t)(point >> 32)) + (uint32_t)point);
     uint32_t numbers[TRACE_PACKET];
-    for (int i = 0; i < TRACE_PACKET; i++) {
+    for (int i = 0; i < TRACE_PACKET; i++)
         numbers[i] = (uint32_t)(first + i);
-    }
     /* The first dimension is the sample's number with its bits reversed; reversed again it is the number itself. */
     scramble(numbers, trace_mix(key ^ 0x9e3779b9u), x);
     scramble(s->second + first, trace_mix(key ^ 0x7f4a7c15u), y);

@@ -47,9 +47,8 @@ static RTCGeometry make_triangles(RTCDevice device, const trace_part *part, bool
     const scene *s = part->scene;
     const scene_primitive *p = part->primitive;
     RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    if (!g) {
+    if (!g)
         return NULL;
-    }
     if (!part->instance) {
         rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, s->vertices,
                                    offsetof(scene_vertex, position), sizeof(scene_vertex), s->vertex_count);
@@ -73,14 +72,12 @@ static RTCGeometry make_triangles(RTCDevice device, const trace_part *part, bool
         const float *m = part->instance->world_from_mesh;
         for (uint32_t i = first; i <= last; i++) {
             const float *at = s->vertices[i].position;
-            for (int r = 0; r < 3; r++) {
+            for (int r = 0; r < 3; r++)
                 positions[i - first][r] = (float)((double)m[r] * (double)at[0] + (double)m[4 + r] * (double)at[1] +
                                                   (double)m[8 + r] * (double)at[2] + (double)m[12 + r]);
-            }
         }
-        for (uint32_t i = 0; i < p->index_count; i++) {
+        for (uint32_t i = 0; i < p->index_count; i++)
             indices[i] = from[i] - first;
-        }
     }
     trace_filter_install(g, part, alpha_tested);
     rtcCommitGeometry(g);
@@ -118,9 +115,8 @@ static bool build_mesh(trace_scene *t, uint32_t mesh, const bool *alpha_tested)
             return false;
         }
     }
-    if (t->meshes[mesh]) {
+    if (t->meshes[mesh])
         rtcCommitScene(t->meshes[mesh]);
-    }
     return t->meshes[mesh];
 }
 
@@ -128,9 +124,8 @@ static bool place_in_world(trace_scene *t, const scene_mesh *m, uint32_t instanc
                            const bool *alpha_tested)
 {
     for (uint32_t p = m->first_primitive; p < m->first_primitive + m->primitive_count; p++) {
-        if (!is_solid(t->scene, p)) {
+        if (!is_solid(t->scene, p))
             continue;
-        }
         trace_part *part = &t->world_parts[*part_count];
         *part = t->mesh_parts[p];
         part->instance = &t->instances[instance];
@@ -146,9 +141,8 @@ static bool place_in_world(trace_scene *t, const scene_mesh *m, uint32_t instanc
 static bool instantiate(trace_scene *t, uint32_t mesh, uint32_t instance)
 {
     RTCGeometry g = rtcNewGeometry(t->device, RTC_GEOMETRY_TYPE_INSTANCE);
-    if (!g) {
+    if (!g)
         return false;
-    }
     rtcSetGeometryInstancedScene(g, t->meshes[mesh]);
     rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, t->instances[instance].world_from_mesh);
     rtcCommitGeometry(g);
@@ -161,9 +155,8 @@ static bool place_mesh(trace_scene *t, uint32_t mesh, uint32_t *part_count, cons
     for (uint32_t i = m->first_instance; i < m->first_instance + m->instance_count; i++) {
         t->instances[i].parts = &t->mesh_parts[m->first_primitive];
         if (m->instance_count == 1 || !can_be_instanced(t->instances[i].world_from_mesh)) {
-            if (!place_in_world(t, m, i, part_count, alpha_tested)) {
+            if (!place_in_world(t, m, i, part_count, alpha_tested))
                 return false;
-            }
         } else if ((!t->meshes[mesh] && !build_mesh(t, mesh, alpha_tested)) || !instantiate(t, mesh, i)) {
             return false;
         }
@@ -177,11 +170,9 @@ static size_t count_world_parts(const scene *s)
     size_t count = 0;
     for (uint32_t i = 0; i < s->mesh_count; i++) {
         const scene_mesh *m = &s->meshes[i];
-        for (uint32_t k = m->first_instance; k < m->first_instance + m->instance_count; k++) {
-            if (m->instance_count == 1 || !can_be_instanced(s->instances[k].world_from_mesh)) {
+        for (uint32_t k = m->first_instance; k < m->first_instance + m->instance_count; k++)
+            if (m->instance_count == 1 || !can_be_instanced(s->instances[k].world_from_mesh))
                 count += m->primitive_count;
-            }
-        }
     }
     return count;
 }
@@ -200,17 +191,14 @@ static bool build(trace_scene *t)
         t->mesh_parts[i] = (trace_part){.scene = s, .primitive = &s->primitives[i]};
         alpha_tested[i] = trace_filter_needed(s, &s->primitives[i]);
     }
-    for (uint32_t i = 0; ok && i < s->instance_count; i++) {
+    for (uint32_t i = 0; ok && i < s->instance_count; i++)
         prepare_instance(s->instances[i].world_from_mesh, &t->instances[i]);
-    }
     uint32_t part_count = 0;
-    for (uint32_t i = 0; ok && i < s->mesh_count; i++) {
+    for (uint32_t i = 0; ok && i < s->mesh_count; i++)
         ok = place_mesh(t, i, &part_count, alpha_tested);
-    }
     free(alpha_tested);
-    if (ok) {
+    if (ok)
         rtcCommitScene(t->world);
-    }
     return ok && rtcGetDeviceError(t->device) == RTC_ERROR_NONE;
 }
 
@@ -220,9 +208,8 @@ trace_scene *trace_scene_create(const scene *s, failure *fault)
     if (t) {
         t->scene = s;
         t->device = rtcNewDevice(NULL);
-        if (t->device && build(t)) {
+        if (t->device && build(t))
             return t;
-        }
         const enum RTCError code = rtcGetDeviceError(t->device);
         fault_set(fault, "%s: Embree can't take the scene%s", s->name,
                   code == RTC_ERROR_UNSUPPORTED_CPU ? ": it does not know this processor" : ", out of memory");
@@ -235,20 +222,15 @@ trace_scene *trace_scene_create(const scene *s, failure *fault)
 
 void trace_scene_destroy(trace_scene *t)
 {
-    if (!t) {
+    if (!t)
         return;
-    }
-    if (t->world) {
+    if (t->world)
         rtcReleaseScene(t->world);
-    }
-    for (uint32_t i = 0; t->meshes && i < t->scene->mesh_count; i++) {
-        if (t->meshes[i]) {
+    for (uint32_t i = 0; t->meshes && i < t->scene->mesh_count; i++)
+        if (t->meshes[i])
             rtcReleaseScene(t->meshes[i]);
-        }
-    }
-    if (t->device) {
+    if (t->device)
         rtcReleaseDevice(t->device);
-    }
     free(t->meshes);
     free(t->instances);
     free(t->mesh_parts);

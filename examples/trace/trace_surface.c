@@ -21,9 +21,8 @@ const trace_part *trace_find_part(const trace_scene *t, unsigned instance, unsig
 
 static void subtract(const double a[3], const double b[3], double out[3])
 {
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         out[i] = a[i] - b[i];
-    }
 }
 
 static double dot(const double a[3], const double b[3])
@@ -35,14 +34,12 @@ static double dot(const double a[3], const double b[3])
 static bool normalize(double v[3])
 {
     const double largest = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
-    if (!(largest > 0) || !isfinite(largest)) {
+    if (!(largest > 0) || !isfinite(largest))
         return false;
-    }
     double scaled[3] = {v[0] / largest, v[1] / largest, v[2] / largest};
     const double length = sqrt(dot(scaled, scaled));
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         v[i] = scaled[i] / length;
-    }
     return true;
 }
 
@@ -58,10 +55,9 @@ trace_triangle trace_triangle_world(const trace_part *part, const trace_instance
     const float *m = instance->world_from_mesh;
     for (unsigned k = 0; k < 3; k++) {
         const float *p = corner(part, number, k)->position;
-        for (int r = 0; r < 3; r++) {
+        for (int r = 0; r < 3; r++)
             out.corners[k][r] = (double)m[r] * (double)p[0] + (double)m[4 + r] * (double)p[1] +
                                 (double)m[8 + r] * (double)p[2] + (double)m[12 + r];
-        }
     }
     return out;
 }
@@ -72,9 +68,8 @@ void trace_front_normal(const trace_triangle *triangle, const trace_instance *in
     subtract(triangle->corners[1], triangle->corners[0], a);
     subtract(triangle->corners[2], triangle->corners[0], b);
     const double sign = instance->mirrored ? -1 : 1;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         out[i] = sign * (a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3]);
-    }
 }
 
 /* Unit at each corner, then interpolated. Vertex weights as Embree's u and v have them. */
@@ -86,13 +81,11 @@ static void shading_normal(const trace_part *part, const trace_instance *instanc
     for (unsigned k = 0; k < 3; k++) {
         const float *n = corner(part, triangle, k)->normal;
         double world[3];
-        for (int r = 0; r < 3; r++) {
+        for (int r = 0; r < 3; r++)
             world[r] = m[r] * (double)n[0] + m[3 + r] * (double)n[1] + m[6 + r] * (double)n[2];
-        }
         if (normalize(world)) {
-            for (int r = 0; r < 3; r++) {
+            for (int r = 0; r < 3; r++)
                 out[r] += weights[k] * world[r];
-            }
         }
     }
 }
@@ -107,9 +100,8 @@ static double choose_offset(const double position[3], const trace_triangle *tria
     double size = 0;
     for (int i = 0; i < 3; i++) {
         double most = 0;
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3; k++)
             most = fmax(most, fabs(triangle->corners[k][i] - position[i]));
-        }
         size = fmax(size, fabs(position[i]) + most);
     }
     return 0x1p-19 * size;
@@ -124,30 +116,26 @@ bool trace_resolve_hit(const trace_scene *t, const struct RTCHit *hit, const dou
     const trace_triangle triangle = trace_triangle_world(part, instance, hit->primID);
     double geometric[3], position[3] = {0, 0, 0};
     trace_front_normal(&triangle, instance, geometric);
-    if (!normalize(geometric)) {
+    if (!normalize(geometric))
         return false;
-    }
     const double side = dot(geometric, direction) > 0 ? -1 : 1; /* the viewer's */
     if (part->primitive->flat) {
-        for (int i = 0; i < 3; i++) {
+        for (int i = 0; i < 3; i++)
             out->normal[i] = geometric[i];
-        }
     } else {
         shading_normal(part, instance, hit->primID, weights, out->normal);
     }
     const bool shaded = normalize(out->normal);
     for (int i = 0; i < 3; i++) {
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3; k++)
             position[i] += weights[k] * triangle.corners[k][i];
-        }
         /* A normal without direction faces the viewer, as in the pre-pass. */
         out->normal[i] = shaded ? side * out->normal[i] : -direction[i];
     }
     /* Moves the point off its triangle, along the normal and back along the primary ray, where space is free. Otherwise
      * rounding could put a point in a corner behind the other wall. */
     const double offset = fmin(choose_offset(position, &triangle), most_offset);
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         out->origin[i] = position[i] + offset * (side * geometric[i] - direction[i]);
-    }
     return true;
 }

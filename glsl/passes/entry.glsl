@@ -8,6 +8,9 @@ layout(local_size_x = GROUP_X, local_size_y = GROUP_Y) in;
 #ifndef TARGET
 #define TARGET image2D
 #endif
+#ifndef PREPARE
+#define PREPARE
+#endif
 writeonly uniform TARGET u_target;
 
 vec4 texel(float result)
@@ -37,9 +40,7 @@ writeonly uniform image2D u_bent_target;
 void main()
 {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-#ifdef PREPARE
     PREPARE;
-#endif
     if (any(greaterThanEqual(pixel, gRegion.zw)))
         return;
     RESULT value = result();

@@ -13,16 +13,18 @@ out vec4 o_bounds;
 void main()
 {
     int side = tile_side();
-    int first = int(gl_FragCoord.y) * side;
-    int last = min(first + side, textureSize(u_ambient_map, 0).y);
+    ivec2 tile = ivec2(gl_FragCoord.xy);
+    int rows = min(side, map_size().y - tile.y * side);
     vec3 bounds = vec3(FAR_AWAY, 0.0, 0.0);
-    for (int y = first; y < last; ++y) {
-        vec3 row = texelFetch(u_ambient_map, ivec2(int(gl_FragCoord.x), y), 0).xyz;
+#if PLANES
+    bool counts = texelFetch(u_near_map, tile, 0).r > 0.0;
+    bounds = counts ? bounds : vec3(0.0, FAR_AWAY, 1.0);
+    rows = counts ? rows : 0;
+#endif
+    for (int i = 0; i < rows; ++i) {
+        ivec2 cell = tile * rows_side() + ivec2(i % rows_side(), i / rows_side());
+        vec3 row = texelFetch(u_ambient_map, cell, 0).xyz;
         bounds = vec3(min(bounds.x, row.x), max(bounds.yz, row.yz));
     }
-#if PLANES
-    bool counts = texelFetch(u_near_map, ivec2(gl_FragCoord.xy), 0).r > 0.0;
-    bounds = counts ? bounds : vec3(0.0, FAR_AWAY, 1.0);
-#endif
     o_bounds = vec4(bounds, 0.0);
 }

@@ -7,7 +7,7 @@
 // spoils a plane there does so too when all of a tile counts, so a tile that needs an estimate here needs one in any case.
 // in  u_ambient_map  bounds of tiles; fetched (MIDDLES 0)
 // out o_needed       1: to be estimated, 0: open; with MIDDLES 1 how many tiles count for one that may be open, along either
-//                    axis and with itself, and 0 for a tile that needs an estimate
+//                    axis and with itself, as ring in tile_blocks.frag's code, and 0 for a tile that needs an estimate
 
 #if !MIDDLES
 uniform sampler2D u_ambient_map;
@@ -165,7 +165,7 @@ void main()
 {
     bool needed = needs_estimate(ivec2(gl_FragCoord.xy));
 #if MIDDLES
-    o_needed = needed ? 0.0 : float(counting); // one more than middles reach, since bounds may reach farther
+    o_needed = needed ? 0.0 : 33.0 * float(counting); // one more than middles reach, since bounds may reach farther
 #else
     o_needed = needed ? 1.0 : 0.0;
 #endif

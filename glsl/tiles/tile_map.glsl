@@ -25,6 +25,12 @@ int tile_side()
 #endif
 }
 
+// Rows of a tile are laid out in a square, so that a point covers those of one tile: so many along a side.
+int rows_side()
+{
+    return tile_side() > 16 ? 6 : 4;
+}
+
 // The uv of a texel; halves mean the places between.
 vec2 uv_at(vec2 texel)
 {

@@ -13,7 +13,8 @@ void main()
     ivec2 tile = ivec2(gl_FragCoord.xy);
     ivec2 last = textureSize(u_ambient_map, 0) - 1;
     int farthest = min(int(gTileRings), MOST);
-    int ring = farthest;
+    int ring = texelFetch(u_ambient_map, tile, 0).r > 0.5 ? 0 : farthest;
+    farthest = ring; // a tile that needs an estimate looks no farther
     for (int y = max(tile.y - farthest, 0); y <= min(tile.y + farthest, last.y); ++y)
         for (int x = max(tile.x - farthest, 0); x <= min(tile.x + farthest, last.x); ++x)
             if (texelFetch(u_ambient_map, ivec2(x, y), 0).r > 0.5)

@@ -2,32 +2,20 @@
 // Bounds of one row of texels of a tile: the first of the passes that sort tiles.
 // in  u_distance_map, or u_depth_map where FROM_DEPTH is 1; fetched
 // in  u_normal_map  view space, fetched (PLANES 1)
-// in  u_ambient_map  tile_near.frag's output; fetched (PLANES 1)
 // out o_bounds      x: distance of the nearest occluder, y: of the farthest surface (scene units; 0: no surface),
 //                   z: how far the row is from lying in one plane: the greatest sine of the angle between the plane of the
 //                   tile's middle and a step from texel to texel, or between the plane's normal and a texel's; 1: no plane
-//                   Of a tile that counts for no open one it means nothing.
 
-#if PLANES
-uniform sampler2D u_ambient_map;
-#endif
 out vec4 o_bounds;
 
 void main()
 {
     ivec2 last = map_size() - 1;
-    ivec2 tile = ivec2(int(gl_FragCoord.x), int(gl_FragCoord.y) / tile_side());
-    int y = int(gl_FragCoord.y);
-#if PLANES
-    // Both sides of a branch run on a software rasteriser, so rows that are left out read one place that is in the cache.
-    bool counts = texelFetch(u_ambient_map, tile, 0).r > 0.0;
-    tile = counts ? tile : ivec2(0);
-    y = counts ? y : 0;
-#else
-    const bool counts = true;
-#endif
+    ivec2 cell = ivec2(gl_FragCoord.xy), tile = cell / rows_side();
+    cell -= tile * rows_side();
+    int y = min(tile.y * tile_side() + cell.y * rows_side() + cell.x, last.y); // rows beyond the tile or the map are not read
     int left = tile.x * tile_side();
-    int right = counts ? min(left + tile_side(), last.x + 1) : left;
+    int right = min(left + tile_side(), last.x + 1);
     vec2 bounds = vec2(FAR_AWAY, 0.0);
     vec2 own = distances_at(ivec2(left, y));
 #if PLANES

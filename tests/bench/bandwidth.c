@@ -148,17 +148,6 @@ static GLuint make_program(bool compute)
     return 0;
 }
 
-static GLuint make_map(GLenum format, int width, int height)
-{
-    GLuint texture;
-    gl.GenTextures(1, &texture);
-    gl.BindTexture(GL_TEXTURE_2D, texture);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)format, width, height, 0, GL_RED, GL_FLOAT, NULL);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    return texture;
-}
-
 static void measure_buffers(void)
 {
     for (int mebibytes = 4; mebibytes <= 256; mebibytes *= 4) {
@@ -181,11 +170,9 @@ static void measure_maps(GLuint drawn, GLuint dispatched)
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
         const struct format *f = &formats[i];
         job j = {.format = f->format, .width = WIDTH / f->divisor, .height = HEIGHT / f->divisor};
-        gl.GenFramebuffers(2, j.framebuffers);
         for (int k = 0; k < 2; k++) {
-            j.maps[k] = make_map(j.format, j.width, j.height);
-            gl.BindFramebuffer(GL_FRAMEBUFFER, j.framebuffers[k]);
-            gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, j.maps[k], 0);
+            j.maps[k] = gl_make_texture(j.format, GL_RED, GL_FLOAT, j.width, j.height, NULL);
+            (void)gl_make_framebuffer(j.maps[k], 0, &j.framebuffers[k]);
             gl.ClearColor(0.5f, 0.5f, 0.5f, 0.5f);
             gl.Clear(GL_COLOR_BUFFER_BIT);
         }

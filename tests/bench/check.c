@@ -17,10 +17,9 @@ static bool check_view(const results *r, const config_result *c, int view, failu
     const char *id = c->config.id, *name = r->views[view].name;
     const double figures[] = {v->error.rmse, v->error.mean, v->error.p99,    v->ssim,     v->flip,
                               v->grain,      v->specks,     v->own_exponent, v->own_rmse, v->flat_rmse};
-    for (size_t i = 0; i < sizeof figures / sizeof figures[0]; i++) {
+    for (size_t i = 0; i < sizeof figures / sizeof figures[0]; i++)
         if (!isfinite(figures[i]))
             return fault_set(fault, "%s on %s: figure %zu is not finite", id, name, i);
-    }
     if (v->error.nonfinite_share > 0)
         fault_set(fault, "%s on %s: %g of the pixels are not finite", id, name, v->error.nonfinite_share);
     else if (!(v->error.rmse <= 1 && v->error.p95 <= v->error.p99 && fabs(v->error.mean) <= v->error.rmse + 1e-9))
@@ -40,13 +39,11 @@ static bool check_view(const results *r, const config_result *c, int view, failu
 
 static bool check_split(const results *r, failure *fault)
 {
-    for (int i = 0; i < r->split_count; i++) {
-        for (int k = 0; k < STEP_COUNT * r->view_count; k++) {
+    for (int i = 0; i < r->split_count; i++)
+        for (int k = 0; k < STEP_COUNT * r->view_count; k++)
             if (!isfinite(r->splits[i].views[k / STEP_COUNT].alone[k % STEP_COUNT]))
                 return fault_set(fault, "%s: step %d of the split is not finite on %s", r->splits[i].of->config.id,
                                  k % STEP_COUNT, r->views[k / STEP_COUNT].name);
-        }
-    }
     return true;
 }
 

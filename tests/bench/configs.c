@@ -173,7 +173,7 @@ int bench_configs_list(const options *o, const glssao_effect *effect, bench_conf
     int count = 0;
     if (o->record)
         return add_peers(o, out, 0);
-    for (int t = 0; t < BENCH_TECHNIQUES; t++) {
+    for (int t = 0; t < BENCH_TECHNIQUES; t++)
         for (int level = GLSSAO_LOW; level <= GLSSAO_ULTRA; level++) {
             const glssao_settings base = glssao_default_settings((glssao_technique)t, (glssao_quality)level);
             for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
@@ -191,7 +191,6 @@ int bench_configs_list(const options *o, const glssao_effect *effect, bench_conf
                     out[count++] = config;
             }
         }
-    }
     return add_peers(o, out, add_traced(o, out, add_rays(o, out, count)));
 }
 

@@ -70,13 +70,12 @@ static bool write_shares(const economy *e, failure *fault)
     table t;
     if (!begin(&t, e, "economy-shares", "kind share every_ms skipping_ms skipped_share", fault))
         return false;
-    for (int kind = 0; kind < 2; kind++) {
+    for (int kind = 0; kind < 2; kind++)
         for (int i = 0; i < ECONOMY_SHARES; i++) {
             const economy_row *r = &e->shares[kind][i];
             table_text(&t, kind == 0 ? "sky" : "plane");
             TABLE_END_ROW(&t, (double)i / (ECONOMY_SHARES - 1), r->ms[0], r->ms[1], r->skipped);
         }
-    }
     return table_end(&t, fault);
 }
 

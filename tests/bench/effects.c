@@ -32,12 +32,11 @@ void map_reader_destroy(map_reader *m)
 
 void effects_destroy(effects *e)
 {
-    for (int t = 0; t <= GLSSAO_RAYS; t++) {
+    for (int t = 0; t <= GLSSAO_RAYS; t++)
         for (int i = 0; i < 4; i++) {
             glssao_destroy(e->of[t][i / 2][i % 2]);
             e->of[t][i / 2][i % 2] = NULL;
         }
-    }
 }
 
 glssao_effect *effects_get(effects *e, const gbuffer *g, const glssao_settings *settings, failure *fault)

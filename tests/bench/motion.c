@@ -73,15 +73,9 @@ static bool draw_motion(motion *m, const scene *s, shot *now, const shot *before
         m->mover = scene_renderer_create(s, FAULT(m->error));
         done = m->mover && scene_renderer_configure(m->mover, &none, &draws, FAULT(m->error));
     }
-    gl.GenTextures(1, &now->motion);
-    gl.BindTexture(GL_TEXTURE_2D, now->motion);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, v->width, v->height, 0, GL_RG, GL_FLOAT, NULL);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    now->motion = gl_make_texture(GL_RG32F, GL_RG, GL_FLOAT, v->width, v->height, NULL);
     GLuint framebuffer;
-    gl.GenFramebuffers(1, &framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, now->motion, 0);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, now->gbuffer.depth, 0);
+    done = gl_make_framebuffer(now->motion, now->gbuffer.depth, &framebuffer) && done;
     if (done)
         scene_draw_motion(m->mover, v, before ? &before->gbuffer.view : v);
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -375,8 +369,11 @@ int main(int argc, char **argv)
     const int code = tool_begin("glssao-motion", argc, argv, &m.options);
     if (code >= 0)
         return code;
-    if (m.options.sequence_frames > FRAMES_MAX)
-        m.options.sequence_frames = FRAMES_MAX;
+    if (m.options.sequence_frames <= WARM || m.options.sequence_frames > FRAMES_MAX) {
+        fprintf(stderr, "glssao-motion: --sequence-frames %d: want %d to %d, since truth begins at frame %d\n",
+                m.options.sequence_frames, WARM + 1, FRAMES_MAX, WARM);
+        return 2;
+    }
     const bool done = run(&m, paths);
     map_reader_destroy(&m.reader);
     context_destroy(m.context);

@@ -42,14 +42,13 @@ sampled_pixels oracle_pixels(const bench_view *v, int step, uint32_t seed)
 {
     const int w = v->gbuffer.view.width, h = v->gbuffer.view.height;
     sampled_pixels p = {0, malloc(((size_t)(w / step) + 1) * ((size_t)(h / step) + 1) * sizeof *p.index)};
-    for (int y = 0; p.index && y < h; y += step) {
+    for (int y = 0; p.index && y < h; y += step)
         for (int x = 0; x < w; x += step) {
             const uint32_t random = hash(hash((uint32_t)(y * w + x)) ^ seed);
             const int px = x + (int)(random % (uint32_t)step), py = y + (int)(random / 65536u % (uint32_t)step);
             if (px < w && py < h && v->classes[py * w + px] != PIXEL_NONE)
                 p.index[p.count++] = py * w + px;
         }
-    }
     return p;
 }
 
@@ -101,7 +100,7 @@ static bool prepare(march *m)
     m->slope_y = m->slope_x + count;
     for (size_t i = 0; i < count; i++)
         m->inverse[i] = m->view->distance[i] > 0 ? 1 / (double)m->view->distance[i] : 0;
-    for (int y = 0; y < h; y++) {
+    for (int y = 0; y < h; y++)
         for (int x = 0; x < w; x++) {
             const int i = y * w + x;
             double from_normal[2];
@@ -109,7 +108,6 @@ static bool prepare(march *m)
             m->slope_x[i] = slope(m, i, 1, x, w, from_normal[0]);
             m->slope_y[i] = slope(m, i, w, y, h, from_normal[1]);
         }
-    }
     return true;
 }
 

@@ -79,7 +79,7 @@ static bool report_oracle(const results *r, failure *fault)
     table t;
     if (!table_begin(&t, r->options, r->context, "oracle", "scene thickness best rmse", fault))
         return false;
-    for (int v = 0; v < r->view_count; v++) {
+    for (int v = 0; v < r->view_count; v++)
         for (int k = 0; k < THICKNESS_COUNT; k++) {
             const double thickness = r->oracle.thickness[k];
             char text[32];
@@ -89,7 +89,6 @@ static bool report_oracle(const results *r, failure *fault)
             table_text(&t, k == r->oracle.best ? "1" : "0");
             TABLE_END_ROW(&t, r->oracle.rmse[v][k]);
         }
-    }
     return table_end(&t, fault);
 }
 
@@ -103,14 +102,13 @@ bool report_split(const results *r, failure *fault)
         return false;
     for (int i = 0; i < r->split_count; i++) {
         const split_result *s = &r->splits[i];
-        for (int v = 0; v < r->view_count; v++) {
+        for (int v = 0; v < r->view_count; v++)
             for (int k = 0; k < STEP_COUNT; k++) {
                 table_text(&t, s->of->config.id);
                 table_text(&t, r->views[v].name);
                 table_text(&t, steps[k]);
                 TABLE_END_ROW(&t, s->views[v].alone[k], s->views[v].total[k]);
             }
-        }
     }
     return table_end(&t, fault) && report_oracle(r, fault);
 }

@@ -66,7 +66,7 @@ static bool find_before(const sequence_frame *before, const sequence_frame *now,
 
 void sequence_compare(frame_change *c, const sequence_frame *before, const sequence_frame *now)
 {
-    for (int y = 0; y < now->view.height; y++) {
+    for (int y = 0; y < now->view.height; y++)
         for (int x = 0; x < now->view.width; x++) {
             const size_t i = (size_t)y * (size_t)now->view.width + (size_t)x;
             double value;
@@ -75,16 +75,14 @@ void sequence_compare(frame_change *c, const sequence_frame *before, const seque
             c->sum2 += ((double)now->result[i] - value) * ((double)now->result[i] - value);
             c->pixels++;
         }
-    }
 }
 
 void sequence_find_new(const sequence_frame *before, const sequence_frame *now, unsigned char *out_new)
 {
-    for (int y = 0; y < now->view.height; y++) {
+    for (int y = 0; y < now->view.height; y++)
         for (int x = 0; x < now->view.width; x++) {
             const size_t i = (size_t)y * (size_t)now->view.width + (size_t)x;
             double value;
             out_new[i] = now->distance[i] > 0 && !find_before(before, now, x, y, &value);
         }
-    }
 }

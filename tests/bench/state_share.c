@@ -4,45 +4,36 @@
  * times over, beside glssao_compute and glssao_apply (which save and restore once each) with everything finished.
  *   glssao-state-share [WIDTH HEIGHT]
  */
-#define _POSIX_C_SOURCE 200809L
 #include "analytic.h"
+#include "clock.h"
 #include "effect.h"
 #include "fixture.h"
 
-#include <time.h>
-
 enum { FRAMES = 30, PAIRS = 2000, ROUNDS = 5 };
-
-static double now_ms(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
-}
 
 static double frame_ms(glssao_effect *effect, const glssao_frame *frame, GLuint framebuffer)
 {
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
-    const double start = now_ms();
+    const double start = clock_wall_ms();
     for (int i = 0; i < FRAMES; ++i) {
         if (glssao_compute(effect, frame, &settings) != GLSSAO_OK || glssao_apply(effect, framebuffer) != GLSSAO_OK)
             exit(1);
         gl.Finish();
     }
-    return (now_ms() - start) / FRAMES;
+    return (clock_wall_ms() - start) / FRAMES;
 }
 
 static double pair_ms(const glssao_effect *effect)
 {
     const glssao__state_need need = {.parts = STATE_DRAW | STATE_UNIFORMS, .units = 0x3F, .blocks = BLOCK_HEMISPHERE};
-    const double start = now_ms();
+    const double start = clock_wall_ms();
     for (int i = 0; i < PAIRS; ++i) {
         glssao__state state;
         glssao__state_save(&effect->gl, &need, false, &state);
         glssao__state_restore(&effect->gl, &state);
     }
     gl.Finish();
-    return (now_ms() - start) / PAIRS;
+    return (clock_wall_ms() - start) / PAIRS;
 }
 
 int main(int argc, char **argv)
@@ -53,12 +44,11 @@ int main(int argc, char **argv)
         return 2;
     const glssao_frame frame = fixture_room(PERSPECTIVE, width, height);
     const fixture_target target = fixture_make_target(GL_RGBA8, width, height);
-    const GLuint framebuffer = target.framebuffer;
     glssao_effect *effect = fixture_effect(state, width, height);
-    frame_ms(effect, &frame, framebuffer); /* compiles */
+    frame_ms(effect, &frame, target.framebuffer); /* compiles */
     double least_frame = 1e9, least_pair = 1e9;
     for (int i = 0; i < ROUNDS; ++i) {
-        const double frame_time = frame_ms(effect, &frame, framebuffer), pair_time = pair_ms(effect);
+        const double frame_time = frame_ms(effect, &frame, target.framebuffer), pair_time = pair_ms(effect);
         least_frame = frame_time < least_frame ? frame_time : least_frame;
         least_pair = pair_time < least_pair ? pair_time : least_pair;
     }

@@ -99,7 +99,7 @@ static void pixel_color(const bench_view *v, const panel *p, size_t i, double rg
 static void draw_panel(canvas *c, const bench_view *v, const panel *p, int left, int bottom)
 {
     const int w = v->gbuffer.view.width, h = v->gbuffer.view.height;
-    for (int y = 0; y < h / 2; y++) {
+    for (int y = 0; y < h / 2; y++)
         for (int x = 0; x < w / 2; x++) {
             double sum[3] = {0, 0, 0};
             for (int k = 0; k < 4; k++) {
@@ -110,7 +110,6 @@ static void draw_panel(canvas *c, const bench_view *v, const panel *p, int left,
             }
             put(c, left + x, bottom + y, sum);
         }
-    }
 }
 
 static bool draw_strip(const bench_view *v, const config_result *c, const float *as_is, const float *plain,
@@ -168,23 +167,21 @@ static void find_place(const bench_view *v, const float *picture, int *out_x, in
 {
     const int w = v->gbuffer.view.width, h = v->gbuffer.view.height;
     double most = -1;
-    for (int top = 0; top + PLACE_HEIGHT <= h; top += PLACE_HEIGHT / 4) {
+    for (int top = 0; top + PLACE_HEIGHT <= h; top += PLACE_HEIGHT / 4)
         for (int left = 0; left + PLACE_WIDTH <= w; left += PLACE_WIDTH / 4) {
             double sum = 0;
-            for (int y = top; y < top + PLACE_HEIGHT; y++) {
+            for (int y = top; y < top + PLACE_HEIGHT; y++)
                 for (int x = left; x < left + PLACE_WIDTH; x++) {
                     const size_t i = (size_t)y * (size_t)w + (size_t)x;
                     const double e = (double)picture[i] - (double)v->truth.accessibility[i];
                     sum += v->classes[i] == PIXEL_NONE ? 0 : e * e;
                 }
-            }
             if (sum > most) {
                 most = sum;
                 *out_x = left;
                 *out_y = top;
             }
         }
-    }
 }
 
 static void draw_place(canvas *c, const bench_view *v, const float *picture, int left, int bottom)
@@ -193,7 +190,7 @@ static void draw_place(canvas *c, const bench_view *v, const float *picture, int
         {v->truth.accessibility, 1, false, 0, 0}, {picture, 1, false, 1, 0}, {picture, 1, true, 2, 0}};
     int from_x = 0, from_y = 0;
     find_place(v, picture, &from_x, &from_y);
-    for (int p = 0; p < COLUMNS; p++) {
+    for (int p = 0; p < COLUMNS; p++)
         for (int i = 0; i < PLACE_WIDTH * PLACE_HEIGHT; i++) {
             const int x = i % PLACE_WIDTH, y = i / PLACE_WIDTH;
             double rgb[3];
@@ -201,7 +198,6 @@ static void draw_place(canvas *c, const bench_view *v, const float *picture, int
                         rgb);
             put(c, left + p * (PLACE_WIDTH + GAP) + x, bottom + y, rgb);
         }
-    }
 }
 
 bool strips_write_worst(const results *r, effects *e, map_reader *m, failure *fault)

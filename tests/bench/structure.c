@@ -40,14 +40,13 @@ bool grain_create(grain_places *g, const float *truth, const uint8_t *classes, i
     blur(g, seen, 3, seen);
     for (size_t i = 0; i < count; i++)
         blurred[i] = seen[i] > 0 ? blurred[i] / seen[i] : 0;
-    for (int y = 1; y + 1 < height; y++) {
+    for (int y = 1; y + 1 < height; y++)
         for (int x = 1; x + 1 < width; x++) {
             const size_t i = (size_t)y * (size_t)width + (size_t)x;
             const float dx = (blurred[i + 1] - blurred[i - 1]) / 2;
             const float dy = (blurred[i + (size_t)width] - blurred[i - (size_t)width]) / 2;
             g->smooth[i] = classes[i] == PIXEL_SMOOTH && hypotf(dx, dy) < steepest;
         }
-    }
     for (size_t i = 0; i < count; i++)
         g->weight[i] = g->smooth[i];
     blur(g, g->weight, halving_sigma, g->weight);
@@ -82,7 +81,7 @@ double grain_measure(grain_places *g, const float *picture)
 int count_specks(const float *picture, const float *truth, const uint8_t *classes, int width, int height)
 {
     int specks = 0;
-    for (int y = 0; y < height; y++) {
+    for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
             float least = INFINITY;
             for (int j = y > 0 ? y - 1 : 0; j <= y + 1 && j < height; j++)
@@ -91,6 +90,5 @@ int count_specks(const float *picture, const float *truth, const uint8_t *classe
                         least = fminf(least, truth[j * width + i]);
             specks += classes[y * width + x] != PIXEL_NONE && picture[y * width + x] < least - 0.5f;
         }
-    }
     return specks;
 }

@@ -57,11 +57,11 @@ static void shade(shot *s, int level, float radius, bool two_layers)
 }
 
 /* The wall is two radii behind everything, so nothing occludes it. */
-TEST(a_wall_has_no_aura_of_what_is_in_front)
+TEST_GL(a_wall_has_no_aura_of_what_is_in_front)
 {
     const float in_front = 4;
     const camera from = {.target = {0, 0, -3}, .up = {0, 1, 0}, .fov_y_rad = 50 * 3.14159265f / 180};
-    shot s = take(*state, "aura", &from, 0.5f, 960, 540, 1);
+    shot s = take(f, "aura", &from, 0.5f, 960, 540, 1);
     for (int level = 0; level < LEVELS; ++level) {
         float wall = 1, object = 1;
         shade(&s, level, 0.5f, false);
@@ -77,10 +77,10 @@ TEST(a_wall_has_no_aura_of_what_is_in_front)
 }
 
 /* A block two radii high seen straight from above, so that its sides are not in the picture. Its floor had 0.92. */
-TEST(the_floor_beside_a_block_is_shaded)
+TEST_GL(the_floor_beside_a_block_is_shaded)
 {
     const camera from = {.eye = {0, 20, 0}, .up = {0, 0, -1}, .half_height = 4, .fov_y_rad = 1};
-    shot s = take(*state, "block-straight-down", &from, 1, 640, 360, 64);
+    shot s = take(f, "block-straight-down", &from, 1, 640, 360, 64);
     for (int level = 0; level < LEVELS; ++level) {
         double errors[2]; /* of the whole picture, with one layer and with two */
         for (int layers = 0; layers < 2; ++layers) {
@@ -107,10 +107,10 @@ TEST(the_floor_beside_a_block_is_shaded)
 }
 
 /* Grain is looked for where the truth is smooth and something occludes; a quarter of an 8-bit step is not seen. */
-TEST(a_bowl_has_no_grain_and_less_error_with_quality)
+TEST_GL(a_bowl_has_no_grain_and_less_error_with_quality)
 {
     double last = 1;
-    shot s = take(*state, "bowl", NULL, 0, 1280, 720, 32);
+    shot s = take(f, "bowl", NULL, 0, 1280, 720, 32);
     grain_places places;
     for (int i = 0; i < s.count; ++i)
         if (s.view.truth.accessibility[i] > 0.98f)
@@ -130,10 +130,10 @@ TEST(a_bowl_has_no_grain_and_less_error_with_quality)
 }
 
 /* From 100 to a million times the distance of what is seen: beyond the scene's size nothing changes. */
-TEST(a_huge_radius_does_not_brighten)
+TEST_GL(a_huge_radius_does_not_brighten)
 {
     const float size = 20;
-    shot s = take(*state, "radius-huge", NULL, size, 320, 180, 64);
+    shot s = take(f, "radius-huge", NULL, size, 320, 180, 64);
     for (int level = 0; level < LEVELS; ++level) {
         double last = 1, reference = 0;
         for (int decade = 1; decade <= 6; ++decade) {

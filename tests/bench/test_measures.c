@@ -148,13 +148,12 @@ TEST_WITH(pixels_without_a_surface_do_not_count, reset)
     fill(picture, 0.25f);
     fill(truth, 0.75f);
     const double ssim_before = ssim(), flip_before = flip();
-    for (int y = 0; y < HEIGHT; y++) {
+    for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < 10; x++) {
             classes[y * WIDTH + x] = PIXEL_NONE;
             picture[y * WIDTH + x] = NAN;
             truth[y * WIDTH + x] = 0;
         }
-    }
     assert_near(ssim(), ssim_before, 1e-6);
     assert_near(flip(), flip_before, 0.02); /* the eye's filter brings in a little of the background */
 }

@@ -86,7 +86,6 @@ static replay *load(replayer *r, const char *text)
 
 TEST_GL(passes_are_drawn_in_order)
 {
-    fixture *f = *state;
     const float one[4] = {1, 1, 1, 1};
     float out[WIDTH * HEIGHT];
     replayer *r = replayer_create(f->context);
@@ -123,7 +122,6 @@ TEST_GL(wrong_recordings_are_named)
         {"texture 2 1 r8 0 0 -\npass 0 0 0 1 1 0\n", "not understood: pass 0"},
         {"texture 2 1 r8 0 0 -\nprogram a.vert first.frag\npass 0 0 0 1 1 7\n", "not understood: pass 0 0 0 1 1 7"},
         {"output 3\n", "not understood: output 3"}};
-    fixture *f = *state;
     replayer *r = replayer_create(f->context);
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         assert_null(load(r, wrong[i].text));

@@ -94,7 +94,6 @@ static void accumulate(fixture *f, const glssao_frame *frame, sample_set *out, i
 /* The mean of few estimates and the mean of many have the same expectation. */
 TEST_GL(accumulation_is_unbiased)
 {
-    fixture *f = *state;
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     analytic_room(room, 1);
     const analytic_view view = analytic_make_view(PERSPECTIVE, (double)WIDTH / HEIGHT, 0.5, 40, 1);

@@ -244,10 +244,9 @@ bool times_measure(results *r, effects *e, int of_view, failure *fault)
         take_turns(r, e, &plain, g, radius, values, fault) && time_rays(r, e, &g[0], s, radius, of_view, fault) &&
         time_traced(r, e, &g[0], radius, of_view, fault) && (!r->peers || time_peers(r, &g[0], radius, of_view, fault));
     effects_destroy(&plain);
-    for (int i = 0; timed && i < r->config_count; i++) {
+    for (int i = 0; timed && i < r->config_count; i++)
         if (r->configs[i].config.kind == BENCH_EFFECT)
             r->configs[i].views[of_view].time = summarise(values + i * per_config, r->options->frames);
-    }
     progress_clear();
     gbuffer_destroy(&g[0]);
     gbuffer_destroy(&g[1]);

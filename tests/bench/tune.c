@@ -246,7 +246,7 @@ static bool all_found(void)
 static bool search(fit_sum *fits, int rounds)
 {
     double best = score(t.square);
-    for (int round = 0; round < rounds; round++) {
+    for (int round = 0; round < rounds; round++)
         for (int i = 0; i < TABLE_LENGTH; i++) {
             bool improved = false;
             if (!try_constant(&table[i], fits, &best, &improved))
@@ -255,7 +255,6 @@ static bool search(fit_sum *fits, int rounds)
                 table[i].step *= 0.5;
             progress_show("round %d/%d: %s %.4f, score %.5f", round + 1, rounds, table[i].name, table[i].value, best);
         }
-    }
     progress_clear();
     return true;
 }

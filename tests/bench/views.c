@@ -88,7 +88,7 @@ static void count_shares(bench_view *v)
 {
     const int w = v->gbuffer.view.width, h = v->gbuffer.view.height;
     double seen = 0, edges = 0, smooth = 0, tilted = 0;
-    for (int y = 0; y < h; y++) {
+    for (int y = 0; y < h; y++)
         for (int x = 0; x < w; x++) {
             const uint8_t *c = &v->classes[(size_t)y * (size_t)w + (size_t)x];
             seen += *c != PIXEL_NONE;
@@ -98,7 +98,6 @@ static void count_shares(bench_view *v)
                 tilted += is_tilted(v, x, y);
             }
         }
-    }
     v->coverage = seen / ((double)w * h);
     v->edge_share = seen > 0 ? edges / seen : 0;
     v->tilted_share = smooth > 0 ? tilted / smooth : 0;
@@ -115,7 +114,7 @@ static bool classify(bench_view *v)
         return false;
     }
     uint8_t *rows = marks + count;
-    for (int y = 0; y < h; y++) {
+    for (int y = 0; y < h; y++)
         for (int x = 0; x < w; x++) {
             const size_t i = (size_t)y * (size_t)w + (size_t)x;
             const size_t left = x > 0 ? i - 1 : i, right = x + 2 < w ? i + 2 : i + 1;
@@ -123,7 +122,6 @@ static bool classify(bench_view *v)
             marks[i] = (x + 1 < w && is_edge(v, left, i, i + 1, right)) ||
                        (y + 1 < h && is_edge(v, below, i, i + (size_t)w, above));
         }
-    }
     for (int y = 0; y < h; y++)
         spread(marks + (size_t)y * (size_t)w, rows + (size_t)y * (size_t)w, w, 1);
     for (int x = 0; x < w; x++)

@@ -36,9 +36,7 @@ static const char *const names[MISTAKES] = {"none",          "radius-tiny",     
 static scene make_scene(void)
 {
     scene s = {.view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0)};
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    analytic_render(&s.view, room, ANALYTIC_ROOM_SHAPES, W, H, &s.depth, &s.normals);
+    analytic_render(&s.view, analytic_unit_room, ANALYTIC_ROOM_SHAPES, W, H, &s.depth, &s.normals);
     return s;
 }
 

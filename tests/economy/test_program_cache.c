@@ -81,9 +81,9 @@ static gl_counts run(cached *c, const char *folder)
     return run_path(c, folder, GLSSAO_PATH_FRAGMENT);
 }
 
-static cached open_cached(void **state)
+static cached open_cached(fixture *f)
 {
-    cached c = {.f = *state, .folder = "/tmp/glssao-cache-XXXXXX"};
+    cached c = {.f = f, .folder = "/tmp/glssao-cache-XXXXXX"};
     assert_non_null(mkdtemp(c.folder));
     c.frame = fixture_room(PERSPECTIVE, W, H);
     const gl_counts counts = run(&c, NULL);
@@ -115,7 +115,7 @@ static bool fill(cached *c)
 
 TEST_GL(the_second_run_compiles_nothing)
 {
-    cached c = open_cached(state);
+    cached c = open_cached(f);
     if (fill(&c)) {
         const gl_counts counts = run(&c, c.folder);
         assert_true(counts.programs == 0 && counts.shaders == 0 && counts.binaries == PROGRAMS);
@@ -127,7 +127,7 @@ TEST_GL(the_second_run_compiles_nothing)
  * fragment ones. */
 TEST_GL(each_path_has_programs_of_its_own)
 {
-    cached c = open_cached(state);
+    cached c = open_cached(f);
     if (fill(&c))
         for (int i = 0; i < 2; ++i) {
             const gl_counts counts = run_path(&c, c.folder, GLSSAO_PATH_COMPUTE);
@@ -187,7 +187,7 @@ static void empty(const char *path)
 TEST_GL(damaged_files_are_compiled_anew)
 {
     static const file_fn damages[] = {change_magic, change_key, change_length, change_program, cut_short, empty};
-    cached c = open_cached(state);
+    cached c = open_cached(f);
     if (fill(&c))
         for (size_t i = 0; i < sizeof damages / sizeof *damages; ++i) {
             assert_int_equal(for_each_file(c.folder, damages[i]), PROGRAMS);
@@ -202,7 +202,7 @@ TEST_GL(damaged_files_are_compiled_anew)
 /* The checksum covers the head: the driver never gets a format that it did not write. */
 TEST_GL(a_strange_format_is_not_handed_to_the_driver)
 {
-    cached c = open_cached(state);
+    cached c = open_cached(f);
     if (fill(&c)) {
         for_each_file(c.folder, change_format);
         const gl_counts counts = run(&c, c.folder);
@@ -213,7 +213,7 @@ TEST_GL(a_strange_format_is_not_handed_to_the_driver)
 
 TEST_GL(a_folder_that_is_not_there_does_no_harm)
 {
-    cached c = open_cached(state);
+    cached c = open_cached(f);
     c.is_refused = true;
     const gl_counts counts = run(&c, "/nowhere/at/all");
     assert_true(counts.programs == PROGRAMS && counts.binaries == 0);

@@ -5,8 +5,8 @@
  */
 #include "analytic.h"
 #include "camera.h"
-#include "draw.h"
 #include "fixture.h"
+#include "scene_scopes.h"
 
 enum { W = 320, H = 192, TECHNIQUES = 3, QUALITIES = 4 };
 static const double STEP = 1.0 / 65535.0;
@@ -16,12 +16,11 @@ static glssao_frame draw_scene(glssao_effect *effect, const scene *s, const came
 {
     char error[1024];
     const scene_view view = camera_view(c, W, H);
-    scene_renderer *renderer = scene_renderer_create(s, FAULT(error));
+    SCOPED(renderer) scene_renderer *renderer = scene_renderer_create(s, FAULT(error));
     assert_non_null(renderer);
     assert_int_equal(glssao_begin_normals(effect, depth), GLSSAO_OK);
     scene_draw_normals(renderer, &view);
     assert_int_equal(glssao_end_normals(effect), GLSSAO_OK);
-    scene_renderer_destroy(renderer);
     glssao_frame frame = {.depth_texture = depth, .normal_texture = glssao_map(effect, GLSSAO_MAP_NORMAL, NULL, NULL)};
     memcpy(frame.projection, view.clip_from_view, sizeof frame.projection);
     return frame;
@@ -97,14 +96,13 @@ TEST_GL(built_in_scenes_look_the_same)
     static const char *const names[] = {"columns", "cornell", "steps", "plane"};
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
         char error[256];
-        scene *s = scene_make(names[i], FAULT(error));
+        SCOPED(scene) scene *s = scene_make(names[i], FAULT(error));
         assert_non_null(s);
         camera c = camera_frame_scene(s, (float)W / H);
-        const double share = compare_scene(*state, s, &c, 0.5f, true, names[i]);
+        const double share = compare_scene(f, s, &c, 0.5f, true, names[i]);
         assert_true(share > 0);
         if (strcmp(names[i], "plane") == 0)
             assert_true(share > 0.5);
-        scene_destroy(s);
     }
 }
 
@@ -131,18 +129,17 @@ TEST_GL(shared_scenes_look_the_same)
     for (size_t i = 0; folder && i < sizeof views / sizeof *views; ++i) {
         char path[2048], error[1024];
         snprintf(path, sizeof path, "%s/%s", folder, views[i].file);
-        FILE *f = fopen(path, "rb");
-        if (!f)
+        FILE *file = fopen(path, "rb");
+        if (!file)
             continue;
-        fclose(f);
-        scene *s = scene_load(path, FAULT(error));
+        fclose(file);
+        SCOPED(scene) scene *s = scene_load(path, FAULT(error));
         assert_non_null(s);
         camera c = {.up = {0, 1, 0}, .fov_y_rad = views[i].fov_deg * 0.01745329252f};
         memcpy(c.eye, views[i].eye, sizeof c.eye);
         memcpy(c.target, views[i].target, sizeof c.target);
         camera_fit_planes(&c, s);
-        compare_scene(*state, s, &c, views[i].radius, false, views[i].file);
-        scene_destroy(s);
+        compare_scene(f, s, &c, views[i].radius, false, views[i].file);
         seen++;
     }
     if (!seen) {
@@ -165,21 +162,21 @@ TEST_GL(every_projection_looks_the_same)
         analytic_room(room, scale);
         SCOPED(frame)
         const glssao_frame frame = shapes_frame((analytic_projection)kind, room, ANALYTIC_ROOM_SHAPES, scale);
-        SCOPED(effect) glssao_effect *effect = fixture_drawn_effect(*state, W, H);
+        SCOPED(effect) glssao_effect *effect = fixture_drawn_effect(f, W, H);
         for (int t = 0; t < TECHNIQUES; ++t)
             for (int margin = 0; margin <= 34; margin += 34) {
                 glssao_settings settings = glssao_default_settings((glssao_technique)t, GLSSAO_HIGH);
                 set_radius(&settings, (float)(0.3 * scale));
                 settings.power *= kind % 3 == 0 ? 4.0f : 1.0f;
-                glssao_frame f = frame;
-                f.margin = margin;
-                assert_same_picture(effect, &f, &settings, "room");
+                glssao_frame other = frame;
+                other.margin = margin;
+                assert_same_picture(effect, &other, &settings, "room");
                 settings.fade_far_end = (float)(6.0 * scale);
-                assert_same_picture(effect, &f, &settings, "room that fades");
+                assert_same_picture(effect, &other, &settings, "room that fades");
                 settings.radius_in_pixels = true;
                 settings.radius = margin ? 3.0f : 20.0f;
                 settings.thickness = 0.5f;
-                assert_same_picture(effect, &f, &settings, "room with a radius in pixels");
+                assert_same_picture(effect, &other, &settings, "room with a radius in pixels");
             }
     }
 }
@@ -200,7 +197,7 @@ TEST_GL(sky_is_left_out)
 {
     const analytic_shape nothing = {ANALYTIC_SPHERE, {0, 0, 50}, {1, 1, 1}}; /* behind the eye */
     for (int t = 0; t < TECHNIQUES; ++t)
-        assert_true(share_of(*state, &nothing, 1, (glssao_technique)t, 0.5f) == 1.0);
+        assert_true(share_of(f, &nothing, 1, (glssao_technique)t, 0.5f) == 1.0);
 }
 
 /* Everything but the picture's edge, where samples are clamped. */
@@ -208,20 +205,18 @@ TEST_GL(a_plane_is_left_out)
 {
     const analytic_shape wall = {ANALYTIC_PLANE, {0, 0, -8}, {0.28, 0, 0.96}};
     const double inner = (double)(W / 16 - 2) * (H / 16 - 2) / ((W / 16) * (H / 16));
-    const double share = share_of(*state, &wall, 1, GLSSAO_HORIZON, 0.3f);
+    const double share = share_of(f, &wall, 1, GLSSAO_HORIZON, 0.3f);
     print_message("left out: %g of %g\n", share, inner);
     /* A GPU divides with a rounding error that llvmpipe has not, and then keeps tiles (measured: 0.29 of 0.75). */
-    const fixture *f = *state;
     assert_true(context_is_software(f->context) ? share == inner : share > 0.2 && share <= inner);
-    assert_true(share_of(*state, &wall, 1, GLSSAO_HEMISPHERE, 0.3f) == 1.0);
+    assert_true(share_of(f, &wall, 1, GLSSAO_HEMISPHERE, 0.3f) == 1.0);
 }
 
 TEST_GL(a_radius_under_half_a_pixel_is_left_out)
 {
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    assert_true(share_of(*state, room, ANALYTIC_ROOM_SHAPES, GLSSAO_HORIZON, 0.006f) == 1.0);
-    const double above = share_of(*state, room, ANALYTIC_ROOM_SHAPES, GLSSAO_HORIZON, 0.009f); /* at the nearest */
+    assert_true(share_of(f, analytic_unit_room, ANALYTIC_ROOM_SHAPES, GLSSAO_HORIZON, 0.006f) == 1.0);
+    const double above =
+        share_of(f, analytic_unit_room, ANALYTIC_ROOM_SHAPES, GLSSAO_HORIZON, 0.009f); /* at the nearest */
     assert_true(above > 0.5 && above < 1.0);
 }
 
@@ -229,9 +224,9 @@ TEST_GL(a_radius_under_half_a_pixel_is_left_out)
 TEST_GL(range_within_epsilon_is_left_out)
 {
     analytic_shape walls[2] = {{ANALYTIC_PLANE, {0, 0, -8}, {0, 0, 1}}, {ANALYTIC_BOX, {0, 0, -8}, {1, 1, 0.04}}};
-    assert_true(share_of(*state, walls, 2, GLSSAO_CLASSIC, 0.5f) == 1.0);
+    assert_true(share_of(f, walls, 2, GLSSAO_CLASSIC, 0.5f) == 1.0);
     walls[1].size[2] = 0.06;
-    const double share = share_of(*state, walls, 2, GLSSAO_CLASSIC, 0.5f);
+    const double share = share_of(f, walls, 2, GLSSAO_CLASSIC, 0.5f);
     assert_true(share > 0.0 && share < 1.0);
 }
 
@@ -240,8 +235,8 @@ TEST_GL(a_plane_near_an_occluder_is_estimated)
 {
     const analytic_shape shapes[2] = {{ANALYTIC_PLANE, {0, 0, -8}, {0, 0, 1}},
                                       {ANALYTIC_SPHERE, {0, 0, -8}, {1, 1, 1}}};
-    const double small = share_of(*state, shapes, 2, GLSSAO_HORIZON, 0.2f);
-    const double large = share_of(*state, shapes, 2, GLSSAO_HORIZON, 1.5f);
+    const double small = share_of(f, shapes, 2, GLSSAO_HORIZON, 0.2f);
+    const double large = share_of(f, shapes, 2, GLSSAO_HORIZON, 1.5f);
     assert_true(large > 0.0 && large < small && small < 1.0);
 }
 
@@ -268,7 +263,7 @@ TEST_GL(tiles_beside_estimated_ones_look_the_same)
                              {0.05, 0.05, 0.6}};
     const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
     SCOPED(frame) const glssao_frame frame = fixture_frame(&view, shapes, BUMPS + 1, WIDE, HIGH);
-    SCOPED(effect) glssao_effect *effect = fixture_drawn_effect(*state, WIDE, HIGH);
+    SCOPED(effect) glssao_effect *effect = fixture_drawn_effect(f, WIDE, HIGH);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         glssao_settings settings = glssao_default_settings(cases[i].technique, cases[i].quality);
         set_radius(&settings, cases[i].radius);
@@ -335,7 +330,7 @@ TEST_GL(a_line_off_a_plane_is_estimated)
                 depth[i] -= where == IN_DEPTH ? 1e-4f : 0;
                 normals[3 * i] = where == IN_NORMALS ? 0.01f : 0;
             }
-            const double share = share_of_maps(*state, depth, normals, 1);
+            const double share = share_of_maps(f, depth, normals, 1);
             assert_true(share > 0.5 && share < INNER);
         }
 }
@@ -348,8 +343,8 @@ TEST_GL(a_plane_is_flat_to_0_0015)
             /* Where normals bend, a tile's plane belongs to one side; the other is twice as far off. */
             const double half = where & IN_NORMALS ? 0.5 : 1;
             for (int power = 1; power <= 2; ++power) {
-                assert_true(share_of_valley(*state, 0.0013 * half / power, axis, where, (float)power) == INNER);
-                assert_true(share_of_valley(*state, 0.0018 * half / power, axis, where, (float)power) < INNER);
+                assert_true(share_of_valley(f, 0.0013 * half / power, axis, where, (float)power) == INNER);
+                assert_true(share_of_valley(f, 0.0018 * half / power, axis, where, (float)power) < INNER);
             }
         }
 }
@@ -358,7 +353,7 @@ TEST_GL(few_tiles_are_not_sorted)
 {
     const analytic_shape wall = {ANALYTIC_PLANE, {0, 0, -8}, {0, 0, 1}};
     SCOPED(frame) const glssao_frame frame = shapes_frame(PERSPECTIVE, &wall, 1, 1.0);
-    SCOPED(effect) glssao_effect *effect = fixture_drawn_effect(*state, W, H);
+    SCOPED(effect) glssao_effect *effect = fixture_drawn_effect(f, W, H);
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     assert_false(glssao_plan_frame(effect, &frame, &settings).passes[GLSSAO_PASS_TILES].run);
     settings.tiles = GLSSAO_TILES_ON;

@@ -27,6 +27,7 @@ typedef struct picture {
 
 picture make_picture(const analytic_shape *shapes, int count, analytic_projection projection);
 void free_picture(picture *p);
+#define test_end_picture free_picture /* for SCOPED */
 
 occlude_input input_of(const picture *p, bool window_depth);
 glssao_settings settings_of(float radius);

@@ -75,7 +75,7 @@ TEST_GL(test_extent_is_that_of_the_surfaces)
 {
     for (int projection = 0; projection < PROJECTION_COUNT; ++projection) {
         const analytic_shape wall = {ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, 0.0, 1.0}};
-        picture p = make_picture(&wall, 1, (analytic_projection)projection);
+        SCOPED(picture) picture p = make_picture(&wall, 1, (analytic_projection)projection);
         const float *m = p.view.projection;
         const double w = fabs((double)m[11] * -6.0 + (double)m[15]);
         const double wanted = hypot(2.0 * w / fabs((double)m[0]) * (WIDTH - 1) / WIDTH,
@@ -92,7 +92,6 @@ TEST_GL(test_extent_is_that_of_the_surfaces)
         for (int i = 0; i < COUNT; ++i)
             p.distance[i] = 0.0f;
         assert_true(occlude_extent(&input) == 0.0f);
-        free_picture(&p);
     }
 }
 

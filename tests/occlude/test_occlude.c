@@ -8,34 +8,28 @@ static const double R16_STEP = 1.0 / 65535.0;
 
 TEST_GL(test_result_is_the_effects_own)
 {
-    fixture *f = *state;
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    picture p = make_picture(room, ANALYTIC_ROOM_SHAPES, PERSPECTIVE);
+    SCOPED(picture) picture p = make_picture(analytic_unit_room, ANALYTIC_ROOM_SHAPES, PERSPECTIVE);
     const glssao_settings settings = settings_of(1.0f);
     SCOPED(memory) float *got = malloc(COUNT * sizeof *got);
     const occlude_input input = input_of(&p, true);
     compute(&input, &settings, got);
 
-    SCOPED(frame) glssao_frame frame = fixture_frame(&p.view, room, ANALYTIC_ROOM_SHAPES, WIDTH, HEIGHT);
+    SCOPED(frame) glssao_frame frame = fixture_frame(&p.view, analytic_unit_room, ANALYTIC_ROOM_SHAPES, WIDTH, HEIGHT);
     glssao_effect *effect = fixture_shared_effect(f, WIDTH, HEIGHT);
     int width, height;
     SCOPED(memory) float *wanted = fixture_compute(effect, &frame, &settings, &width, &height);
     turn_over(wanted, WIDTH, HEIGHT, 1);
     assert_memory_equal(got, wanted, COUNT * sizeof *got);
-
-    free_picture(&p);
 }
 
 TEST_GL(test_view_distance_and_window_depth_agree)
 {
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
     const glssao_settings settings = settings_of(1.0f);
     SCOPED(memory)
     float *by_window = malloc(COUNT * sizeof *by_window), *by_distance = malloc(COUNT * sizeof *by_distance);
     for (int projection = 0; projection < PROJECTION_COUNT; ++projection) {
-        picture p = make_picture(room, ANALYTIC_ROOM_SHAPES, (analytic_projection)projection);
+        SCOPED(picture)
+        picture p = make_picture(analytic_unit_room, ANALYTIC_ROOM_SHAPES, (analytic_projection)projection);
         const occlude_input window = input_of(&p, true), distance = input_of(&p, false);
         compute(&window, &settings, by_window);
         compute(&distance, &settings, by_distance);
@@ -46,14 +40,13 @@ TEST_GL(test_view_distance_and_window_depth_agree)
         }
         assert_true(sum / COUNT < 1e-3);
         assert_true(darkest < 0.75); /* it is not open everywhere */
-        free_picture(&p);
     }
 }
 
 TEST_GL(test_plane_and_sky_are_open)
 {
     const analytic_shape floor = {ANALYTIC_PLANE, {0.0, -1.5, 0.0}, {0.0, 1.0, 0.0}};
-    picture p = make_picture(&floor, 1, PERSPECTIVE); /* the upper half is sky: infinite */
+    SCOPED(picture) picture p = make_picture(&floor, 1, PERSPECTIVE); /* the upper half is sky: infinite */
     SCOPED(memory) float *out = malloc(COUNT * sizeof *out);
     occlude_input input = input_of(&p, false);
     const glssao_settings settings = settings_of(1.0f);
@@ -65,7 +58,6 @@ TEST_GL(test_plane_and_sky_are_open)
         for (int i = 0; i < COUNT; i += 7)
             p.distance[i] = i % 2 ? NAN : 0.0f; /* no surface either way */
     }
-    free_picture(&p);
 }
 
 /* Floor and wall far larger than the radius: half of the directions over the floor's point in the corner are blocked.
@@ -74,7 +66,7 @@ TEST_GL(test_corner_agrees_with_traced_rays)
 {
     const analytic_shape corner[] = {{ANALYTIC_PLANE, {0.0, -1.5, 0.0}, {0.0, 1.0, 0.0}},
                                      {ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, 0.0, 1.0}}};
-    picture p = make_picture(corner, 2, PERSPECTIVE);
+    SCOPED(picture) picture p = make_picture(corner, 2, PERSPECTIVE);
     SCOPED(memory) float *out = malloc(COUNT * sizeof *out);
     const occlude_input input = input_of(&p, false);
     const double radius = 2.0;
@@ -91,7 +83,6 @@ TEST_GL(test_corner_agrees_with_traced_rays)
         ++compared;
     }
     assert_true(compared > 10);
-    free_picture(&p);
 }
 
 TEST_GL(test_any_size_and_any_quality)
@@ -100,7 +91,7 @@ TEST_GL(test_any_size_and_any_quality)
     float depth[33 * 17], out[33 * 17];
     for (int i = 0; i < 33 * 17; ++i)
         depth[i] = 4.0f;
-    picture p = make_picture(NULL, 0, PERSPECTIVE);
+    SCOPED(picture) picture p = make_picture(NULL, 0, PERSPECTIVE);
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; ++s)
         for (int technique = GLSSAO_CLASSIC; technique <= GLSSAO_HORIZON; ++technique)
             for (int radius = 0; radius < 2; ++radius) {
@@ -116,14 +107,11 @@ TEST_GL(test_any_size_and_any_quality)
                 for (int i = 0; i < input.width * input.height; ++i)
                     assert_true(out[i] >= 0.99f && out[i] <= 1.0f);
             }
-    free_picture(&p);
 }
 
 TEST_GL(test_hostile_normals_give_finite_results)
 {
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    picture p = make_picture(room, ANALYTIC_ROOM_SHAPES, PERSPECTIVE);
+    SCOPED(picture) picture p = make_picture(analytic_unit_room, ANALYTIC_ROOM_SHAPES, PERSPECTIVE);
     static const float hostile[] = {NAN, INFINITY, -INFINITY, 0.0f, 1e30f, -1e-30f};
     for (int i = 0; i < 3 * COUNT; ++i)
         p.normals[i] = hostile[(i + i / 7) % 6];
@@ -133,14 +121,11 @@ TEST_GL(test_hostile_normals_give_finite_results)
     compute(&input, &settings, out);
     for (int i = 0; i < COUNT; ++i)
         assert_true(out[i] >= 0.0f && out[i] <= 1.0f);
-    free_picture(&p);
 }
 
 TEST_GL(test_more_estimates_bring_less_noise)
 {
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    picture p = make_picture(room, ANALYTIC_ROOM_SHAPES, PERSPECTIVE);
+    SCOPED(picture) picture p = make_picture(analytic_unit_room, ANALYTIC_ROOM_SHAPES, PERSPECTIVE);
     glssao_settings settings = settings_of(1.0f);
     settings.blur = GLSSAO_BLUR_NONE;
     settings.sample_count = 12;
@@ -160,15 +145,12 @@ TEST_GL(test_more_estimates_bring_less_noise)
     assert_true(errors[2] < 0.4 * errors[1] && errors[3] < 0.6 * errors[2]);
     for (int i = 0; i < 4; ++i)
         free(out[i]);
-    free_picture(&p);
 }
 
 /* A bound on the error ends the estimates early: the result is that of as many estimates as it took. */
 TEST_GL(test_error_ends_the_estimates)
 {
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    picture p = make_picture(room, ANALYTIC_ROOM_SHAPES, PERSPECTIVE);
+    SCOPED(picture) picture p = make_picture(analytic_unit_room, ANALYTIC_ROOM_SHAPES, PERSPECTIVE);
     const glssao_settings settings = settings_of(1.0f);
     static const struct {
         int estimates;
@@ -187,7 +169,6 @@ TEST_GL(test_error_ends_the_estimates)
     assert_memory_not_equal(out[0], out[2], COUNT * sizeof *out[0]);
     for (int i = 0; i < 4; ++i)
         free(out[i]);
-    free_picture(&p);
 }
 
 TEST_MAIN(NULL, occlude_setup, occlude_teardown)

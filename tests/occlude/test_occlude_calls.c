@@ -8,7 +8,7 @@
 
 TEST_GL(test_wrong_input_gives_one_line)
 {
-    picture p = make_picture(NULL, 0, PERSPECTIVE);
+    SCOPED(picture) picture p = make_picture(NULL, 0, PERSPECTIVE);
     const glssao_settings settings = settings_of(1.0f);
     const occlude_input good = input_of(&p, false);
     occlude_input input = good;
@@ -48,7 +48,6 @@ TEST_GL(test_wrong_input_gives_one_line)
 
     SCOPED(memory) float *out = malloc(COUNT * sizeof *out);
     compute(&good, &settings, out); /* all of that left it usable */
-    free_picture(&p);
 }
 
 typedef struct caller {
@@ -77,12 +76,10 @@ static void *call(void *argument)
 
 TEST_GL(test_threads_get_the_same_bits)
 {
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    picture p = make_picture(room, ANALYTIC_ROOM_SHAPES, PERSPECTIVE);
+    SCOPED(picture) picture p = make_picture(analytic_unit_room, ANALYTIC_ROOM_SHAPES, PERSPECTIVE);
     const occlude_input input = input_of(&p, false);
     const glssao_settings settings = settings_of(1.0f);
-    float *wanted = malloc(COUNT * sizeof *wanted);
+    SCOPED(memory) float *wanted = malloc(COUNT * sizeof *wanted);
     compute(&input, &settings, wanted);
     caller callers[4];
     for (int i = 0; i < 4; ++i) { /* two share a context, two have one each */
@@ -98,8 +95,6 @@ TEST_GL(test_threads_get_the_same_bits)
         assert_memory_equal(callers[i].out, wanted, COUNT * sizeof *wanted);
         free(callers[i].out);
     }
-    free(wanted);
-    free_picture(&p);
 }
 
 TEST_GL(test_callers_context_stays_as_it_is)
@@ -107,7 +102,7 @@ TEST_GL(test_callers_context_stays_as_it_is)
     SCOPED(texture) GLuint texture = 0;
     gl.GenTextures(1, &texture);
     gl.BindTexture(GL_TEXTURE_2D, texture);
-    picture p = make_picture(NULL, 0, PERSPECTIVE);
+    SCOPED(picture) picture p = make_picture(NULL, 0, PERSPECTIVE);
     const occlude_input input = input_of(&p, false);
     const glssao_settings settings = settings_of(1.0f);
     SCOPED(memory) float *out = malloc(COUNT * sizeof *out);
@@ -115,7 +110,6 @@ TEST_GL(test_callers_context_stays_as_it_is)
     GLint bound = 0;
     gl.GetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
     assert_int_equal(bound, texture);
-    free_picture(&p);
 }
 
 TEST_MAIN(NULL, occlude_setup, occlude_teardown)

@@ -53,7 +53,7 @@ static glssao_stats stats(const setup *s)
 /* Over surfaces alone; sky is 1 in both. */
 static double rms(const setup *s, const float *a, const float *b)
 {
-    float *depth = fixture_read_depth(s->frame.depth_texture, W, H);
+    SCOPED(memory) float *depth = fixture_read_depth(s->frame.depth_texture, W, H);
     double sum = 0.0;
     int count = 0;
     for (int i = 0; i < W * H; ++i)
@@ -61,7 +61,6 @@ static double rms(const setup *s, const float *a, const float *b)
             sum += ((double)a[i] - (double)b[i]) * ((double)a[i] - (double)b[i]);
             ++count;
         }
-    free(depth);
     assert_true(count > W * H / 2);
     return sqrt(sum / count);
 }
@@ -70,16 +69,15 @@ static double rms(const setup *s, const float *a, const float *b)
  * 4, 16, 64 and 256 estimates; the reported error was 0.93 to 1.19 of the true one. */
 TEST_GL(error_falls_and_is_told)
 {
-    setup reference = make(*state, 1), s = make(*state, 2);
+    setup reference = make(f, 1), s = make(f, 2);
     accumulate(&reference, REFERENCE);
-    float *wanted = result(&reference);
+    SCOPED(memory) float *wanted = result(&reference);
     double before = 1.0;
     for (int done = 0, count = 1; count <= 256; count *= 4) {
         accumulate(&s, count - done);
         done = count;
-        float *got = result(&s);
+        SCOPED(memory) float *got = result(&s);
         double error = rms(&s, got, wanted);
-        free(got);
         glssao_stats told = stats(&s);
         print_message("%d estimates: error %.5f, told %.5f\n", count, error, told.sampling_error);
         assert_int_equal(told.estimates, count);
@@ -90,14 +88,13 @@ TEST_GL(error_falls_and_is_told)
             assert_true(told.sampling_error > 0.8 * error && told.sampling_error < 1.3 * error);
         before = error;
     }
-    free(wanted);
     delete (&reference);
     delete (&s);
 }
 
 TEST_GL(same_seed_same_bits)
 {
-    setup a = make(*state, 7), b = make(*state, 7), c = make(*state, 8);
+    setup a = make(f, 7), b = make(f, 7), c = make(f, 8);
     accumulate(&a, 3);
     accumulate(&b, 3);
     accumulate(&c, 3);
@@ -115,9 +112,9 @@ TEST_GL(same_seed_same_bits)
 /* What restarts the mean, and what does not. */
 TEST_GL(another_view_starts_anew)
 {
-    setup s = make(*state, 3);
+    setup s = make(f, 3);
     accumulate(&s, 1);
-    float *first = result(&s);
+    SCOPED(memory) float *first = result(&s);
     accumulate(&s, 2);
     s.settings.power = 2.0f; /* the exponent applies to the mean, not to each estimate */
     accumulate(&s, 1);
@@ -140,22 +137,19 @@ TEST_GL(another_view_starts_anew)
     assert_int_equal(glssao_compute(s.effect, &s.frame, &s.settings), GLSSAO_OK);
     assert_int_equal(stats(&s).estimates, 0);
     accumulate(&s, 1);
-    float *again = result(&s);
+    SCOPED(memory) float *again = result(&s);
     assert_true(rms(&s, first, again) < 1e-4); /* the projection is the same again, except for rounding */
-    free(first);
-    free(again);
     delete (&s);
 }
 
 /* A few estimates need a blur to remove the tile's noise; many leave nothing to blur. */
 TEST_GL(blur_serves_the_first)
 {
-    const fixture *f = *state;
     const int blurs = context_is_software(f->context) ? 2 : 1; /* a GPU runs both directions in one dispatch */
-    setup reference = make(*state, 1), s = make(*state, 2), blurred = make(*state, 2);
+    setup reference = make(f, 1), s = make(f, 2), blurred = make(f, 2);
     blurred.settings.blur = GLSSAO_BLUR_PLANAR;
     accumulate(&reference, REFERENCE);
-    float *wanted = result(&reference);
+    SCOPED(memory) float *wanted = result(&reference);
     for (int count = 1; count <= 16; ++count) {
         accumulate(&s, 1);
         accumulate(&blurred, 1);
@@ -166,7 +160,6 @@ TEST_GL(blur_serves_the_first)
             assert_memory_equal(plain, smooth, W * H * sizeof *plain);
         assert_int_equal(stats(&blurred).passes[GLSSAO_PASS_BLUR].draw_calls, count < 16 ? blurs : 0);
     }
-    free(wanted);
     delete (&reference);
     delete (&s);
     delete (&blurred);
@@ -174,7 +167,6 @@ TEST_GL(blur_serves_the_first)
 
 TEST_GL(refuses_and_skips)
 {
-    fixture *f = *state;
     setup s = make(f, 0);
     accumulate(&s, 2);
     glssao_settings classic = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_HIGH);
@@ -188,10 +180,9 @@ TEST_GL(refuses_and_skips)
     accumulate(&s, 1);
     assert_int_equal(stats(&s).draw_calls, 0);
     assert_true(stats(&s).sampling_error == 0.0);
-    float *got = result(&s);
+    SCOPED(memory) float *got = result(&s);
     for (int i = 0; i < W * H; ++i)
         assert_true(got[i] == 1.0f);
-    free(got);
     delete (&s);
 }
 

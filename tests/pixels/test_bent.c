@@ -61,10 +61,10 @@ TEST_GL(plane_has_its_normal)
         for (size_t i = 0; i < sizeof degrees / sizeof *degrees; ++i) {
             const double angle = degrees[i] * PI / 180.0;
             const analytic_shape plane = {ANALYTIC_PLANE, {0.0, -0.3, -3.0}, {0.0, sin(angle), cos(angle)}};
-            analytic_shot s = analytic_take(&plane, 1, orthographic ? ORTHOGRAPHIC : PERSPECTIVE, 121, 80);
+            SCOPED(shot) analytic_shot s = analytic_take(&plane, 1, orthographic ? ORTHOGRAPHIC : PERSPECTIVE, 121, 80);
             for (int level = 0; level < LEVELS; ++level) {
                 const glssao_settings settings = level_settings(level, 1.0);
-                float *got = shade(*state, &s, &settings);
+                SCOPED(memory) float *got = shade(f, &s, &settings);
                 double worst = 0.0;
                 int seen = 0;
                 for (int k = 0; k < s.width * s.height; ++k) {
@@ -75,13 +75,11 @@ TEST_GL(plane_has_its_normal)
                     assert_true(got[4 * k + 3] > 0.999f);
                     seen += !sky;
                 }
-                free(got);
                 if (!(worst < 0.06))
                     fail_msg("%s, %g degrees, %s: %.3f degrees off", orthographic ? "orthographic" : "perspective",
                              degrees[i], level_names[level], worst);
                 assert_true(seen > 200);
             }
-            analytic_free_shot(&s);
         }
 }
 
@@ -128,9 +126,9 @@ static void compare(fixture *f, const analytic_shape *shapes, int shape_count, b
                     const limits most[LEVELS])
 {
     enum { W = 300, H = 300, STRIDE = 3 };
-    analytic_shot s = analytic_take(shapes, shape_count, PERSPECTIVE, W, H);
+    SCOPED(shot) analytic_shot s = analytic_take(shapes, shape_count, PERSPECTIVE, W, H);
     double(*truth)[3] = malloc(sizeof *truth * W * H);
-    bool *near = calloc(W * H, sizeof *near);
+    SCOPED(memory) bool *near = calloc(W * H, sizeof *near);
     for (int y = 0; y < H; y += STRIDE)
         for (int x = 0; x < W; x += STRIDE) {
             double at[3];
@@ -145,7 +143,7 @@ static void compare(fixture *f, const analytic_shape *shapes, int shape_count, b
         }
     for (int level = 0; level < LEVELS; ++level) {
         const glssao_settings settings = level_settings(level, 1.0);
-        float *got = shade(f, &s, &settings);
+        SCOPED(memory) float *got = shade(f, &s, &settings);
         double sum = 0.0, worst = 0.0, of_normal = 0.0;
         int count = 0;
         for (int i = 0; i < W * H; ++i)
@@ -158,14 +156,11 @@ static void compare(fixture *f, const analytic_shape *shapes, int shape_count, b
             }
         print_message("%s: mean %.2f degrees, worst %.1f; the normal %.2f (%d pixels)\n", level_names[level],
                       sum / count, worst, of_normal / count, count);
-        free(got);
         assert_true(count > 900 && of_normal / count > turned);
         assert_true(sum / count < most[level].mean);
         assert_true(worst < most[level].worst);
     }
-    free(near);
     free(truth);
-    analytic_free_shot(&s);
 }
 
 /* A floor and a wall, both seen at 45 degrees. Measured, mean and worst: low 0.69, 2.8; medium 0.54, 2.2; high
@@ -175,7 +170,7 @@ TEST_GL(floor_beside_a_wall_is_near_the_integral)
     const double s = sqrt(0.5);
     const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, s, s}},
                                      {ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, -s, s}}};
-    compare(*state, shapes, 2, true, 5.0, (const limits[LEVELS]){{0.8, 3.4}, {0.7, 2.7}, {0.6, 2.4}, {0.5, 1.5}});
+    compare(f, shapes, 2, true, 5.0, (const limits[LEVELS]){{0.8, 3.4}, {0.7, 2.7}, {0.6, 2.4}, {0.5, 1.5}});
 }
 
 /* A corner of three walls, seen along its diagonal. Measured, mean and worst: low 3.06, 43.5; medium 2.92, 43.4;
@@ -189,7 +184,7 @@ TEST_GL(box_corner_is_near_the_rays)
                                      {0.0, 0.0, -6.0},
                                      {sqrt(2.0 / 3.0) * cos(turn), sqrt(2.0 / 3.0) * sin(turn), sqrt(1.0 / 3.0)}};
     }
-    compare(*state, shapes, 3, false, 5.0, (const limits[LEVELS]){{3.7, 48.0}, {3.6, 48.0}, {3.0, 48.0}, {2.2, 48.0}});
+    compare(f, shapes, 3, false, 5.0, (const limits[LEVELS]){{3.7, 48.0}, {3.6, 48.0}, {3.0, 48.0}, {2.2, 48.0}});
 }
 
 /* A sphere of radius 0.8 that rests on a floor seen at 45 degrees. Measured, mean and worst: low 2.18, 26.9;
@@ -199,7 +194,7 @@ TEST_GL(sphere_on_plane_is_near_the_rays)
     const double s = sqrt(0.5);
     const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, s, s}},
                                      {ANALYTIC_SPHERE, {0.0, 0.8 * s, 0.8 * s - 6.0}, {0.8, 0.0, 0.0}}};
-    compare(*state, shapes, 2, false, 2.0, (const limits[LEVELS]){{2.6, 32.0}, {2.4, 33.0}, {2.1, 18.0}, {2.0, 25.0}});
+    compare(f, shapes, 2, false, 2.0, (const limits[LEVELS]){{2.6, 32.0}, {2.4, 33.0}, {2.1, 18.0}, {2.0, 25.0}});
 }
 
 /* A groove 0.9 wide and 0.6 deep between two boxes, seen into. Measured, mean and worst: low 1.93, 29.4;
@@ -209,7 +204,7 @@ TEST_GL(groove_is_near_the_rays)
     const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, 0.0, 1.0}},
                                      {ANALYTIC_BOX, {-1.45, 0.0, -5.7}, {1.0, 9.0, 0.3}},
                                      {ANALYTIC_BOX, {1.45, 0.0, -5.7}, {1.0, 9.0, 0.3}}};
-    compare(*state, shapes, 3, false, 2.0, (const limits[LEVELS]){{2.6, 34.0}, {2.5, 33.0}, {2.8, 36.0}, {2.0, 36.0}});
+    compare(f, shapes, 3, false, 2.0, (const limits[LEVELS]){{2.6, 34.0}, {2.5, 33.0}, {2.8, 36.0}, {2.0, 36.0}});
 }
 
 enum { BALL_SIDE = 80, BALL_EDGE = 12 };
@@ -289,9 +284,9 @@ TEST_GL(rays_correct_how_far_directions_turn)
     set_up_ball(&b);
     for (int way = GLSSAO_PATH_FRAGMENT; way <= (fixture_hides_newer() ? GLSSAO_PATH_FRAGMENT : GLSSAO_PATH_COMPUTE);
          ++way) {
-        glssao_config config = fixture_config(*state, BALL_SIDE, BALL_SIDE);
+        glssao_config config = fixture_config(f, BALL_SIDE, BALL_SIDE);
         config.path = (glssao_path)way;
-        glssao_effect *effect = fixture_effect_of(*state, &config);
+        SCOPED(effect) glssao_effect *effect = fixture_effect_of(f, &config);
         for (int level = 0; level < LEVELS; ++level) {
             const glssao_settings settings = level_settings(level, 1.0);
             double error[SAID_COUNT], turn[SAID_COUNT], own_error, own_turn;
@@ -314,7 +309,6 @@ TEST_GL(rays_correct_how_far_directions_turn)
             assert_true(turn[ALL_OPEN] < 0.6 * own_turn);
             assert_true(error[FEW] < 1.2 * own_error && error[MANY] < 0.75 * own_error);
         }
-        glssao_destroy(effect);
     }
     analytic_free_shot(&b.shot);
 }
@@ -351,8 +345,8 @@ static analytic_shot room_shot(analytic_shape room[ANALYTIC_ROOM_SHAPES], analyt
 TEST_GL(map_is_there_only_when_asked_for)
 {
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_shot s = room_shot(room, PERSPECTIVE);
-    glssao_effect *effect = fixture_effect(*state, s.width, s.height);
+    SCOPED(shot) analytic_shot s = room_shot(room, PERSPECTIVE);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, s.width, s.height);
     glssao_settings settings = level_settings(GLSSAO_HIGH, 0.5);
     int w = 1, h = 1;
     assert_int_equal(glssao_map(effect, GLSSAO_MAP_BENT_NORMAL, &w, &h), 0);
@@ -371,8 +365,6 @@ TEST_GL(map_is_there_only_when_asked_for)
     free(read_bent(effect, (ROOM_W + 1) / 2 - 8, ROOM_H / 2 - 8));
     assert_int_equal(glssao_resize(effect, 50, 50), GLSSAO_OK);
     assert_int_equal(glssao_map(effect, GLSSAO_MAP_BENT_NORMAL, NULL, NULL), 0);
-    glssao_destroy(effect);
-    analytic_free_shot(&s);
 }
 
 /* Root of the mean square of the angles between two maps, degrees, and the largest difference of accessibility. */
@@ -393,11 +385,11 @@ static double difference(const float *a, const float *b, int count, double *out_
 TEST_GL(radius_0_leaves_normals_and_power_moves_none)
 {
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_shot s = room_shot(room, ORTHOGRAPHIC);
+    SCOPED(shot) analytic_shot s = room_shot(room, ORTHOGRAPHIC);
     const int count = s.width * s.height;
     for (int level = 0; level < LEVELS; ++level) {
         glssao_settings settings = level_settings(level, 0.0);
-        SCOPED(memory) float *normals = shade(*state, &s, &settings);
+        SCOPED(memory) float *normals = shade(f, &s, &settings);
         for (int i = 0; i < count; ++i) {
             const float *n = s.normals + 3 * i;
             const double normal[3] = {(double)n[0], (double)n[1], (double)n[2]};
@@ -405,28 +397,27 @@ TEST_GL(radius_0_leaves_normals_and_power_moves_none)
         }
         settings.radius = 1.0f;
         settings.power = 1.0f;
-        SCOPED(memory) float *one = shade(*state, &s, &settings);
+        SCOPED(memory) float *one = shade(f, &s, &settings);
         settings.power = 0.0f;
-        SCOPED(memory) float *none = shade(*state, &s, &settings);
+        SCOPED(memory) float *none = shade(f, &s, &settings);
         double alpha;
         const double moved = difference(one, normals, count, &alpha);
         print_message("%s: occluders move directions by %.2f degrees\n", level_names[level], moved);
         assert_true(moved > 0.3);
         assert_true(difference(one, none, count, &alpha) < 1e-3 && alpha > 0.1);
     }
-    analytic_free_shot(&s);
 }
 
 TEST_GL(no_light_and_no_surface_give_the_neutral_value)
 {
     static const float neutral[4] = {0.0f, 0.0f, 1.0f, 1.0f};
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_shot s = room_shot(room, PERSPECTIVE);
+    SCOPED(shot) analytic_shot s = room_shot(room, PERSPECTIVE);
     const glssao_settings settings = level_settings(GLSSAO_HIGH, 0.5);
     for (int i = 0; i < 2; ++i) {
         s.frame.no_ambient_light = i == 0;
         s.frame.only_sky = i == 1;
-        SCOPED(effect) glssao_effect *effect = fixture_effect(*state, s.width, s.height);
+        SCOPED(effect) glssao_effect *effect = fixture_effect(f, s.width, s.height);
         assert_int_equal(glssao_compute(effect, &s.frame, &settings), GLSSAO_OK);
         int w, h;
         (void)glssao_map(effect, GLSSAO_MAP_AMBIENT, &w, &h); /* not upsampled, since no pass runs */
@@ -434,7 +425,6 @@ TEST_GL(no_light_and_no_surface_give_the_neutral_value)
         for (int k = 0; k < w * h; ++k)
             assert_memory_equal(got + 4 * k, neutral, sizeof neutral);
     }
-    analytic_free_shot(&s);
 }
 
 /* The map with draws, with draws and tiles, or with dispatches. */
@@ -456,21 +446,18 @@ TEST_GL(ways_to_run_agree)
 {
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
     for (int i = 0; i < 2 * LEVELS; ++i) {
-        analytic_shot s = room_shot(room, (analytic_projection)(i % PROJECTION_COUNT));
+        SCOPED(shot) analytic_shot s = room_shot(room, (analytic_projection)(i % PROJECTION_COUNT));
         glssao_settings settings = level_settings(i / 2, 0.5);
         settings.upsample = i % 2 == 1;
         int w, h;
-        float *first = run_way(*state, &s, settings, 0, &w, &h);
+        SCOPED(memory) float *first = run_way(f, &s, settings, 0, &w, &h);
         for (int way = 1; way < (fixture_hides_newer() ? 2 : 3); ++way) {
-            float *got = run_way(*state, &s, settings, way, &w, &h);
+            SCOPED(memory) float *got = run_way(f, &s, settings, way, &w, &h);
             double alpha;
             const double apart = difference(first, got, w * h, &alpha);
             print_message("%s, way %d: %g degrees, accessibility %g apart\n", level_names[i / 2], way, apart, alpha);
-            free(got);
             assert_true(apart < 0.1 && alpha < 2e-3);
         }
-        free(first);
-        analytic_free_shot(&s);
     }
 }
 
@@ -488,12 +475,12 @@ static double share_apart(const float *a, const float *b, int count, double degr
 TEST_GL(turned_pictures_and_normals_change_nothing)
 {
     analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_shot s = room_shot(room, PERSPECTIVE);
+    SCOPED(shot) analytic_shot s = room_shot(room, PERSPECTIVE);
     const int count = s.width * s.height;
     const double angle = 0.7, c = cos(angle), sine = sin(angle);
     for (int level = 0; level < LEVELS; ++level) {
         const glssao_settings settings = level_settings(level, 0.5);
-        SCOPED(memory) float *upright = shade(*state, &s, &settings);
+        SCOPED(memory) float *upright = shade(f, &s, &settings);
         /* The same picture in a view space turned about the view axis: x' = c x + s y, y' = c y - s x. */
         analytic_shot turned = s;
         SCOPED(memory)
@@ -514,7 +501,7 @@ TEST_GL(turned_pictures_and_normals_change_nothing)
         q[1] = (float)(sine * (double)p[5]);
         q[5] = (float)(c * (double)p[5]);
         turned.frame.normal_texture = fixture_normal_texture(s.width, s.height, normals);
-        float *got = shade(*state, &turned, &settings);
+        float *got = shade(f, &turned, &settings);
         gl.DeleteTextures(1, &turned.frame.normal_texture);
         for (int i = 0; i < count; ++i) {
             const double x = (double)got[4 * i], y = (double)got[4 * i + 1];
@@ -526,7 +513,7 @@ TEST_GL(turned_pictures_and_normals_change_nothing)
         free(got);
         turned.frame = s.frame;
         turned.frame.normal_texture = fixture_normal_texture(s.width, s.height, flipped);
-        got = shade(*state, &turned, &settings);
+        got = shade(f, &turned, &settings);
         gl.DeleteTextures(1, &turned.frame.normal_texture);
         const double of_side = share_apart(upright, got, count, 5.0);
         print_message("%s: turned %.3f degrees apart, other side %.2f %% far apart\n", level_names[level], of_turn,
@@ -534,7 +521,6 @@ TEST_GL(turned_pictures_and_normals_change_nothing)
         assert_true(of_turn < 0.1 && of_side < 0.1); /* creases of such normals bend the other way */
         free(got);
     }
-    analytic_free_shot(&s);
 }
 
 /* Measured: 1.73 degrees after one estimate, 0.21 after 64. */
@@ -544,8 +530,8 @@ TEST_GL(accumulated_directions_near_the_integral)
     const double half = sqrt(0.5);
     const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, half, half}},
                                      {ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, -half, half}}};
-    analytic_shot s = analytic_take(shapes, 2, PERSPECTIVE, SIDE, SIDE);
-    glssao_effect *effect = fixture_effect(*state, s.width, s.height);
+    SCOPED(shot) analytic_shot s = analytic_take(shapes, 2, PERSPECTIVE, SIDE, SIDE);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, s.width, s.height);
     glssao_settings settings = level_settings(GLSSAO_HIGH, 1.0);
     settings.blur = GLSSAO_BLUR_NONE;
     double errors[2] = {0.0, 0.0};
@@ -568,8 +554,6 @@ TEST_GL(accumulated_directions_near_the_integral)
     print_message("1 estimate: %.3f degrees, %d: %.3f\n", errors[0], ESTIMATES, errors[1]);
     assert_true(stats.estimates == ESTIMATES && stats.sampling_error > 0.0);
     assert_true(errors[1] < 0.8 * errors[0] && errors[1] < 0.5);
-    glssao_destroy(effect);
-    analytic_free_shot(&s);
 }
 
 TEST_MAIN(NULL, fixture_setup, fixture_teardown)

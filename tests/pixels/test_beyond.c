@@ -17,13 +17,11 @@ enum {
 static glssao_frame make_frame(int margin, float **out_depth)
 {
     const int width = W + 2 * margin, height = H + 2 * margin;
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
     analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
     view.projection[0] *= (float)W / (float)width;
     view.projection[5] *= (float)H / (float)height;
     float *depth, *normals;
-    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, width, height, &depth, &normals);
+    analytic_render(&view, analytic_unit_room, ANALYTIC_ROOM_SHAPES, width, height, &depth, &normals);
     glssao_frame frame = fixture_maps_frame(&view, width, height, GL_DEPTH_COMPONENT32F, depth, normals);
     frame.margin = margin;
     free(normals);
@@ -49,7 +47,7 @@ TEST_GL(margin_is_cut_off)
                 settings.blur_rounds = 0;
             }
             SCOPED(effect)
-            glssao_effect *whole = fixture_effect(*state, WIDE, HIGH), *cut = fixture_effect(*state, WIDE, HIGH);
+            glssao_effect *whole = fixture_effect(f, WIDE, HIGH), *cut = fixture_effect(f, WIDE, HIGH);
             SCOPED(frame) glssao_frame frame = make_frame(MARGIN, NULL);
             int w, h, wide, high;
             SCOPED(memory) float *got = fixture_compute(cut, &frame, &settings, &w, &h);
@@ -84,7 +82,7 @@ TEST_GL(margin_finds_occluders_beyond_the_edge)
                                     {ANALYTIC_PLANE, {edge + 0.05, 0.0, 0.0}, {-1.0, 0.0, 0.0}}};
         SCOPED(frame) glssao_frame frame = fixture_frame(&view, shapes, 2, width, height);
         frame.margin = margin;
-        SCOPED(effect) glssao_effect *effect = fixture_effect(*state, width, height);
+        SCOPED(effect) glssao_effect *effect = fixture_effect(f, width, height);
         const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_ULTRA);
         int w, h;
         SCOPED(memory) float *got = fixture_compute(effect, &frame, &settings, &w, &h);
@@ -145,10 +143,10 @@ static double behind_a_plate(fixture *f, double thickness, bool layers, double s
 TEST_GL(thickness_is_read)
 {
     const double far_off = 20.0;
-    const double thin = behind_a_plate(*state, 0.05, true, far_off), thick = behind_a_plate(*state, 0.4, true, far_off);
-    const double guess_thin = behind_a_plate(*state, 0.05, false, far_off),
-                 guess_thick = behind_a_plate(*state, 0.4, false, far_off);
-    const double seconded = behind_a_plate(*state, 0.05, true, 0.2);
+    const double thin = behind_a_plate(f, 0.05, true, far_off), thick = behind_a_plate(f, 0.4, true, far_off);
+    const double guess_thin = behind_a_plate(f, 0.05, false, far_off),
+                 guess_thick = behind_a_plate(f, 0.4, false, far_off);
+    const double seconded = behind_a_plate(f, 0.05, true, 0.2);
     print_message("occlusion beside a plate: thin %.3f, thick %.3f; guessed %.3f, %.3f; second surface %.3f\n", thin,
                   thick, guess_thin, guess_thick, seconded);
     assert_true(fabs(guess_thin - guess_thick) < 0.02); /* seen from the front, both look the same */
@@ -158,7 +156,6 @@ TEST_GL(thickness_is_read)
 
 TEST_GL(refuses_what_it_cannot_use)
 {
-    fixture *f = *state;
     SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     static const int margins[] = {-2, 3, H / 2, 1 << 30};
@@ -178,7 +175,7 @@ TEST_GL(refuses_what_it_cannot_use)
 /* The last frame's margin does not apply to the new size; glssao_apply would draw a negative area. */
 TEST_GL(resize_forgets_the_margin)
 {
-    SCOPED(effect) glssao_effect *effect = fixture_effect(*state, WIDE, HIGH);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, WIDE, HIGH);
     SCOPED(frame) glssao_frame frame = make_frame(MARGIN, NULL);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     assert_int_equal(glssao_compute(effect, &frame, &settings), GLSSAO_OK);
@@ -191,7 +188,7 @@ TEST_GL(resize_forgets_the_margin)
 TEST_GL(accumulation_keeps_the_margin)
 {
     SCOPED(effect)
-    glssao_effect *effect = fixture_effect(*state, WIDE, HIGH), *wide_effect = fixture_effect(*state, WIDE, HIGH);
+    glssao_effect *effect = fixture_effect(f, WIDE, HIGH), *wide_effect = fixture_effect(f, WIDE, HIGH);
     glssao_frame frame = make_frame(MARGIN, NULL), wide_frame = frame;
     wide_frame.margin = 0;
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);

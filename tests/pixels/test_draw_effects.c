@@ -33,21 +33,20 @@ static const scene_lighting aslant = {
 TEST_GL(shadow_takes_direct_light_and_leaves_ambient)
 {
     const double lit = 0.25 + 2 / 3.14159265 * 0.70710678;
-    small_scene *s = floor_and_roof(small_scene_material());
-    frame f = frame_draw_with(s, &frame_front, &aslant, &shadowed, 0);
-    frame_assert_color(f.color[pixel_at(0.5, 0)], 0.25, 0.25, 0.25);
-    frame_assert_color(f.color[pixel_at(0.35, 0.15)], 0.25, 0.25, 0.25);
-    frame_assert_color(f.color[pixel_at(0.9, 0)], lit, lit, lit);
-    frame_assert_color(f.color[pixel_at(0.5, 0.4)], lit, lit, lit);
-    frame_assert_color(f.color[pixel_at(-0.5, 0)], lit, lit, lit);
-    frame_assert_color(f.color[pixel_at(0, 0)], lit, lit, lit); /* the roof itself */
-    assert_int_equal(f.counts.shadow, 2);
-    frame_free(&f);
-    f = frame_draw_with(s, &frame_front, &aslant, &(scene_draw_options){0}, 0);
-    frame_assert_color(f.color[pixel_at(0.5, 0)], lit, lit, lit);
-    assert_int_equal(f.counts.shadow, 0);
-    frame_free(&f);
-    free(s);
+    SCOPED(memory) small_scene *s = floor_and_roof(small_scene_material());
+    frame drawn = frame_draw_with(s, &frame_front, &aslant, &shadowed, 0);
+    frame_assert_color(drawn.color[pixel_at(0.5, 0)], 0.25, 0.25, 0.25);
+    frame_assert_color(drawn.color[pixel_at(0.35, 0.15)], 0.25, 0.25, 0.25);
+    frame_assert_color(drawn.color[pixel_at(0.9, 0)], lit, lit, lit);
+    frame_assert_color(drawn.color[pixel_at(0.5, 0.4)], lit, lit, lit);
+    frame_assert_color(drawn.color[pixel_at(-0.5, 0)], lit, lit, lit);
+    frame_assert_color(drawn.color[pixel_at(0, 0)], lit, lit, lit); /* the roof itself */
+    assert_int_equal(drawn.counts.shadow, 2);
+    frame_free(&drawn);
+    drawn = frame_draw_with(s, &frame_front, &aslant, &(scene_draw_options){0}, 0);
+    frame_assert_color(drawn.color[pixel_at(0.5, 0)], lit, lit, lit);
+    assert_int_equal(drawn.counts.shadow, 0);
+    frame_free(&drawn);
 }
 
 /* Ambient light loses the share that is not left out; direct light none. */
@@ -55,7 +54,7 @@ TEST_GL(occlusion_is_left_out_by_its_share)
 {
     const scene_lighting lighting = {
         .ambient = {0.5f, 0.5f, 0.5f}, .direction_world = {0, 0, -1}, .directional = {0.3f, 0.3f, 0.3f}};
-    small_scene *s = frame_one_quad(small_scene_material(), NULL);
+    SCOPED(memory) small_scene *s = frame_one_quad(small_scene_material(), NULL);
     const float access = 0.25f;
     GLuint map;
     gl.GenTextures(1, &map);
@@ -66,11 +65,10 @@ TEST_GL(occlusion_is_left_out_by_its_share)
     for (int i = 0; i <= 4; i++) {
         const scene_draw_options options = {.left_out = (float)i / 4};
         const double open = 1 - (1 - i / 4.0) * 0.75, color = 0.5 * open + 0.3 / 3.14159265;
-        SCOPED(drawn) frame f = frame_draw_with(s, &frame_front, &lighting, &options, map);
-        frame_assert_color(f.color[FRAME_MIDDLE], color, color, color);
+        SCOPED(drawn) frame drawn = frame_draw_with(s, &frame_front, &lighting, &options, map);
+        frame_assert_color(drawn.color[FRAME_MIDDLE], color, color, color);
     }
     gl.DeleteTextures(1, &map);
-    free(s);
 }
 
 TEST_GL(holes_and_blended_cast_no_shadow)
@@ -81,11 +79,10 @@ TEST_GL(holes_and_blended_cast_no_shadow)
         scene_material roof = small_scene_material();
         roof.alpha = blended ? SCENE_ALPHA_BLEND : SCENE_ALPHA_MASK;
         roof.base_color_texture = 0;
-        small_scene *s = floor_and_roof(roof);
+        SCOPED(memory) small_scene *s = floor_and_roof(roof);
         small_scene_add_texture(s, 1, 1, clear);
-        SCOPED(drawn) frame f = frame_draw_with(s, &frame_front, &aslant, &shadowed, 0);
-        frame_assert_color(f.color[pixel_at(0.5, 0)], lit, lit, lit);
-        free(s);
+        SCOPED(drawn) frame drawn = frame_draw_with(s, &frame_front, &aslant, &shadowed, 0);
+        frame_assert_color(drawn.color[pixel_at(0.5, 0)], lit, lit, lit);
     }
 }
 
@@ -93,23 +90,20 @@ TEST_GL(holes_and_blended_cast_no_shadow)
 TEST_GL(smooth_surfaces_alone_do_not_shadow_themselves)
 {
     const float floor[16] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    small_scene *plane = frame_one_quad(small_scene_material(), floor);
+    SCOPED(memory) small_scene *plane = frame_one_quad(small_scene_material(), floor);
     for (int k = 0; k < 24; k++) {
         const double slope = k % 8 * 0.19, turn = 0.3 + k / 8 * 0.7; /* up to 76 degrees */
         scene_lighting lighting = {
             .direction_world = {(float)(sin(slope) * cos(turn)), (float)(sin(slope) * sin(turn)), (float)-cos(slope)},
             .directional = {3, 3, 3}};
-        frame with = frame_draw_with(plane, &frame_front, &lighting, &shadowed, 0);
-        frame without = frame_draw_with(plane, &frame_front, &lighting, &(scene_draw_options){0}, 0);
+        SCOPED(drawn) frame with = frame_draw_with(plane, &frame_front, &lighting, &shadowed, 0);
+        SCOPED(drawn) frame without = frame_draw_with(plane, &frame_front, &lighting, &(scene_draw_options){0}, 0);
         int darker = 0;
         for (int i = 0; i < FRAME_SIZE * FRAME_SIZE; i++)
             darker += without.color[i][0] - with.color[i][0] > 2;
         if (darker)
             fail_msg("light %g degrees off: %d pixels are darker", slope * 57.3, darker);
-        frame_free(&with);
-        frame_free(&without);
     }
-    free(plane);
 }
 
 TEST_GL(normal_map_bends_normals_in_the_tangent_frame)
@@ -127,7 +121,7 @@ TEST_GL(normal_map_bends_normals_in_the_tangent_frame)
         scene_material material = small_scene_material();
         material.normal_map = (scene_map){.used = true, .uv_from_uv = {1, 0, 0, 0, 1, 0}};
         material.normal_scale = 1;
-        small_scene *s = frame_one_quad(material, m);
+        SCOPED(memory) small_scene *s = frame_one_quad(material, m);
         small_scene_add_texture(s, 1, 1, texel);
         for (int i = 0; i < 4; i++) {
             tangents[i][0] = 1;
@@ -135,18 +129,18 @@ TEST_GL(normal_map_bends_normals_in_the_tangent_frame)
         }
         s->scene.tangents = tangents;
         const scene_lighting lighting = scene_default_lighting();
-        frame f = frame_draw_with(s, &frame_front, &lighting, &(scene_draw_options){.mapped_normals = true}, 0);
+        frame drawn = frame_draw_with(s, &frame_front, &lighting, &(scene_draw_options){.mapped_normals = true}, 0);
         for (int i = 0; i < 3; i++) {
             /* tangent m[0..2], bitangent the image of +-y, normal z */
             const double wanted = m[i] * mapped[0] + sign * (double)m[4 + i] * mapped[1] + (i == 2 ? mapped[2] : 0);
-            if (!(fabs((double)f.normals[4 * FRAME_MIDDLE + i] - wanted) < 0.01))
-                fail_msg("case %d: component %d is %g, not %g", k, i, (double)f.normals[4 * FRAME_MIDDLE + i], wanted);
+            if (!(fabs((double)drawn.normals[4 * FRAME_MIDDLE + i] - wanted) < 0.01))
+                fail_msg("case %d: component %d is %g, not %g", k, i, (double)drawn.normals[4 * FRAME_MIDDLE + i],
+                         wanted);
         }
-        frame_free(&f);
-        f = frame_draw_with(s, &frame_front, &lighting, &(scene_draw_options){0}, 0);
-        assert_float_equal(f.normals[4 * FRAME_MIDDLE + 2], 1, 1e-6f); /* the mesh's own by default */
-        frame_free(&f);
-        free(s);
+        frame_free(&drawn);
+        drawn = frame_draw_with(s, &frame_front, &lighting, &(scene_draw_options){0}, 0);
+        assert_float_equal(drawn.normals[4 * FRAME_MIDDLE + 2], 1, 1e-6f); /* the mesh's own by default */
+        frame_free(&drawn);
     }
 }
 
@@ -159,38 +153,35 @@ TEST_GL(normal_map_bends_the_light)
     material.normal_map = (scene_map){.used = true, .uv_from_uv = {1, 0, 0, 0, 1, 0}};
     for (int scale = 0; scale < 2; scale++) {
         material.normal_scale = (float)scale;
-        small_scene *s = frame_one_quad(material, NULL);
+        SCOPED(memory) small_scene *s = frame_one_quad(material, NULL);
         small_scene_add_texture(s, 1, 1, texel);
         s->scene.tangents = tangents;
-        SCOPED(drawn) frame f = frame_draw_with(s, &frame_front, &lighting, &(scene_draw_options){0}, 0);
-        frame_assert_color(f.color[FRAME_MIDDLE], scale ? 0.6 : 0, scale ? 0.6 : 0, 0);
-        free(s);
+        SCOPED(drawn) frame drawn = frame_draw_with(s, &frame_front, &lighting, &(scene_draw_options){0}, 0);
+        frame_assert_color(drawn.color[FRAME_MIDDLE], scale ? 0.6 : 0, scale ? 0.6 : 0, 0);
     }
 }
 
 TEST_GL(sky_is_a_gradient_by_height_and_behind_everything)
 {
-    small_scene *s = frame_one_quad(small_scene_material(), NULL);
+    SCOPED(memory) small_scene *s = frame_one_quad(small_scene_material(), NULL);
     const scene_lighting lighting = {
         .ambient = {1, 1, 1}, .direction_world = {0, -1, 0}, .sky = {0.5f, 0.5f, 0.5f}, .sky_tilt = {0.4f, 0, -0.4f}};
     /* 90 degrees upwards and downwards from the horizon's middle. */
     camera c = {.eye = {0, 0, 1}, .up = {0, 1, 0}, .fov_y_rad = 1.5707963f, .near_plane = 0.1f, .far_plane = 9};
     const scene_view view = camera_view(&c, FRAME_SIZE, FRAME_SIZE);
-    frame f = frame_draw(s, &view, &lighting, 0);
+    SCOPED(drawn) frame drawn = frame_draw(s, &view, &lighting, 0);
     for (int y = 0; y < FRAME_SIZE; y += 7) {
         const double up = 2 * (y + 0.5) / FRAME_SIZE - 1, side = 1 - 1.0 / FRAME_SIZE;
         const double height = up / sqrt(up * up + side * side + 1);
-        frame_assert_color(f.color[y * FRAME_SIZE], 0.5 + 0.4 * height, 0.5, 0.5 - 0.4 * height);
+        frame_assert_color(drawn.color[y * FRAME_SIZE], 0.5 + 0.4 * height, 0.5, 0.5 - 0.4 * height);
     }
-    frame_assert_color(f.color[FRAME_MIDDLE], 1, 1, 1);
-    assert_int_equal(f.counts.sky, 1);
-    frame_free(&f);
-    free(s);
+    frame_assert_color(drawn.color[FRAME_MIDDLE], 1, 1, 1);
+    assert_int_equal(drawn.counts.sky, 1);
 }
 
 TEST_GL(outside_the_view_nothing_is_drawn)
 {
-    small_scene *s = small_scene_create();
+    SCOPED(memory) small_scene *s = small_scene_create();
     for (int k = 0; k < 9; k++) { /* the middle one is inside the picture; its two neighbours reach in by a corner */
         const float m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1.4f * (float)(k - 4), 0, 0, 1};
         frame_add_quad(s, small_scene_material(), m);
@@ -199,13 +190,11 @@ TEST_GL(outside_the_view_nothing_is_drawn)
     const float large[16] = {10, 0, 0, 0, 0, 10, 0, 0, 0, 0, 1, 0, 0, 0, -0.5f, 1};
     frame_add_quad(s, small_scene_material(), large);
     const scene_lighting lighting = scene_default_lighting();
-    frame f = frame_draw(s, &frame_front, &lighting, 0);
-    assert_int_equal(frame_count_drawn(&f, FRAME_SIZE * FRAME_SIZE), FRAME_SIZE * FRAME_SIZE);
-    assert_int_equal(f.counts.main, 4);
-    assert_int_equal(f.counts.normals, 4);
-    assert_int_equal(f.counts.culled, 6);
-    frame_free(&f);
-    free(s);
+    SCOPED(drawn) frame drawn = frame_draw(s, &frame_front, &lighting, 0);
+    assert_int_equal(frame_count_drawn(&drawn, FRAME_SIZE * FRAME_SIZE), FRAME_SIZE * FRAME_SIZE);
+    assert_int_equal(drawn.counts.main, 4);
+    assert_int_equal(drawn.counts.normals, 4);
+    assert_int_equal(drawn.counts.culled, 6);
 }
 
 static bool uses(const scene_effect *effects, const char *name)
@@ -222,7 +211,7 @@ TEST_GL(effects_are_there_only_where_called_for)
     static const char *const names[] = {"shadow map", "normal maps", "reflections", "alpha test",
                                         "instances",  "blending",    "lights",      "sky"};
     char error[512];
-    small_scene *s = frame_one_quad(small_scene_material(), NULL);
+    SCOPED(memory) small_scene *s = frame_one_quad(small_scene_material(), NULL);
     scene_renderer *r = scene_renderer_create(&s->scene, FAULT(error));
     scene_lighting lighting = {.ambient = {1, 1, 1}, .direction_world = {0, -1, 0}};
     scene_effect effects[SCENE_EFFECT_COUNT];
@@ -246,7 +235,6 @@ TEST_GL(effects_are_there_only_where_called_for)
     assert_true(scene_renderer_configure(r, &lighting, &shadowed, FAULT(error)));
     assert_int_equal(scene_shadow_map(r, NULL), 0);
     scene_renderer_destroy(r);
-    free(s);
 }
 
 /* An effect that the scene does not need changes no pixel: a renderer with every effect on takes longer and draws the
@@ -254,7 +242,7 @@ TEST_GL(effects_are_there_only_where_called_for)
 TEST_GL(everything_on_shows_the_same)
 {
     static const uint8_t texel[4] = {255, 128, 255, 255};
-    small_scene *s = small_scene_create();
+    SCOPED(memory) small_scene *s = small_scene_create();
     for (int k = 0; k < 3; k++) { /* plain, textured, and out of sight */
         scene_material material = small_scene_material();
         material.metallic_roughness = true;
@@ -269,17 +257,15 @@ TEST_GL(everything_on_shows_the_same)
     scene_draw_options options = {.shadows = true, .shadow_size = 64, .specular_occlusion = true, .multi_bounce = true};
     SCOPED(drawn) frame planned = frame_draw_with(s, &frame_front, &lighting, &options, 0);
     options.everything = true;
-    frame f = frame_draw_with(s, &frame_front, &lighting, &options, 0);
+    SCOPED(drawn) frame drawn = frame_draw_with(s, &frame_front, &lighting, &options, 0);
     for (int i = 0; i < FRAME_SIZE * FRAME_SIZE; i++)
         for (int k = 0; k < 3; k++)
-            assert_in_range(f.color[i][k] - planned.color[i][k] + 1, 0, 2);
+            assert_in_range(drawn.color[i][k] - planned.color[i][k] + 1, 0, 2);
     assert_int_equal(planned.counts.main, 2);
     assert_int_equal(planned.counts.sky, 0);
-    assert_int_equal(f.counts.main, 3);
-    assert_int_equal(f.counts.normals, 3);
-    assert_int_equal(f.counts.sky, 1);
-    frame_free(&f);
-    free(s);
+    assert_int_equal(drawn.counts.main, 3);
+    assert_int_equal(drawn.counts.normals, 3);
+    assert_int_equal(drawn.counts.sky, 1);
 }
 
 TEST_MAIN("draw effects", fixture_setup, fixture_teardown)

@@ -56,7 +56,7 @@ TEST_GL(gradient_lights_as_its_integral_says)
 {
     const scene_lighting lighting = {
         .ambient = {0.5f, 0.3f, 0.4f}, .ambient_tilt = {0.3f, -0.2f, 0}, .direction_world = {0, -1, 0}};
-    small_scene *s = frame_one_quad(small_scene_material(), NULL);
+    SCOPED(memory) small_scene *s = frame_one_quad(small_scene_material(), NULL);
     for (double up = -1; up <= 1; up += 0.25) {
         double got[3];
         set_normals(s, 0, up, sqrt(1 - up * up));
@@ -65,7 +65,6 @@ TEST_GL(gradient_lights_as_its_integral_says)
         assert_near(got[1], gradient_irradiance(0.3, -0.2, up), 0.006, "green");
         assert_near(got[2], 0.4, 0.006, "blue");
     }
-    free(s);
 }
 
 /* glTF 2.0, appendix B, in double precision. */
@@ -96,7 +95,7 @@ TEST_GL(reflection_is_that_of_the_model)
         const double cos_eye = k < 8 ? 1 : 0.8, base = 0.6, irradiance = 0.5;
         for (int c = 0; c < 3; c++)
             material.base_color[c] = (float)base;
-        small_scene *s = frame_one_quad(material, NULL);
+        SCOPED(memory) small_scene *s = frame_one_quad(material, NULL);
         set_normals(s, sqrt(1 - cos_eye * cos_eye), 0, cos_eye);
         for (size_t i = 0; i < sizeof angles / sizeof angles[0]; i++) {
             const float e = (float)irradiance;
@@ -111,7 +110,6 @@ TEST_GL(reflection_is_that_of_the_model)
                 assert_near(got[0], wanted, 0.005 + 0.01 * wanted, "reflected");
             }
         }
-        free(s);
     }
     assert_true(compared > 60);
 }
@@ -180,7 +178,7 @@ TEST_GL(nothing_is_brighter_than_its_surroundings)
         material.metallic_roughness = true;
         material.metallic = k % 2 ? 1.0f : 0.0f;
         material.roughness = 0.25f * (float)(k / 2 % 5);
-        small_scene *s = frame_one_quad(material, NULL);
+        SCOPED(memory) small_scene *s = frame_one_quad(material, NULL);
         const double cos_eye = k < 10 ? 1 : 0.3;
         set_normals(s, sqrt(1 - cos_eye * cos_eye), 0, cos_eye);
         double got[3];
@@ -190,7 +188,6 @@ TEST_GL(nothing_is_brighter_than_its_surroundings)
         if (!(got[0] < most + 0.02 && got[0] > 0.45 * 0.8))
             fail_msg("metallic %g, roughness %g, cosine %g: %g of 0.8", (double)material.metallic,
                      (double)material.roughness, cos_eye, got[0]);
-        free(s);
     }
 }
 
@@ -231,7 +228,7 @@ TEST_GL(punctual_lights_fall_off_as_the_extension_says)
          0,
          "out of the cone"},
     };
-    small_scene *s = frame_one_quad(small_scene_material(), NULL);
+    SCOPED(memory) small_scene *s = frame_one_quad(small_scene_material(), NULL);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         scene_light light = cases[i].light;
         light.color[0] = light.color[1] = light.color[2] = candela;
@@ -240,12 +237,11 @@ TEST_GL(punctual_lights_fall_off_as_the_extension_says)
         middle_color(s, &lighting, got);
         assert_near(got[0], cases[i].wanted, 0.012, cases[i].what); /* the middle pixel lies beside the exact middle */
     }
-    free(s);
 }
 
 TEST_GL(lights_of_the_scene_take_the_suns_place)
 {
-    small_scene *s = frame_one_quad(small_scene_material(), NULL);
+    SCOPED(memory) small_scene *s = frame_one_quad(small_scene_material(), NULL);
     scene_light lights[3] = {
         {.kind = SCENE_LIGHT_POINT, .color = {1, 1, 1}, .position_world = {0, 0, 30}},
         {.kind = SCENE_LIGHT_DIRECTIONAL, .color = {100, 50, 0}, .direction_world = {1, 0, 0}},
@@ -266,7 +262,6 @@ TEST_GL(lights_of_the_scene_take_the_suns_place)
     l = scene_lighting_of(&s->scene, rest);
     assert_float_equal(l.directional[0], 2, 0);
     assert_float_equal(l.lights[1].color[0], 1, 0);
-    free(s);
 }
 
 /* A picture whose channels are gradients along the world's axes: 0.5 + 0.4 x, and so on; or black. */
@@ -323,7 +318,7 @@ TEST_GL(a_picture_surrounds_the_scene)
         material.metallic_roughness = surfaces[i].metal;
         material.metallic = 1;
         material.roughness = surfaces[i].roughness;
-        small_scene *s = frame_one_quad(material, NULL);
+        SCOPED(memory) small_scene *s = frame_one_quad(material, NULL);
         scene_lighting_surround(&lighting, &s->scene, e);
         assert_true(lighting.directional[0] == 0 && scene_lighting_has_ambient(&lighting));
         set_normals(s, n[0], n[1], n[2]);
@@ -335,22 +330,21 @@ TEST_GL(a_picture_surrounds_the_scene)
                               .near_plane = 0.1f,
                               .far_plane = 9};
             const scene_view view = camera_view(&c, FRAME_SIZE, FRAME_SIZE);
-            SCOPED(drawn) frame f = frame_draw_with(s, &view, &lighting, &(scene_draw_options){0}, 0);
+            SCOPED(drawn) frame drawn = frame_draw_with(s, &view, &lighting, &(scene_draw_options){0}, 0);
             double seen[3], mirrored[3];
             const double facing = (n[0] * eye[0] + n[1] * eye[1] + n[2] * eye[2]) / away;
             for (int k = 0; k < 3; k++)
                 mirrored[k] = 2 * facing * n[k] - eye[k] / away;
-            assert_gradients(f.color[FRAME_MIDDLE], surfaces[i].metal ? mirrored : n, surfaces[i].share,
+            assert_gradients(drawn.color[FRAME_MIDDLE], surfaces[i].metal ? mirrored : n, surfaces[i].share,
                              surfaces[i].scale, surfaces[i].what);
             /* The direction of the lower left corner in view space, (-side, -side, -1), rotated to the world. */
             const float *m = view.view_from_world;
             const double side = 1 - 1.0 / FRAME_SIZE, length = sqrt(2 * side * side + 1);
             for (int k = 0; k < 3; k++)
                 seen[k] = (-side * (double)m[4 * k] - side * (double)m[4 * k + 1] - (double)m[4 * k + 2]) / length;
-            assert_gradients(f.color[0], seen, 1, 1, "sky");
-            assert_int_equal(f.counts.sky, 1);
+            assert_gradients(drawn.color[0], seen, 1, 1, "sky");
+            assert_int_equal(drawn.counts.sky, 1);
         }
-        free(s);
     }
     scene_environment_destroy(e);
     e = load_gradients(true);
@@ -364,7 +358,7 @@ static frame draw_world(const float up[3], const scene_environment *e)
 {
     double turn[3][3];
     camera_find_turn(up, turn);
-    small_scene *s = small_scene_create();
+    SCOPED(memory) small_scene *s = small_scene_create();
     for (int ball = 0; ball < 2; ball++) {
         scene_material material = small_scene_material();
         material.metallic_roughness = ball == 0;
@@ -388,7 +382,6 @@ static frame draw_world(const float up[3], const scene_environment *e)
     const camera c = camera_frame(&s->scene, &how);
     const scene_view view = camera_view(&c, FRAME_SIZE, FRAME_SIZE);
     frame f = frame_draw_with(s, &view, &lighting, &(scene_draw_options){.shadows = true, .shadow_size = 512}, 0);
-    free(s);
     return f;
 }
 
@@ -400,11 +393,11 @@ TEST_GL(light_follows_up)
     for (int kind = 0; kind < 2; kind++) {
         SCOPED(drawn) frame wanted = draw_world(ups[0], environments[kind]);
         for (size_t u = 1; u < sizeof ups / sizeof ups[0]; u++) {
-            SCOPED(drawn) frame f = draw_world(ups[u], environments[kind]);
+            SCOPED(drawn) frame drawn = draw_world(ups[u], environments[kind]);
             int apart = 0;
             for (int i = 0; i < FRAME_SIZE * FRAME_SIZE; i++)
                 for (int k = 0; k < 3; k++)
-                    apart += abs(f.color[i][k] - wanted.color[i][k]) > 2;
+                    apart += abs(drawn.color[i][k] - wanted.color[i][k]) > 2;
             /* Silhouettes, and the shadow map's texels, may round the other way. */
             if (apart > 3 * FRAME_SIZE * FRAME_SIZE / 100)
                 fail_msg("up %g, %g, %g: %d values differ", (double)ups[u][0], (double)ups[u][1], (double)ups[u][2],

@@ -12,7 +12,7 @@ enum { COUNT = 64 }; /* pixels in a row */
 typedef struct passes {
     small_scene *scene;
     scene_renderer *renderer;
-    GLuint map, framebuffer; /* RGBA32F, of COUNT x 1 */
+    fixture_target map; /* RGBA32F, of COUNT x 1 */
 } passes;
 
 static passes make_passes(void)
@@ -21,19 +21,13 @@ static passes make_passes(void)
     passes p = {.scene = small_scene_create()};
     p.renderer = scene_renderer_create(&p.scene->scene, FAULT(error));
     assert_non_null(p.renderer);
-    gl.GenTextures(1, &p.map);
-    gl.BindTexture(GL_TEXTURE_2D, p.map);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, COUNT, 1, 0, GL_RGBA, GL_FLOAT, NULL);
-    gl.GenFramebuffers(1, &p.framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, p.framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, p.map, 0);
+    p.map = fixture_make_target(GL_RGBA32F, COUNT, 1);
     return p;
 }
 
 static void free_passes(passes *p)
 {
-    gl.DeleteFramebuffers(1, &p->framebuffer);
-    gl.DeleteTextures(1, &p->map);
+    fixture_delete_target(&p->map);
     scene_renderer_destroy(p->renderer);
     free(p->scene);
 }
@@ -53,17 +47,17 @@ static double depth_at(const projection *p, double distance)
 
 TEST_GL(view_distance_is_the_analytic_one)
 {
-    const double n = 0.25, f = 64;
+    const double n = 0.25, far = 64;
     const projection projections[] = {
-        {"perspective", -(f + n) / (f - n), -2 * f * n / (f - n), -1, 0, n, 0.99 * f},
+        {"perspective", -(far + n) / (far - n), -2 * far * n / (far - n), -1, 0, n, 0.99 * far},
         {"infinite", -1, -2 * n, -1, 0, n, 500},
-        {"reversed", (f + n) / (f - n), 2 * f * n / (f - n), -1, 0, n, 0.99 * f},
+        {"reversed", (far + n) / (far - n), 2 * far * n / (far - n), -1, 0, n, 0.99 * far},
         {"reversed infinite", 1, 2 * n, -1, 0, n, 500},
-        {"orthographic", -2 / (f - n), -(f + n) / (f - n), 0, 1, n, 0.99 * f},
-        {"reversed orthographic", 2 / (f - n), (f + n) / (f - n), 0, 1, n, 0.99 * f},
+        {"orthographic", -2 / (far - n), -(far + n) / (far - n), 0, 1, n, 0.99 * far},
+        {"reversed orthographic", 2 / (far - n), (far + n) / (far - n), 0, 1, n, 0.99 * far},
         /* Planes on both sides of the eye; those behind it have a negative distance. */
-        {"orthographic from behind", -2 / (f + 100), -(f - 100) / (f + 100), 0, 1, -99, 0.99 * f},
-        {"tiny perspective", -(f + n) / (f - n), -2e-4 * f * n / (f - n), -1, 0, 1e-4 * n, 0.99e-4 * f},
+        {"orthographic from behind", -2 / (far + 100), -(far - 100) / (far + 100), 0, 1, -99, 0.99 * far},
+        {"tiny perspective", -(far + n) / (far - n), -2e-4 * far * n / (far - n), -1, 0, 1e-4 * n, 0.99e-4 * far},
     };
     passes p = make_passes();
     for (size_t k = 0; k < sizeof projections / sizeof projections[0]; k++) {
@@ -85,7 +79,7 @@ TEST_GL(view_distance_is_the_analytic_one)
                                  .width = COUNT,
                                  .height = 1};
         scene_draw_view_distance(p.renderer, &view, depth_texture);
-        SCOPED(memory) float *got = fixture_read_texture(p.map, COUNT, 1, 1);
+        SCOPED(memory) float *got = fixture_read_texture(p.map.texture, COUNT, 1, 1);
         for (int i = 0; i < COUNT - 1; i++)
             if (!(fabs((double)got[i] - distance[i]) <= 1e-4 * fmax(fabs(distance[i]), q->c != 0 ? 0 : 1)))
                 fail_msg("%s: distance %g, not %g", q->name, (double)got[i], distance[i]);
@@ -107,7 +101,7 @@ TEST_GL(map_keeps_its_orientation_and_values)
     gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, COUNT, 1, 0, GL_RGB, GL_FLOAT, texels);
     for (int red_only = 0; red_only < 2; red_only++) {
         scene_draw_map(p.renderer, map, COUNT, 1, red_only, 2, 0.5f);
-        SCOPED(memory) float *got = fixture_read_texture(p.map, COUNT, 1, 4);
+        SCOPED(memory) float *got = fixture_read_texture(p.map.texture, COUNT, 1, 4);
         for (int i = 0; i < COUNT; i++) {
             for (int c = 0; c < 3; c++)
                 assert_float_equal(got[4 * i + c], 2 * texels[3 * i + (red_only ? 0 : c)] + 0.5f, 0.05f);
@@ -125,10 +119,10 @@ TEST_GL(small_map_is_spread_linearly_and_upright)
     gl.GenTextures(1, &map);
     gl.BindTexture(GL_TEXTURE_2D, map);
     gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, 2, 2, 0, GL_RED, GL_FLOAT, texels);
-    gl.BindTexture(GL_TEXTURE_2D, p.map);
+    gl.BindTexture(GL_TEXTURE_2D, p.map.texture);
     gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, 4, 4, 0, GL_RGBA, GL_FLOAT, NULL);
     scene_draw_map(p.renderer, map, 4, 4, true, 1, 0);
-    SCOPED(memory) float *got = fixture_read_texture(p.map, 4, 4, 1);
+    SCOPED(memory) float *got = fixture_read_texture(p.map.texture, 4, 4, 1);
     const float weight[4] = {0, 0.25f, 0.75f, 1}; /* of the second texel, at each pixel's centre */
     for (int y = 0; y < 4; y++)
         for (int x = 0; x < 4; x++)
@@ -206,9 +200,9 @@ TEST_GL(motion_tells_where_points_were)
     enum { SIDE = 48 };
     char error[512];
     const double moved[3] = {0.25, -0.125, 0.5}, eye_moved = 0.0625, z = -3 + moved[2];
-    small_scene *first = make_moving_quad(0, 0, 0, 1), *then = make_moving_quad(0.25f, -0.125f, 0.5f, 1),
-                *other = make_moving_quad(0, 0, 0, 2);
-    scene_renderer *r = scene_renderer_create(&first->scene, FAULT(error));
+    SCOPED(memory) small_scene *first = make_moving_quad(0, 0, 0, 1), *other = make_moving_quad(0, 0, 0, 2);
+    SCOPED(memory) small_scene *then = make_moving_quad(0.25f, -0.125f, 0.5f, 1);
+    SCOPED(renderer) scene_renderer *r = scene_renderer_create(&first->scene, FAULT(error));
     assert_non_null(r);
     const scene_lighting none = {0};
     assert_true(
@@ -221,20 +215,13 @@ TEST_GL(motion_tells_where_points_were)
     last.view_from_world[12] = (float)-eye_moved;
     assert_true(scene_renderer_pose(r, &then->scene));
     assert_false(scene_renderer_pose(r, &other->scene)); /* has more triangles; changes nothing */
-    GLuint textures[2], framebuffer;
-    gl.GenTextures(2, textures);
-    gl.BindTexture(GL_TEXTURE_2D, textures[0]);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, SIDE, SIDE, 0, GL_RGBA, GL_FLOAT, NULL);
-    gl.BindTexture(GL_TEXTURE_2D, textures[1]);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, SIDE, SIDE, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, NULL);
-    gl.GenFramebuffers(1, &framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, textures[0], 0);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, textures[1], 0);
+    SCOPED(texture) const GLuint depth = fixture_depth_texture(GL_DEPTH_COMPONENT24, SIDE, SIDE, NULL);
+    SCOPED(target) const fixture_target target = fixture_make_target(GL_RGBA32F, SIDE, SIDE);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
     gl.Clear(GL_DEPTH_BUFFER_BIT);
     scene_draw_normals(r, &view);
     scene_draw_motion(r, &view, &last);
-    SCOPED(memory) float *got = fixture_read_texture(textures[0], SIDE, SIDE, 4);
+    SCOPED(memory) float *got = fixture_read_texture(target.texture, SIDE, SIDE, 4);
     int seen = 0;
     for (int i = 0; i < SIDE * SIDE; i++) {
         const double uv[2] = {(i % SIDE + 0.5) / SIDE, (i / SIDE + 0.5) / SIDE};
@@ -250,12 +237,6 @@ TEST_GL(motion_tells_where_points_were)
             assert_true(fabs((double)got[4 * i + k] - expected[k]) < 1e-5);
     }
     assert_true(seen > SIDE * SIDE / 4 && seen < SIDE * SIDE);
-    gl.DeleteFramebuffers(1, &framebuffer);
-    gl.DeleteTextures(2, textures);
-    scene_renderer_destroy(r);
-    free(first);
-    free(then);
-    free(other);
 }
 
 TEST_MAIN("draw maps", fixture_setup, fixture_teardown)

@@ -35,21 +35,20 @@ TEST_GL(blended_adds_colour_but_no_depth_and_no_normal)
     material.alpha = SCENE_ALPHA_BLEND;
     material.unlit = true;
     memcpy(material.base_color, (float[4]){0.8f, 0.2f, 0, 0.25f}, sizeof material.base_color);
-    small_scene *s = frame_one_quad(material, NULL);
+    SCOPED(memory) small_scene *s = frame_one_quad(material, NULL);
     scene_lighting lighting = {.direction_world = {0, -1, 0}, .sky = {0.1f, 0.5f, 0.9f}};
-    SCOPED(drawn) frame f = frame_draw(s, &frame_front, &lighting, 0);
-    assert_int_equal(frame_count_drawn(&f, FRAME_SIZE * FRAME_SIZE), 0);
-    assert_float_equal(f.depth[FRAME_MIDDLE], 1, 0);
-    frame_assert_color(f.color[0], 0.1, 0.5, 0.9);
-    frame_assert_color(f.color[FRAME_MIDDLE], 0.25 * 0.8 + 0.75 * 0.1, 0.25 * 0.2 + 0.75 * 0.5, 0.75 * 0.9);
-    free(s);
+    SCOPED(drawn) frame drawn = frame_draw(s, &frame_front, &lighting, 0);
+    assert_int_equal(frame_count_drawn(&drawn, FRAME_SIZE * FRAME_SIZE), 0);
+    assert_float_equal(drawn.depth[FRAME_MIDDLE], 1, 0);
+    frame_assert_color(drawn.color[0], 0.1, 0.5, 0.9);
+    frame_assert_color(drawn.color[FRAME_MIDDLE], 0.25 * 0.8 + 0.75 * 0.1, 0.25 * 0.2 + 0.75 * 0.5, 0.75 * 0.9);
 }
 
 TEST_GL(blended_is_drawn_back_to_front)
 {
     scene_lighting lighting = {.direction_world = {0, -1, 0}};
     for (int red_first = 0; red_first < 2; red_first++) {
-        small_scene *s = small_scene_create();
+        SCOPED(memory) small_scene *s = small_scene_create();
         for (int k = 0; k < 2; k++) {
             const bool red = k != red_first;
             const float place[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, red ? 0.5f : -0.5f, 1};
@@ -60,9 +59,8 @@ TEST_GL(blended_is_drawn_back_to_front)
                    sizeof material.base_color);
             frame_add_quad(s, material, place);
         }
-        SCOPED(drawn) frame f = frame_draw(s, &frame_front, &lighting, 0);
-        frame_assert_color(f.color[FRAME_MIDDLE], 0.5, 0.25, 0);
-        free(s);
+        SCOPED(drawn) frame drawn = frame_draw(s, &frame_front, &lighting, 0);
+        frame_assert_color(drawn.color[FRAME_MIDDLE], 0.5, 0.25, 0);
     }
 }
 
@@ -73,12 +71,11 @@ TEST_GL(blended_is_hidden_by_opaque_in_front)
     blended.alpha = SCENE_ALPHA_BLEND;
     memcpy(blended.base_color, (float[4]){1, 0, 0, 0.5f}, sizeof blended.base_color);
     const float behind[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -0.5f, 1};
-    small_scene *s = frame_one_quad(opaque, NULL);
+    SCOPED(memory) small_scene *s = frame_one_quad(opaque, NULL);
     frame_add_quad(s, blended, behind);
     scene_lighting lighting = {.direction_world = {0, -1, 0}};
-    SCOPED(drawn) frame f = frame_draw(s, &frame_front, &lighting, 0);
-    frame_assert_color(f.color[FRAME_MIDDLE], 1, 1, 1);
-    free(s);
+    SCOPED(drawn) frame drawn = frame_draw(s, &frame_front, &lighting, 0);
+    frame_assert_color(drawn.color[FRAME_MIDDLE], 1, 1, 1);
 }
 
 TEST_GL(accessibility_scales_ambient_light_alone)
@@ -99,15 +96,13 @@ TEST_GL(accessibility_scales_ambient_light_alone)
     for (int mode = 0; mode < 4; mode++) { /* bit 0: with the map, bit 1: unlit */
         const double access = mode & 1 ? 0.5 : 1;
         material.unlit = mode & 2;
-        small_scene *s = frame_one_quad(material, NULL);
-        frame f = frame_draw(s, &frame_front, &lighting, mode & 1 ? map : 0);
+        SCOPED(memory) small_scene *s = frame_one_quad(material, NULL);
+        SCOPED(drawn) frame drawn = frame_draw(s, &frame_front, &lighting, mode & 1 ? map : 0);
         if (material.unlit)
-            frame_assert_color(f.color[FRAME_MIDDLE], 0.5, 1, 0.25);
+            frame_assert_color(drawn.color[FRAME_MIDDLE], 0.5, 1, 0.25);
         else
-            frame_assert_color(f.color[FRAME_MIDDLE], 0.5 * (0.4 * access + 0.1), 0.2 * access + 0.2,
+            frame_assert_color(drawn.color[FRAME_MIDDLE], 0.5 * (0.4 * access + 0.1), 0.2 * access + 0.2,
                                0.25 * (0.1 * access + 0.3));
-        frame_free(&f);
-        free(s);
     }
     gl.DeleteTextures(1, &map);
 }
@@ -138,14 +133,13 @@ TEST_GL(texels_are_where_the_uvs_say)
         material.base_color_texture = 0;
         material.base_color_uv = cases[k].uv_set;
         memcpy(material.base_color_uv_from_uv, cases[k].transform, sizeof material.base_color_uv_from_uv);
-        small_scene *s = frame_one_quad(material, NULL);
+        SCOPED(memory) small_scene *s = frame_one_quad(material, NULL);
         small_scene_add_texture(s, 2, 2, texels);
-        SCOPED(drawn) frame f = frame_draw(s, &frame_front, &lighting, 0);
+        SCOPED(drawn) frame drawn = frame_draw(s, &frame_front, &lighting, 0);
         for (int i = 0; i < 4; i++) {
             const double *color = colors[cases[k].texels[i]];
-            frame_assert_color(f.color[at[i]], color[0], color[1], color[2]);
+            frame_assert_color(drawn.color[at[i]], color[0], color[1], color[2]);
         }
-        free(s);
     }
 }
 
@@ -154,24 +148,22 @@ TEST_GL(vertex_colour_multiplies_base_colour)
     scene_material material = small_scene_material();
     material.unlit = true;
     material.base_color[0] = 0.5f;
-    small_scene *s = frame_one_quad(material, NULL);
+    SCOPED(memory) small_scene *s = frame_one_quad(material, NULL);
     for (int i = 0; i < 4; i++)
         memcpy(s->vertices[i].color, (float[4]){0.5f, 0.25f, 0.75f, 1}, sizeof s->vertices[i].color);
     scene_lighting lighting = {.direction_world = {0, -1, 0}};
-    SCOPED(drawn) frame f = frame_draw(s, &frame_front, &lighting, 0);
-    frame_assert_color(f.color[FRAME_MIDDLE], 0.25, 0.25, 0.75);
-    free(s);
+    SCOPED(drawn) frame drawn = frame_draw(s, &frame_front, &lighting, 0);
+    frame_assert_color(drawn.color[FRAME_MIDDLE], 0.25, 0.25, 0.75);
 }
 
 TEST_GL(empty_scene_is_all_sky)
 {
-    small_scene *s = small_scene_create();
+    SCOPED(memory) small_scene *s = small_scene_create();
     small_scene_add_material(s, small_scene_material());
     scene_lighting lighting = {.direction_world = {0, -1, 0}, .sky = {0.2f, 0.4f, 0.6f}};
-    SCOPED(drawn) frame f = frame_draw(s, &frame_front, &lighting, 0);
-    assert_int_equal(frame_count_drawn(&f, FRAME_SIZE * FRAME_SIZE), 0);
-    frame_assert_color(f.color[FRAME_MIDDLE], 0.2, 0.4, 0.6);
-    free(s);
+    SCOPED(drawn) frame drawn = frame_draw(s, &frame_front, &lighting, 0);
+    assert_int_equal(frame_count_drawn(&drawn, FRAME_SIZE * FRAME_SIZE), 0);
+    frame_assert_color(drawn.color[FRAME_MIDDLE], 0.2, 0.4, 0.6);
 }
 
 TEST_GL(images_beyond_the_driver_are_refused)
@@ -179,18 +171,16 @@ TEST_GL(images_beyond_the_driver_are_refused)
     static const uint8_t texel[4];
     scene_material material = small_scene_material();
     material.base_color_texture = 0;
-    small_scene *s = frame_one_quad(material, NULL);
+    SCOPED(memory) small_scene *s = frame_one_quad(material, NULL);
     small_scene_add_texture(s, 1 << 20, 1, texel);
     char error[512] = "";
     assert_null(scene_renderer_create(&s->scene, FAULT(error)));
     assert_non_null(strstr(error, "1048576 x 1"));
     /* An unused one does no harm. */
     s->materials[0].base_color_texture = -1;
-    scene_renderer *r = scene_renderer_create(&s->scene, FAULT(error));
+    SCOPED(renderer) scene_renderer *r = scene_renderer_create(&s->scene, FAULT(error));
     assert_non_null(r);
-    scene_renderer_destroy(r);
     scene_renderer_destroy(NULL);
-    free(s);
 }
 
 TEST_MAIN("draw materials", fixture_setup, fixture_teardown)

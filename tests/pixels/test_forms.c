@@ -72,8 +72,8 @@ static float *shade(fixture *f, const analytic_shot *s, const glssao_settings *s
 static void assert_form(fixture *f, const char *name, const analytic_shape *shapes, int shape_count, double radius,
                         const region *r, const double most[LEVELS])
 {
-    analytic_shot s = analytic_take(shapes, shape_count, PERSPECTIVE, 180, 120);
-    double *truth = trace(&s, r, radius);
+    SCOPED(shot) analytic_shot s = analytic_take(shapes, shape_count, PERSPECTIVE, 180, 120);
+    SCOPED(memory) double *truth = trace(&s, r, radius);
     for (int level = 0; level < LEVELS; ++level) {
         const glssao_settings settings = level_settings(level, radius);
         SCOPED(memory) float *got = shade(f, &s, &settings);
@@ -85,8 +85,6 @@ static void assert_form(fixture *f, const char *name, const analytic_shape *shap
                       e.truth / e.count, e.sum / e.count, rmse, e.count);
         assert_true(rmse < most[level]);
     }
-    free(truth);
-    analytic_free_shot(&s);
 }
 
 TEST_GL(grooves_are_near_the_truth)
@@ -100,7 +98,7 @@ TEST_GL(grooves_are_near_the_truth)
                                          {ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, -cos(half), sin(half)}}};
         char name[32];
         snprintf(name, sizeof name, "groove of %g degrees", openings[i]);
-        assert_form(*state, name, shapes, 2, 1.0, &(region){{0.0, 0.0, -6.0}, 1.5, 3}, most[i]);
+        assert_form(f, name, shapes, 2, 1.0, &(region){{0.0, 0.0, -6.0}, 1.5, 3}, most[i]);
     }
 }
 
@@ -110,7 +108,7 @@ TEST_GL(parallel_plates_are_near_the_truth)
     const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, -0.5, 0.0}, {0.0, 1.0, 0.0}},
                                      {ANALYTIC_PLANE, {0.0, 0.5, 0.0}, {0.0, -1.0, 0.0}}};
     static const double most[LEVELS] = {0.4, 0.25, 0.08, 0.01};
-    assert_form(*state, "parallel plates", shapes, 2, 2.0, &(region){{0.0, 0.0, -4.0}, 1.0, 3}, most);
+    assert_form(f, "parallel plates", shapes, 2, 2.0, &(region){{0.0, 0.0, -4.0}, 1.0, 3}, most);
 }
 
 /* 120 strands of one to two pixels over a floor: one frame, and the mean of several noise indices, as a host's TAA and
@@ -132,17 +130,17 @@ TEST_GL(strands_calm_down_over_frames)
                                      {0.008 + 0.008 * u[2], 0.4 + 0.15 * u[2], 0.003}};
     }
     shapes[STRANDS] = (analytic_shape){ANALYTIC_PLANE, {0.0, -1.0, 0.0}, {0.0, 1.0, 0.0}};
-    analytic_shot s = analytic_take(shapes, STRANDS + 1, PERSPECTIVE, 180, 120);
+    SCOPED(shot) analytic_shot s = analytic_take(shapes, STRANDS + 1, PERSPECTIVE, 180, 120);
     const region r = {{0.0, -0.5, -3.1}, 1.2, 9};
-    double *truth = trace(&s, &r, 0.3);
+    SCOPED(memory) double *truth = trace(&s, &r, 0.3);
     for (int level = 0; level < LEVELS; ++level) {
         glssao_settings settings = level_settings(level, 0.3);
-        SCOPED(memory) float *mean = shade(*state, &s, &settings);
+        SCOPED(memory) float *mean = shade(f, &s, &settings);
         errors one = {0}, all = {0};
         compare(&s, mean, truth, &one);
         for (uint32_t k = 1; k < INDICES; ++k) {
             settings.noise_index = k;
-            SCOPED(memory) float *got = shade(*state, &s, &settings);
+            SCOPED(memory) float *got = shade(f, &s, &settings);
             for (int i = 0; i < s.width * s.height; ++i)
                 mean[i] += (got[i] - mean[i]) / (float)(k + 1);
         }
@@ -152,8 +150,6 @@ TEST_GL(strands_calm_down_over_frames)
                       INDICES, calm, one.count);
         assert_true(single < most[level] && calm < part[level] * single);
     }
-    free(truth);
-    analytic_free_shot(&s);
 }
 
 /* How much the mean error at a wall's foot changes as the camera rolls. */
@@ -167,19 +163,17 @@ TEST_GL(roll_changes_little)
         const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {-k * sin(roll), k * cos(roll), k}},
                                          {ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {k * sin(roll), -k * cos(roll), k}}};
         const region r = {{0.0, 0.0, -6.0}, 0.8, 5};
-        analytic_shot s = analytic_take(shapes, 2, PERSPECTIVE, 180, 120);
-        double *truth = trace(&s, &r, 1.0);
+        SCOPED(shot) analytic_shot s = analytic_take(shapes, 2, PERSPECTIVE, 180, 120);
+        SCOPED(memory) double *truth = trace(&s, &r, 1.0);
         for (int level = 0; level < LEVELS; ++level) {
             const glssao_settings settings = level_settings(level, 1.0);
-            SCOPED(memory) float *got = shade(*state, &s, &settings);
+            SCOPED(memory) float *got = shade(f, &s, &settings);
             errors e = {0};
             compare(&s, got, truth, &e);
             const double error = e.sum / e.count;
             low[level] = a ? fmin(low[level], error) : error;
             high[level] = a ? fmax(high[level], error) : error;
         }
-        free(truth);
-        analytic_free_shot(&s);
     }
     for (int level = 0; level < LEVELS; ++level) {
         print_message("roll, %s: mean error from %+.4f to %+.4f\n", level_names[level], low[level], high[level]);

@@ -181,7 +181,6 @@ static float *make_floor(fixture *f, const shot *s, const glssao_settings *setti
 /* The mean over indices converges: 16 of them leave less than a third of one's noise, and 8 less than half. */
 TEST_GL(means_over_noise_indices_converge)
 {
-    fixture *f = *state;
     const shot s = first_shot(PERSPECTIVE);
     for (int t = GLSSAO_CLASSIC; t <= GLSSAO_HORIZON; ++t) {
         glssao_settings settings = make_settings((glssao_technique)t, GLSSAO_LOW, 0);
@@ -206,7 +205,6 @@ TEST_GL(means_over_noise_indices_converge)
 
 TEST_GL(index_0_is_the_pattern_without_an_index)
 {
-    fixture *f = *state;
     const shot s = first_shot(PERSPECTIVE);
     for (int t = GLSSAO_CLASSIC; t <= GLSSAO_HORIZON; ++t) {
         glssao_settings settings = make_settings((glssao_technique)t, GLSSAO_HIGH, 0);
@@ -228,7 +226,6 @@ TEST_GL(index_0_is_the_pattern_without_an_index)
 /* At rest a history of 16 comes nearer to the floor than the single frame, whatever the projection. */
 TEST_GL(rest_converges_in_every_projection)
 {
-    fixture *f = *state;
     for (int p = 0; p < PROJECTION_COUNT; ++p)
         for (int depth_alone = 0; depth_alone < 2; ++depth_alone) {
             shot s = first_shot((analytic_projection)p);
@@ -251,7 +248,6 @@ TEST_GL(rest_converges_in_every_projection)
  */
 TEST_GL(motion_keeps_the_history)
 {
-    fixture *f = *state;
     for (int p = 0; p < PROJECTION_COUNT; ++p) {
         const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
         SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H), *other = fixture_effect(f, W, H);
@@ -273,7 +269,6 @@ TEST_GL(motion_keeps_the_history)
  * less far off than the floor of what is seen. Without the weights of what was seen, the ratio is 0.81. */
 TEST_GL(what_left_the_picture_still_occludes)
 {
-    fixture *f = *state;
     enum { MORE = 48 };
     glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_ULTRA, 16);
     settings.radius = 3.0f;
@@ -301,7 +296,6 @@ TEST_GL(what_left_the_picture_still_occludes)
 
 TEST_GL(first_frames_and_cuts_stand_alone)
 {
-    fixture *f = *state;
     const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM, 16);
     glssao_settings plain = settings;
     plain.history = 0;
@@ -343,7 +337,6 @@ TEST_GL(first_frames_and_cuts_stand_alone)
  */
 TEST_GL(single_frame_is_as_good_as_without_history)
 {
-    fixture *f = *state;
     const shot s = first_shot(PERSPECTIVE);
     glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_ULTRA, 16);
     SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
@@ -356,7 +349,6 @@ TEST_GL(single_frame_is_as_good_as_without_history)
 
 TEST_GL(same_frames_give_the_same_bits)
 {
-    fixture *f = *state;
     const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
     float *results[2] = {NULL, NULL};
     for (int k = 0; k < 2; ++k) {
@@ -376,7 +368,6 @@ TEST_GL(same_frames_give_the_same_bits)
 /* A mean of a still view, taken in between, changes no bit of the history. */
 TEST_GL(accumulating_leaves_the_history)
 {
-    fixture *f = *state;
     const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
     float *results[2];
     for (int between = 0; between < 2; ++between) {
@@ -399,7 +390,6 @@ TEST_GL(accumulating_leaves_the_history)
 /* Depth and normals that are not numbers leave no trace once they are gone. */
 TEST_GL(no_number_is_forgotten)
 {
-    fixture *f = *state;
     const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
     const shot s = first_shot(PERSPECTIVE);
     SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
@@ -454,19 +444,18 @@ static double left_over(fixture *f, glssao_quality quality, double from, double 
 
 TEST_GL(shadows_of_what_moved_away_fade)
 {
-    assert_true(fabs(left_over(*state, GLSSAO_HIGH, 0.0, 50.0, 6)) < 0.02);
+    assert_true(fabs(left_over(f, GLSSAO_HIGH, 0.0, 50.0, 6)) < 0.02);
 }
 
 /* At full size there is little noise, so that a small change counts sooner. */
 TEST_GL(shadows_of_what_arrives_appear)
 {
-    assert_true(fabs(left_over(*state, GLSSAO_ULTRA, 50.0, 0.0, 3)) < 0.02);
+    assert_true(fabs(left_over(f, GLSSAO_ULTRA, 50.0, 0.0, 3)) < 0.02);
 }
 
 /* Draws and dispatches give the same history, within what an eye can see. */
 TEST_GL(dispatches_do_as_draws)
 {
-    fixture *f = *state;
     const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM, 16);
     float *results[2] = {NULL, NULL};
     for (int k = 0; k < 2; ++k) {
@@ -495,7 +484,6 @@ TEST_GL(dispatches_do_as_draws)
  * floor. */
 TEST_GL(motion_texture_keeps_the_history_of_what_moves)
 {
-    fixture *f = *state;
     const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
     /* The whole picture moves, by 3 pixels a frame, though the view says that nothing does. */
     const double step = 3.0;
@@ -512,12 +500,11 @@ TEST_GL(motion_texture_keeps_the_history_of_what_moves)
         float *last = NULL;
         for (int i = 0; i < FRAMES; ++i) {
             s.x = step * pixel * i;
-            glssao_frame frame = take(&s);
+            SCOPED(frame) glssao_frame frame = take(&s);
             frame.view[12] = 0.0f;
             frame.motion_texture = with ? texture : 0;
             compute(effect, &frame, &settings);
             frame.motion_texture = 0;
-            fixture_delete_frame(&frame);
             free(last);
             last = read_result(effect);
         }
@@ -545,7 +532,6 @@ static float *walk(glssao_effect *effect, shot s, const glssao_settings *setting
  * the history counts. A viewport gives the bits of the whole texture, and logarithmic depth nearly the same. */
 TEST_GL(every_situation_has_a_history)
 {
-    fixture *f = *state;
     static const struct {
         glssao_technique technique;
         situation situation;
@@ -580,7 +566,7 @@ TEST_GL(every_situation_has_a_history)
         float *once = walk(effects[0], s, &settings, 4), *again = walk(effects[1], s, &settings, 4);
         assert_memory_equal(once, again, size);
         s.x = 0.2;
-        glssao_frame frame = take(&s);
+        SCOPED(frame) glssao_frame frame = take(&s);
         compute(effects[0], &frame, &settings);
         compute(effects[2], &frame, &settings);
         frame.cut = true;
@@ -593,7 +579,6 @@ TEST_GL(every_situation_has_a_history)
             assert_memory_equal(once, whole, size);
         if (cases[k].situation == LOGARITHMIC)
             assert_true(rms(once, whole, (int)(size / sizeof *once)) < 5e-3);
-        fixture_delete_frame(&frame);
         free(again);
         free(reused);
         free(cut);
@@ -610,7 +595,6 @@ TEST_GL(every_situation_has_a_history)
  * alike, than one frame does, alone and as a correction. Where no ray says anything, what is known stays. */
 TEST_GL(means_of_rays_converge)
 {
-    fixture *f = *state;
     for (int alone = 0; alone < 2; ++alone)
         for (int half = 0; half < 2; ++half) {
             shot s = first_shot(PERSPECTIVE);
@@ -688,7 +672,6 @@ TEST_GL(rays_of_other_pixels_find_detail)
 
 TEST_GL(every_technique_size_and_margin_runs)
 {
-    fixture *f = *state;
     for (int t = GLSSAO_CLASSIC; t <= GLSSAO_HORIZON; ++t)
         for (int k = 0; k < 8; ++k) {
             shot s = first_shot(k % 2 ? ORTHOGRAPHIC : PERSPECTIVE);
@@ -701,9 +684,8 @@ TEST_GL(every_technique_size_and_margin_runs)
             for (int i = 0; i < 6; ++i) {
                 s.x = 0.1 * i;
                 free(shoot(effect, &s, &settings));
-                const glssao_frame frame = take(&s);
+                SCOPED(frame) const glssao_frame frame = take(&s);
                 const glssao_plan plan = glssao_plan_frame(effect, &frame, &settings);
-                fixture_delete_frame(&frame);
                 assert_true(plan.passes[GLSSAO_PASS_HISTORY].run && plan.passes[GLSSAO_PASS_UPSAMPLE].run);
             }
             int width, height;
@@ -716,7 +698,6 @@ TEST_GL(every_technique_size_and_margin_runs)
 /* Each refusal names the field. */
 TEST_GL(bad_views_are_refused_by_name)
 {
-    fixture *f = *state;
     const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
     const shot s = first_shot(PERSPECTIVE);
     SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);

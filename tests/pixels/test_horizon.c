@@ -56,9 +56,9 @@ TEST_GL(plane_is_exactly_open_at_every_level)
         for (size_t i = 0; i < sizeof degrees / sizeof *degrees; ++i) {
             const double angle = degrees[i] * PI / 180.0;
             const analytic_shape plane = {ANALYTIC_PLANE, {0.0, -0.3, -3.0}, {0.0, sin(angle), cos(angle)}};
-            analytic_shot s = analytic_take(&plane, 1, orthographic ? ORTHOGRAPHIC : PERSPECTIVE, 121, 80);
+            SCOPED(shot) analytic_shot s = analytic_take(&plane, 1, orthographic ? ORTHOGRAPHIC : PERSPECTIVE, 121, 80);
             for (int level = 0; level < LEVELS; ++level) {
-                float *got = shade(*state, &s, level, 1.0);
+                SCOPED(memory) float *got = shade(f, &s, level, 1.0);
                 double least = 1.0, least_grazing = 1.0;
                 int seen = 0;
                 for (int k = 0; k < s.width * s.height; ++k) {
@@ -67,13 +67,11 @@ TEST_GL(plane_is_exactly_open_at_every_level)
                     seen += s.depth[k] < 1.0f && !grazing;
                     *(grazing ? &least_grazing : &least) = fmin(grazing ? least_grazing : least, (double)got[k]);
                 }
-                free(got);
                 if (least < 1.0 - 1.01 * R16_STEP || least_grazing < 1.0 - 30.0 * R16_STEP)
                     fail_msg("%s, %g degrees, %s: %.6f, grazing %.6f", orthographic ? "orthographic" : "perspective",
                              degrees[i], level_names[level], least, least_grazing);
                 assert_true(seen > 200 || degrees[i] > 87.0);
             }
-            analytic_free_shot(&s);
         }
 }
 
@@ -89,9 +87,9 @@ TEST_GL(nothing_far_in_front_casts_a_shade)
         const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, wall}, {0.0, 0.0, 1.0}},
                                          {ANALYTIC_BOX, {-1.5, 0.0, -6.0}, {0.55, 9.0, 0.2}},
                                          {ANALYTIC_SPHERE, {1.5, 0.3, -5.5}, {0.6, 0.0, 0.0}}};
-        analytic_shot s = analytic_take(shapes, 3, i % 2 ? ORTHOGRAPHIC : PERSPECTIVE, 240, 160);
+        SCOPED(shot) analytic_shot s = analytic_take(shapes, 3, i % 2 ? ORTHOGRAPHIC : PERSPECTIVE, 240, 160);
         for (int level = 0; level < LEVELS; ++level) {
-            float *got = shade(*state, &s, level, 1.0);
+            SCOPED(memory) float *got = shade(f, &s, level, 1.0);
             double least = 1.0;
             int seen = 0;
             for (int k = 0; k < s.width * s.height; ++k) {
@@ -102,13 +100,11 @@ TEST_GL(nothing_far_in_front_casts_a_shade)
                 seen += on_wall;
                 least = on_wall ? fmin(least, (double)got[k]) : least;
             }
-            free(got);
             print_message("%s, %g radii, %s: least %.4f\n", i % 2 ? "orthographic" : "perspective", gap,
                           level_names[level], least);
             assert_true(seen > 10000);
             assert_true(least >= 0.97);
         }
-        analytic_free_shot(&s);
     }
 }
 
@@ -136,11 +132,11 @@ TEST_GL(ground_beside_a_block_is_near_the_integral)
         const bool layers = i % 2;
         const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, ground}, {0.0, 0.0, 1.0}},
                                          {ANALYTIC_BOX, {0.0, 0.0, ground + 0.5 * height}, {half, half, 0.5 * height}}};
-        analytic_shot s = analytic_take(shapes, 2, ORTHOGRAPHIC, 240, 160);
+        SCOPED(shot) analytic_shot s = analytic_take(shapes, 2, ORTHOGRAPHIC, 240, 160);
         if (layers)
             add_layers(&s, ground);
         for (int level = 0; level < LEVELS && (layers || height < 5.0); ++level) {
-            float *got = shade(*state, &s, level, 1.0);
+            SCOPED(memory) float *got = shade(f, &s, level, 1.0);
             const float *m = s.view.projection;
             double error = 0.0;
             int count = 0;
@@ -153,7 +149,6 @@ TEST_GL(ground_beside_a_block_is_near_the_integral)
                 error += (double)got[k] - analytic_accessibility(shapes, 2, at, up, 1.0, 512);
                 ++count;
             }
-            free(got);
             print_message("%g radii, %s, %s: %+.4f\n", height, layers ? "two layers" : "one layer", level_names[level],
                           error / count);
             assert_true(count > 50);
@@ -161,7 +156,6 @@ TEST_GL(ground_beside_a_block_is_near_the_integral)
         }
         gl.DeleteTextures(1, &s.frame.back_texture);
         gl.DeleteTextures(1, &s.frame.second_texture);
-        analytic_free_shot(&s);
     }
 }
 
@@ -216,8 +210,8 @@ enum { RAYS = 2048 };
 static void compare(fixture *f, const analytic_shape *shapes, int shape_count, bool planes, const limits most[LEVELS])
 {
     enum { W = 300, H = 300, STRIDE = 3 };
-    analytic_shot s = analytic_take(shapes, shape_count, PERSPECTIVE, W, H);
-    double *truth = malloc(sizeof *truth * W * H);
+    SCOPED(shot) analytic_shot s = analytic_take(shapes, shape_count, PERSPECTIVE, W, H);
+    SCOPED(memory) double *truth = malloc(sizeof *truth * W * H);
     for (int y = 0; y < H; y += STRIDE)
         for (int x = 0; x < W; x += STRIDE) {
             double at[3];
@@ -230,7 +224,7 @@ static void compare(fixture *f, const analytic_shape *shapes, int shape_count, b
                                         : analytic_accessibility(shapes, shape_count, at, normal, 1.0, RAYS);
         }
     for (int level = 0; level < LEVELS; ++level) {
-        float *got = shade(f, &s, level, 1.0);
+        SCOPED(memory) float *got = shade(f, &s, level, 1.0);
         double sum = 0.0, bias = 0.0, worst = 0.0;
         int count = 0, darkened = 0;
         for (int i = 0; i < W * H; ++i) {
@@ -245,13 +239,10 @@ static void compare(fixture *f, const analytic_shape *shapes, int shape_count, b
         }
         print_message("%s: mean error %.4f, worst %.4f (bias %+.4f, %d pixels)\n", level_names[level], sum / count,
                       worst, bias / count, count);
-        free(got);
         assert_true(count > 900 && darkened > 200);
         assert_true(sum / count < most[level].mean);
         assert_true(worst < most[level].worst);
     }
-    free(truth);
-    analytic_free_shot(&s);
 }
 
 /* A floor and a wall, both seen at 45 degrees. Measured, mean and worst: low 0.0055, 0.0214; medium 0.0039, 0.0177;
@@ -261,7 +252,7 @@ TEST_GL(floor_beside_a_wall_is_near_the_integral)
     const double s = sqrt(0.5);
     const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, s, s}},
                                      {ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, -s, s}}};
-    compare(*state, shapes, 2, true,
+    compare(f, shapes, 2, true,
             (const limits[LEVELS]){{0.0065, 0.027}, {0.0047, 0.022}, {0.0039, 0.028}, {0.0034, 0.021}});
 }
 
@@ -276,8 +267,7 @@ TEST_GL(box_corner_is_near_the_integral)
                                      {0.0, 0.0, -6.0},
                                      {sqrt(2.0 / 3.0) * cos(turn), sqrt(2.0 / 3.0) * sin(turn), sqrt(1.0 / 3.0)}};
     }
-    compare(*state, shapes, 3, true,
-            (const limits[LEVELS]){{0.013, 0.095}, {0.0105, 0.1}, {0.0073, 0.05}, {0.0072, 0.036}});
+    compare(f, shapes, 3, true, (const limits[LEVELS]){{0.013, 0.095}, {0.0105, 0.1}, {0.0073, 0.05}, {0.0072, 0.036}});
 }
 
 /* A sphere of radius 0.8 that rests on a floor seen at 45 degrees. Measured, mean and worst: low 0.0209, 0.2357; medium
@@ -288,8 +278,7 @@ TEST_GL(sphere_on_plane_is_near_the_integral)
     const double s = sqrt(0.5);
     const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, s, s}},
                                      {ANALYTIC_SPHERE, {0.0, 0.8 * s, 0.8 * s - 6.0}, {0.8, 0.0, 0.0}}};
-    compare(*state, shapes, 2, false,
-            (const limits[LEVELS]){{0.025, 0.32}, {0.022, 0.29}, {0.0185, 0.2}, {0.0175, 0.14}});
+    compare(f, shapes, 2, false, (const limits[LEVELS]){{0.025, 0.32}, {0.022, 0.29}, {0.0185, 0.2}, {0.0175, 0.14}});
 }
 
 /* The closed form must agree with the rays that judge the sphere, and with values worked out by hand. */
@@ -356,7 +345,7 @@ TEST_GL(what_stands_out_by_less_than_epsilon_hides_nothing)
     const double k = sqrt(0.5), height = 0.08;
     const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, k, k}},
                                      {ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.0, -k, k}}};
-    analytic_shot s = analytic_take(shapes, 2, PERSPECTIVE, 121, 80);
+    SCOPED(shot) analytic_shot s = analytic_take(shapes, 2, PERSPECTIVE, 121, 80);
     const int count = s.width * s.height;
     double (*const above[])(int, int) = {line_above, noise_above};
     for (int what = 0; what < 4; ++what)
@@ -365,9 +354,9 @@ TEST_GL(what_stands_out_by_less_than_epsilon_hides_nothing)
             frame.normal_texture = what % 2 ? 0 : s.frame.normal_texture;
             glssao_frame flat = s.frame;
             flat.normal_texture = frame.normal_texture;
-            SCOPED(memory) float *wanted = shade_frame(*state, &s, &flat, level, 1.0, 0.0);
-            SCOPED(memory) float *bare = shade_frame(*state, &s, &frame, level, 1.0, 0.0);
-            SCOPED(memory) float *calm = shade_frame(*state, &s, &frame, level, 1.0, height);
+            SCOPED(memory) float *wanted = shade_frame(f, &s, &flat, level, 1.0, 0.0);
+            SCOPED(memory) float *bare = shade_frame(f, &s, &frame, level, 1.0, 0.0);
+            SCOPED(memory) float *calm = shade_frame(f, &s, &frame, level, 1.0, height);
             const double without = mean_difference(bare, wanted, count), with = mean_difference(calm, wanted, count);
             print_message("%s, %s, %s: off by %.4f, with epsilon by %.4f\n", what / 2 ? "noise" : "lines",
                           what % 2 ? "depth alone" : "normals", level_names[level], without, with);
@@ -375,7 +364,6 @@ TEST_GL(what_stands_out_by_less_than_epsilon_hides_nothing)
             assert_true(without > 5.0 * with);
             gl.DeleteTextures(1, &frame.depth_texture);
         }
-    analytic_free_shot(&s);
 }
 
 TEST_MAIN(NULL, fixture_setup, fixture_teardown)

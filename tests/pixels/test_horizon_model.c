@@ -86,6 +86,7 @@ static float *read_layers(uint32_t map, int width, int height)
 static void check_bent(const setup *s, const char *what)
 {
     const double most = 0.02, average = 5e-4, steps_of_halves = 1e-3;
+    SCOPED(memory)
     float *got = fixture_read_texture(glssao_map(s->effect, GLSSAO_MAP_BENT_NORMAL, NULL, NULL), s->input.width,
                                       s->input.height, 4);
     double sum = 0.0, worst = 0.0, bends = 0.0;
@@ -110,7 +111,6 @@ static void check_bent(const setup *s, const char *what)
         bends += sqrt(bend);
         ++compared;
     }
-    free(got);
     print_message("%s: bent normals off by %.2e, %.2e on average, bent by %.2f (%d pixels)\n", what, worst,
                   sum / compared, bends / compared, compared);
     assert_true(compared > 500 && bends / compared > 0.01);
@@ -122,7 +122,7 @@ static void check_bent(const setup *s, const char *what)
 static double check(setup *s, const float *depth, const vagueness *most, const char *what)
 {
     int width, height, map_width, map_height;
-    float *got = fixture_compute(s->effect, &s->frame, &s->settings, &width, &height);
+    SCOPED(memory) float *got = fixture_compute(s->effect, &s->frame, &s->settings, &width, &height);
     const uint32_t map = horizon_distance_map(s->effect, &map_width, &map_height);
     assert_true(map_width == width && map_height == height);
     float *distance = fixture_read_texture(map, width, height, 1);
@@ -175,7 +175,6 @@ static double check(setup *s, const float *depth, const vagueness *most, const c
         free(normals);
     free(distance);
     free(layers);
-    free(got);
     assert_int_equal(wrong, 0);
     assert_true(off < 4.0);
     assert_true(vague < most->mean);
@@ -245,7 +244,7 @@ TEST_GL(agrees_for_every_sample_count_and_size)
                 const scene_options o = {
                     orthographic ? ORTHOGRAPHIC : PERSPECTIVE, half ? 160 : 80, half ? 101 : 51, posts, false, false};
                 const glssao_settings s = bare_settings(counts[i], half == 1, 0.8);
-                check_scene(*state, &o, &s, what);
+                check_scene(f, &o, &s, what);
             }
 }
 
@@ -256,7 +255,7 @@ TEST_GL(agrees_for_every_projection)
         snprintf(what, sizeof what, "projection %d", p);
         const scene_options o = {(analytic_projection)p, 120, 80, p % 2 == 1, false, false};
         const glssao_settings s = bare_settings(32, false, 1.0);
-        check_scene(*state, &o, &s, what);
+        check_scene(f, &o, &s, what);
     }
 }
 
@@ -269,15 +268,15 @@ TEST_GL(agrees_at_other_settings)
         glssao_settings s = bare_settings(48, false, radii[i / 2]);
         char what[100];
         snprintf(what, sizeof what, "radius %g, %s", radii[i / 2], i % 2 == 0 ? "perspective" : "orthographic");
-        check_scene(*state, &o, &s, what);
+        check_scene(f, &o, &s, what);
     }
     const scene_options o = {PERSPECTIVE, 120, 80, true, false, false};
     glssao_settings s = bare_settings(48, true, 1.0);
     s.power = 2.5f;
-    check_scene(*state, &o, &s, "power 2.5");
+    check_scene(f, &o, &s, "power 2.5");
     s.power = 1.0f;
     const scene_options rebuilt = {PERSPECTIVE, 120, 80, true, true, false};
-    check_scene(*state, &rebuilt, &s, "rebuilt normals");
+    check_scene(f, &rebuilt, &s, "rebuilt normals");
 }
 
 /* The picture's middle is about 5 units away. */
@@ -288,15 +287,15 @@ TEST_GL(agrees_for_thickness_far_fade_and_radius_in_pixels)
         const scene_options o = {i % 2 == 0 ? PERSPECTIVE : ORTHOGRAPHIC, 120, 80, .posts = true, .vague = false};
         glssao_settings s = bare_settings(i < 3 ? 16 : 48, i % 3 == 1, 1.0);
         s.thickness = thicknesses[i / 2];
-        check_scene(*state, &o, &s, "thickness");
+        check_scene(f, &o, &s, "thickness");
         s.thickness = 1.0f;
         s.fade_far_start = fades[i / 2][0];
         s.fade_far_end = fades[i / 2][1];
-        check_scene(*state, &o, &s, "far fade");
+        check_scene(f, &o, &s, "far fade");
         s.fade_far_start = s.fade_far_end = 0.0f;
         s.radius = i / 2 == 0 ? 6.0f : 17.5f;
         s.radius_in_pixels = true;
-        check_scene(*state, &o, &s, "radius in pixels");
+        check_scene(f, &o, &s, "radius in pixels");
     }
 }
 
@@ -309,7 +308,7 @@ TEST_GL(agrees_for_bent_normals)
         const scene_options o = {i % 2 ? ORTHOGRAPHIC : PERSPECTIVE, 80, 51, .posts = i >= 2};
         glssao_settings s = bare_settings(counts[i], false, 0.8);
         s.bent_normals = true;
-        check_scene(*state, &o, &s, what);
+        check_scene(f, &o, &s, what);
     }
 }
 
@@ -410,7 +409,7 @@ TEST_GL(agrees_on_random_frames)
         o.sample_count = counts[(int)(6.0 * next_random(&random))];
         char name[20];
         snprintf(name, sizeof name, "seed %u", seed);
-        check_random_frame(*state, &o, &random, name);
+        check_random_frame(f, &o, &random, name);
     }
 }
 
@@ -420,7 +419,7 @@ TEST_GL(agrees_where_the_radius_is_beyond_the_picture)
     uint32_t random = 1;
     const random_options o = {
         .width = 401, .height = 81, .sample_count = 16, .roughness = 0.1, .radius = 25000.0, .scale = 1.0};
-    check_random_frame(*state, &o, &random, "a radius beyond the picture");
+    check_random_frame(f, &o, &random, "a radius beyond the picture");
 }
 
 /* Lengths so small that the squared distance of a missing layer, in radii, exceeds a float. */
@@ -428,7 +427,7 @@ TEST_GL(agrees_on_layers_of_a_small_scene)
 {
     uint32_t random = 1;
     const random_options o = {41, 41, 32, .layers = true, .roughness = 0.1, .radius = 1e-7, .scale = 1e-7};
-    check_random_frame(*state, &o, &random, "a small scene");
+    check_random_frame(f, &o, &random, "a small scene");
 }
 
 /* Each estimate that glssao_accumulate adds has its own noise; every second one mirrors the tile. */
@@ -440,7 +439,7 @@ TEST_GL(agrees_for_each_estimate_of_a_still_view)
     const analytic_view view = analytic_make_view(PERSPECTIVE, (double)WIDTH / HEIGHT, 0.5, 40.0, 1.0);
     SCOPED(memory) float *depth = NULL, *normals = NULL;
     analytic_render(&view, shapes, count, WIDTH, HEIGHT, &depth, &normals);
-    SCOPED(effect) glssao_effect *effect = fixture_effect(*state, WIDTH, HEIGHT);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, WIDTH, HEIGHT);
     SCOPED(frame)
     const glssao_frame frame = fixture_maps_frame(&view, WIDTH, HEIGHT, GL_DEPTH_COMPONENT32F, depth, normals);
     const glssao_settings settings = bare_settings(12, false, 0.8);

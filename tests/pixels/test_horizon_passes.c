@@ -25,37 +25,36 @@ typedef struct setup {
 } setup;
 
 /* `bits`: of the depth format, 16 or 32 (floats). */
-static void set_up(setup *s, fixture *f, analytic_projection projection, int bits, int width, int height)
+static setup set_up(fixture *f, analytic_projection projection, int bits, int width, int height)
 {
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
     /* With a near plane this close, a step of 16 bits exceeds the tolerance from 5 units on. */
     const double near = bits == 16 ? 0.02 : 0.5;
     const analytic_view view = analytic_make_view(projection, (double)width / height, near, 40.0, 1.0);
-    *s = (setup){.width = width, .height = height, .most_open = bits == 16 ? 2 : 1};
-    analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, width, height, &s->depth, &s->normals);
+    setup s = {.width = width, .height = height, .most_open = bits == 16 ? 2 : 1};
+    analytic_render(&view, analytic_unit_room, ANALYTIC_ROOM_SHAPES, width, height, &s.depth, &s.normals);
     for (int i = 0; bits == 16 && i < width * height; ++i)
-        s->depth[i] = roundf(s->depth[i] * 65535.0f) / 65535.0f;
-    s->effect = fixture_drawn_effect(f, width, height);
-    s->frame = fixture_maps_frame(&view, width, height, bits == 16 ? GL_DEPTH_COMPONENT16 : GL_DEPTH_COMPONENT32F,
-                                  s->depth, s->normals);
-    s->orthographic = view.projection[11] == 0.0f;
-    s->settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
-    s->settings.upsample = true;
-    s->settings.blur_rounds = 1;
-    s->settings.radius = 0.8f;
-    horizon_read_pass_constants(&s->blur, &s->upsample);
-    s->blur.wide_alike /= sqrt(s->settings.sample_count);
-    pass_constants *in_radius[] = {&s->blur, &s->upsample};
+        s.depth[i] = roundf(s.depth[i] * 65535.0f) / 65535.0f;
+    s.effect = fixture_drawn_effect(f, width, height);
+    s.frame = fixture_maps_frame(&view, width, height, bits == 16 ? GL_DEPTH_COMPONENT16 : GL_DEPTH_COMPONENT32F,
+                                 s.depth, s.normals);
+    s.orthographic = view.projection[11] == 0.0f;
+    s.settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
+    s.settings.upsample = true;
+    s.settings.blur_rounds = 1;
+    s.settings.radius = 0.8f;
+    horizon_read_pass_constants(&s.blur, &s.upsample);
+    s.blur.wide_alike /= sqrt(s.settings.sample_count);
+    pass_constants *in_radius[] = {&s.blur, &s.upsample};
     for (int i = 0; i < 2; ++i) {
-        in_radius[i]->tolerance *= (double)s->settings.radius;
-        in_radius[i]->near *= (double)s->settings.radius;
-        in_radius[i]->hollow *= (double)s->settings.radius;
+        in_radius[i]->tolerance *= (double)s.settings.radius;
+        in_radius[i]->near *= (double)s.settings.radius;
+        in_radius[i]->hollow *= (double)s.settings.radius;
     }
     int w, h;
-    free(fixture_compute(s->effect, &s->frame, &s->settings, &w, &h));
+    free(fixture_compute(s.effect, &s.frame, &s.settings, &w, &h));
     for (int i = 0; i < 2; ++i)
-        horizon_depth_step(s->effect, in_radius[i]->depth_step);
+        horizon_depth_step(s.effect, in_radius[i]->depth_step);
+    return s;
 }
 
 static void tear_down(setup *s)
@@ -65,6 +64,7 @@ static void tear_down(setup *s)
     free(s->depth);
     free(s->normals);
 }
+#define test_end_setup tear_down /* for SCOPED */
 
 static paired_map read_paired(const setup *s, int number)
 {
@@ -72,12 +72,6 @@ static paired_map read_paired(const setup *s, int number)
     paired_map map = {.width = (s->width + divisor - 1) / divisor, .height = (s->height + divisor - 1) / divisor};
     map.texels = fixture_read_texture(horizon_paired_map(s->effect, number), map.width, map.height, 3);
     return map;
-}
-
-static void free_paired(paired_map *map)
-{
-    free(map->texels);
-    map->texels = NULL;
 }
 
 /* The outcome of one pass. */
@@ -192,71 +186,61 @@ static void check_linear(const setup *s, const paired_map *map)
 static void check_half_size(fixture *f, analytic_projection projection, int bits, bool has_normals, int width,
                             int height)
 {
-    setup s;
-    set_up(&s, f, projection, bits, width, height);
+    SCOPED(setup) setup s = set_up(f, projection, bits, width, height);
     const uint32_t normals = s.frame.normal_texture;
     s.frame.normal_texture = has_normals ? normals : 0;
     int w, h;
     s.settings.blur = GLSSAO_BLUR_NONE;
     float *result = fixture_compute(s.effect, &s.frame, &s.settings, &w, &h);
     assert_true(w == width && h == height);
-    paired_map estimate = read_paired(&s, 0);
+    SCOPED(paired) paired_map estimate = read_paired(&s, 0);
     check_linear(&s, &estimate);
     check_upsampling(&s, &estimate, result);
     free(result);
     s.settings.blur = GLSSAO_BLUR_PLANAR;
     result = fixture_compute(s.effect, &s.frame, &s.settings, &w, &h);
-    paired_map horizontal = read_paired(&s, 1), vertical = read_paired(&s, 0);
+    SCOPED(paired) paired_map horizontal = read_paired(&s, 1), vertical = read_paired(&s, 0);
     check_blur(&s, &estimate, HORIZONTAL, horizontal.texels, 3, PAIRED);
     check_blur(&s, &horizontal, VERTICAL, vertical.texels, 3, PAIRED);
     check_upsampling(&s, &vertical, result);
     free(result);
     s.settings.blur_rounds = 2;
     result = fixture_compute(s.effect, &s.frame, &s.settings, &w, &h);
-    paired_map later = read_paired(&s, 1);
+    SCOPED(paired) paired_map later = read_paired(&s, 1);
     check_blur(&s, &vertical, LATER_ROUND, later.texels, 3, PAIRED);
     check_upsampling(&s, &later, result);
     free(result);
-    free_paired(&estimate);
-    free_paired(&horizontal);
-    free_paired(&vertical);
-    free_paired(&later);
     s.frame.normal_texture = normals;
-    tear_down(&s);
 }
 
 /* The vertical blur is the last pass and writes the result. */
 static void check_full_size(fixture *f, analytic_projection projection, int width, int height)
 {
-    setup s;
-    set_up(&s, f, projection, 32, width, height);
+    SCOPED(setup) setup s = set_up(f, projection, 32, width, height);
     s.settings.half_resolution = false;
     int w, h;
     SCOPED(memory) float *result = fixture_compute(s.effect, &s.frame, &s.settings, &w, &h);
     assert_true(w == width && h == height);
-    paired_map estimate = read_paired(&s, 0), horizontal = read_paired(&s, 1);
+    SCOPED(paired) paired_map estimate = read_paired(&s, 0), horizontal = read_paired(&s, 1);
     check_linear(&s, &estimate);
     check_blur(&s, &estimate, HORIZONTAL, horizontal.texels, 3, PAIRED);
     check_blur(&s, &horizontal, VERTICAL, result, 1, RESULT);
-    free_paired(&estimate);
-    free_paired(&horizontal);
-    tear_down(&s);
 }
 
 TEST_GL(passes_agree_at_half_size)
 {
     for (int normals = 0; normals < 2; ++normals) {
-        check_half_size(*state, PERSPECTIVE, 32, normals, 160, 120);
-        check_half_size(*state, PERSPECTIVE_REVERSED_ZERO_TO_ONE, 32, normals, 161, 121);
-        check_half_size(*state, ORTHOGRAPHIC, 32, normals, 121, 160);
-        check_half_size(*state, PERSPECTIVE, 16, normals, 160, 120);
+        check_half_size(f, PERSPECTIVE, 32, normals, 160, 120);
+        check_half_size(f, PERSPECTIVE_REVERSED_ZERO_TO_ONE, 32, normals, 161, 121);
+        check_half_size(f, ORTHOGRAPHIC, 32, normals, 121, 160);
+        check_half_size(f, PERSPECTIVE, 16, normals, 160, 120);
     }
 }
 
 TEST_GL(passes_agree_at_full_size)
 {
-    check_full_size(*state, PERSPECTIVE, 120, 90);
-    check_full_size(*state, ORTHOGRAPHIC, 121, 91);
+    check_full_size(f, PERSPECTIVE, 120, 90);
+    check_full_size(f, ORTHOGRAPHIC, 121, 91);
 }
 
 /* Without a normal, or with one facing straight away from the eye, where the projection ends, the code stays within its
@@ -266,8 +250,7 @@ TEST_GL(every_normal_has_a_code)
     static const float normals[5][3] = {
         {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -1.0f}, {0.1f, 0.0f, -1.0f}, {-0.1f, 0.0f, -1.0f}, {0.0f, -0.1f, -1.0f}};
     static const uint32_t codes[5][2] = {{15, 15}, {15, 15}, {31, 15}, {0, 15}, {15, 0}};
-    setup s;
-    set_up(&s, *state, PERSPECTIVE, 32, 40, 30);
+    SCOPED(setup) setup s = set_up(f, PERSPECTIVE, 32, 40, 30);
     for (int i = 0; i < 40 * 30; ++i)
         memcpy(s.normals + 3 * i, normals[i / 2 % 5], sizeof normals[0]);
     gl.DeleteTextures(1, &s.frame.normal_texture);
@@ -275,7 +258,7 @@ TEST_GL(every_normal_has_a_code)
     int width, height;
     s.settings.blur = GLSSAO_BLUR_NONE;
     free(fixture_compute(s.effect, &s.frame, &s.settings, &width, &height));
-    paired_map estimate = read_paired(&s, 0);
+    SCOPED(paired) paired_map estimate = read_paired(&s, 0);
     for (int i = 0; i < estimate.width * estimate.height; ++i) {
         uint32_t bits;
         memcpy(&bits, &estimate.texels[3 * i], sizeof bits);
@@ -284,8 +267,6 @@ TEST_GL(every_normal_has_a_code)
         const double accessibility = paired_accessibility(estimate.texels[3 * i]);
         assert_true(accessibility >= 0.0 && accessibility < 1.001);
     }
-    free_paired(&estimate);
-    tear_down(&s);
 }
 
 TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -62,13 +62,12 @@ static double measured_filter_error(void)
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
-    float *seen = fixture_read_texture(target.texture, COUNT, 1, 1);
+    SCOPED(memory) float *seen = fixture_read_texture(target.texture, COUNT, 1, 1);
     double worst = 0.0;
     for (int i = 0; i < COUNT; ++i)
         worst = fmax(worst, fabs((double)seen[i] - (i + 0.5) / COUNT));
     print_message("linear filter: off by up to %.2g texels\n", worst);
     assert_true(worst < 0.005); /* as 8 bits allow */
-    free(seen);
     gl.UseProgram(0);
     gl.BindVertexArray(0);
     gl.DeleteVertexArrays(1, &array);
@@ -146,12 +145,13 @@ static void tear_down(setup *s)
     free(s->normals);
     free(s->random_vectors);
 }
+#define test_end_setup tear_down /* for SCOPED */
 
 static void check_estimate(setup *s, const char *what)
 {
     s->settings.blur = GLSSAO_BLUR_NONE;
     int width, height;
-    float *got = fixture_compute(s->effect, &s->frame, &s->settings, &width, &height);
+    SCOPED(memory) float *got = fixture_compute(s->effect, &s->frame, &s->settings, &width, &height);
     s->input.depth_step = depth_step_of(s->effect);
     assert_int_equal(width, s->input.ambient_width);
     assert_int_equal(height, s->input.ambient_height);
@@ -175,7 +175,6 @@ static void check_estimate(setup *s, const char *what)
         }
     print_message("%s: worst outside interval %.2e, mean %.4f, occluded %.1f %%, wide %.2f %%\n", what, worst, mean,
                   100.0 * occluded / (width * height), 100.0 * wide / (width * height));
-    free(got);
     /* A filter of few bits may put a random vector or a texel's border a step off, and no model sees which. */
     const bool is_exact = s->input.filter_error < 1e-5;
     assert_true(wrong * 500 <= (is_exact ? 0 : width * height));
@@ -188,11 +187,11 @@ static void check_blur(setup *s, const char *what, double least_change)
 {
     s->settings.blur_rounds = 0;
     int width, height;
-    float *raw = fixture_compute(s->effect, &s->frame, &s->settings, &width, &height);
+    SCOPED(memory) float *raw = fixture_compute(s->effect, &s->frame, &s->settings, &width, &height);
     s->settings.blur_rounds = 1;
-    float *blurred = fixture_compute(s->effect, &s->frame, &s->settings, &width, &height);
+    SCOPED(memory) float *blurred = fixture_compute(s->effect, &s->frame, &s->settings, &width, &height);
     uint32_t other = glssao_map(s->effect, GLSSAO_MAP_AMBIENT_OTHER, NULL, NULL);
-    float *horizontal = fixture_read_texture(other, width, height, 1);
+    SCOPED(memory) float *horizontal = fixture_read_texture(other, width, height, 1);
     int wrong = 0, undecided = 0;
     double changed = 0.0;
     for (int pass = 0; pass < 2; ++pass)
@@ -205,9 +204,6 @@ static void check_blur(setup *s, const char *what, double least_change)
                 if (decided && !(fabs(value - want) <= 1.5 * R16_STEP) && wrong++ == 0)
                     print_error("%s: pass %d, pixel %d, %d: got %.6f, model %.6f\n", what, pass, x, y, value, want);
             }
-    free(raw);
-    free(blurred);
-    free(horizontal);
     assert_int_equal(wrong, 0);
     assert_true(undecided * 100 < 2 * width * height); /* less than 1 % of the pixels of both passes */
     assert_true(changed > least_change);
@@ -215,8 +211,8 @@ static void check_blur(setup *s, const char *what, double least_change)
 
 TEST_GL(estimate_agrees_for_unnormalised_and_unsigned_normals)
 {
-    setup s;
-    set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 100, 80, 1.0, false});
+    SCOPED(setup) setup s;
+    set_up(&s, f, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 100, 80, 1.0, false});
     size_t count = (size_t)3 * 100 * 80;
     SCOPED(memory) float *stored = malloc(count * sizeof *stored);
     for (int kind = 0; kind < 2; ++kind) {
@@ -229,7 +225,6 @@ TEST_GL(estimate_agrees_for_unnormalised_and_unsigned_normals)
         gl.DeleteTextures(1, &s.frame.normal_texture);
         s.frame.normal_texture = original;
     }
-    tear_down(&s);
 }
 
 /* The room as distances, in a red map or in the normal map's alpha, with sky stored as each value that means sky. */
@@ -262,14 +257,13 @@ TEST_GL(estimates_agree_for_stored_distances)
     static const glssao_depth kinds[] = {GLSSAO_DEPTH_VIEW_DISTANCE, GLSSAO_DEPTH_NORMAL_ALPHA};
     for (int kind = 0; kind < 2; ++kind)
         for (int orthographic = 0; orthographic < 2; ++orthographic) {
-            setup s;
+            SCOPED(setup) setup s;
             analytic_projection projection = orthographic ? ORTHOGRAPHIC : PERSPECTIVE;
-            set_up(&s, *state, &(setup_options){projection, GL_DEPTH_COMPONENT32F, 160, 100, 1.0, true});
+            set_up(&s, f, &(setup_options){projection, GL_DEPTH_COMPONENT32F, 160, 100, 1.0, true});
             store_distances(&s, kinds[kind]);
             check_estimate(&s, kind == 0 ? "distance in red" : "distance in alpha");
             s.settings.blur = GLSSAO_BLUR_BILATERAL;
             check_blur(&s, "blur over distances", 0.005);
-            tear_down(&s);
         }
 }
 
@@ -329,20 +323,19 @@ static const struct row {
 
 static void check_row(fixture *f, const struct row *row)
 {
-    setup s;
+    SCOPED(setup) setup s;
     set_up(&s, f, &row->options);
     if (row->samples)
         use_hemisphere(&s, row->samples);
     s.settings.half_resolution = row->options.half;
     row->change(&s.settings);
     check_estimate(&s, row->what);
-    tear_down(&s);
 }
 
 TEST_GL(estimates_agree_with_their_models)
 {
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)
-        check_row(*state, &rows[i]);
+        check_row(f, &rows[i]);
 }
 
 TEST_GL(estimates_agree_for_every_projection)
@@ -351,8 +344,8 @@ TEST_GL(estimates_agree_for_every_projection)
         char what[48];
         snprintf(what, sizeof what, "projection %d", p);
         const setup_options o = {(analytic_projection)p, GL_DEPTH_COMPONENT32F, 200, 120, 1.0, false};
-        check_row(*state, &(struct row){what, 0, o, nothing});
-        check_row(*state, &(struct row){what, 16, o, wide});
+        check_row(f, &(struct row){what, 0, o, nothing});
+        check_row(f, &(struct row){what, 16, o, wide});
     }
 }
 
@@ -362,9 +355,9 @@ TEST_GL(estimates_agree_for_far_fade_and_radius_in_pixels)
     static const float fades[][2] = {{4.0f, 9.0f}, {8.6f, 8.6f}};
     for (int i = 0; i < 8; ++i) {
         const bool hemisphere = i & 1, orthographic = i & 2, pixels = i & 4;
-        setup s;
+        SCOPED(setup) setup s;
         set_up(
-            &s, *state,
+            &s, f,
             &(setup_options){orthographic ? ORTHOGRAPHIC : PERSPECTIVE, GL_DEPTH_COMPONENT32F, 151, 100, 1.0, i == 4});
         if (hemisphere)
             use_hemisphere(&s, 16);
@@ -374,15 +367,14 @@ TEST_GL(estimates_agree_for_far_fade_and_radius_in_pixels)
         s.settings.radius = pixels ? 11.5f : 1.0f;
         s.settings.radius_in_pixels = pixels;
         check_estimate(&s, pixels ? "radius in pixels" : "far fade");
-        tear_down(&s);
     }
 }
 
 /* Normals parallel to the tile's own rotation vectors, with which they span no plane. */
 TEST_GL(hemisphere_agrees_for_normals_along_the_noise)
 {
-    setup s;
-    set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 151, 100, 1.0, false});
+    SCOPED(setup) setup s;
+    set_up(&s, f, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 151, 100, 1.0, false});
     use_hemisphere(&s, 16);
     s.settings.radius = 1.0f;
     for (int y = 0; y < 100; ++y)
@@ -391,7 +383,6 @@ TEST_GL(hemisphere_agrees_for_normals_along_the_noise)
     gl.DeleteTextures(1, &s.frame.normal_texture);
     s.frame.normal_texture = fixture_normal_texture(151, 100, s.normals);
     check_estimate(&s, "normals along the noise");
-    tear_down(&s);
 }
 
 /* Octahedral encoding of a unit vector, from its definition: project onto |x| + |y| + |z| = 1, fold the lower half. */
@@ -411,8 +402,8 @@ static void octahedral(const float n[3], float out[2])
 TEST_GL(octahedral_normals_shade_like_plain_ones)
 {
     for (int hemisphere = 0; hemisphere < 2; ++hemisphere) {
-        setup s;
-        set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 150, 100, 1.0, false});
+        SCOPED(setup) setup s;
+        set_up(&s, f, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 150, 100, 1.0, false});
         int count = 150 * 100, flipped = 0;
         SCOPED(memory) float *encoded = malloc((size_t)count * 2 * sizeof *encoded);
         for (int i = 0; i < count; ++i) {
@@ -429,7 +420,6 @@ TEST_GL(octahedral_normals_shade_like_plain_ones)
         if (hemisphere)
             use_hemisphere(&s, 16);
         check_estimate(&s, "octahedral");
-        tear_down(&s);
     }
 }
 
@@ -439,13 +429,12 @@ TEST_GL(blur_agrees)
     static const char *const names[] = {"bilateral", "gaussian", "box"};
     for (int kind = 0; kind < 3; ++kind)
         for (int half = 0; half < 2; ++half) {
-            setup s;
-            set_up(&s, *state, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 201, 120, 1.0, half == 1});
+            SCOPED(setup) setup s;
+            set_up(&s, f, &(setup_options){PERSPECTIVE, GL_DEPTH_COMPONENT32F, 201, 120, 1.0, half == 1});
             s.settings.blur = kinds[kind];
             check_blur(&s, names[kind], 0.05);
             s.settings.blur_sigma = 1.2f;
             check_blur(&s, names[kind], 0.05);
-            tear_down(&s);
         }
 }
 

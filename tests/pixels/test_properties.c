@@ -83,7 +83,7 @@ TEST_GL(plane_is_open_at_any_angle_and_scale)
                     ANALYTIC_PLANE, {0.0, -1.0 * scale, -3.0 * scale}, {0.0, sin(angle), cos(angle)}};
                 const analytic_view view = analytic_make_view((analytic_projection)projection, 1.5, 0.5, 40.0, scale);
                 const glssao_settings settings = settings_at_scale((float)scale);
-                picture p = shade(*state, &view, &plane, 1, 90, 60, bring == 1, &settings);
+                picture p = shade(f, &view, &plane, 1, 90, 60, bring == 1, &settings);
                 const float value = least(&p);
                 if (value < 0.999f)
                     fail_msg("projection %d, %g degrees, scale %g, %s normals: %g", projection, degrees[i], scale,
@@ -98,7 +98,7 @@ TEST_GL(sky_alone_is_open)
         analytic_view view = analytic_make_view((analytic_projection)projection, 1.5, 0.5, 40.0, 1.0);
         glssao_settings settings = settings_at_scale(1.0f);
         for (int bring = 0; bring < 2; ++bring) {
-            SCOPED(picture) picture p = shade(*state, &view, NULL, 0, 33, 21, bring == 1, &settings);
+            SCOPED(picture) picture p = shade(f, &view, NULL, 0, 33, 21, bring == 1, &settings);
             assert_true(least(&p) == 1.0f);
         }
     }
@@ -106,7 +106,6 @@ TEST_GL(sky_alone_is_open)
 
 TEST_GL(runs_are_bit_equal_and_seeds_differ)
 {
-    fixture *f = *state;
     float *pictures[3];
     const glssao_settings settings = settings_at_scale(1.0f);
     int width, height;
@@ -129,7 +128,7 @@ TEST_GL(runs_are_bit_equal_and_seeds_differ)
 TEST_GL(resizes_through_odd_sizes_down_to_one_pixel)
 {
     static const int sizes[][2] = {{66, 46}, {63, 47}, {640, 3}, {3, 640}, {2, 2}, {1, 9}, {9, 1}, {1, 1}, {66, 46}};
-    glssao_effect *effect = fixture_shared_effect(*state, 128, 128);
+    glssao_effect *effect = fixture_shared_effect(f, 128, 128);
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; ++i)
         for (int bring = 0; bring < 2; ++bring) {
             int w = sizes[i][0], h = sizes[i][1];
@@ -154,7 +153,7 @@ TEST_GL(resizes_through_odd_sizes_down_to_one_pixel)
 TEST_GL(rebuilt_normals_shade_like_brought_ones)
 {
     SCOPED(picture)
-    picture brought = shade_room(*state, PERSPECTIVE, 1.0, true), rebuilt = shade_room(*state, PERSPECTIVE, 1.0, false);
+    picture brought = shade_room(f, PERSPECTIVE, 1.0, true), rebuilt = shade_room(f, PERSPECTIVE, 1.0, false);
     const double mean = mean_difference(&brought, &rebuilt);
     print_message("mean difference %.4f\n", mean);
     assert_true(mean < 0.01);
@@ -162,14 +161,11 @@ TEST_GL(rebuilt_normals_shade_like_brought_ones)
 
 TEST_GL(rebuilt_normals_are_right_up_to_silhouettes)
 {
-    fixture *f = *state;
     enum { W = 150, H = 100 };
     for (int projection = 0; projection < PROJECTION_COUNT; ++projection) {
-        analytic_shape room[ANALYTIC_ROOM_SHAPES];
-        analytic_room(room, 1.0);
         analytic_view view = analytic_make_view((analytic_projection)projection, 1.5, 0.5, 40.0, 1.0);
         SCOPED(memory) float *depth = NULL, *normals = NULL;
-        analytic_render(&view, room, ANALYTIC_ROOM_SHAPES, W, H, &depth, &normals);
+        analytic_render(&view, analytic_unit_room, ANALYTIC_ROOM_SHAPES, W, H, &depth, &normals);
         glssao_effect *effect = fixture_shared_effect(f, W, H);
         SCOPED(frame) const glssao_frame frame = fixture_maps_frame(&view, W, H, GL_DEPTH_COMPONENT32F, depth, NULL);
         glssao_settings settings = settings_at_scale(1.0f);
@@ -193,7 +189,6 @@ TEST_GL(rebuilt_normals_are_right_up_to_silhouettes)
 /* On one plane there is nothing to choose, so only the rounding of depth is left, at both sizes of the estimate. */
 TEST_GL(rebuilt_normals_of_a_plane_are_exact)
 {
-    fixture *f = *state;
     enum { W = 61, H = 41 };
     const analytic_shape plane = {ANALYTIC_PLANE, {0.0, 0.0, -6.0}, {0.36, 0.48, 0.8}};
     for (int i = 0; i < 2 * PROJECTION_COUNT; ++i) {
@@ -221,7 +216,6 @@ TEST_GL(rebuilt_normals_of_a_plane_are_exact)
 
 TEST_GL(apply_multiplies_colour_and_leaves_alpha)
 {
-    fixture *f = *state;
     enum { W = 64, H = 48 };
     SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
     SCOPED(frame) const glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
@@ -248,7 +242,7 @@ TEST_GL(apply_multiplies_colour_and_leaves_alpha)
 
 TEST_GL(skipped_frame_is_open)
 {
-    glssao_effect *effect = fixture_shared_effect(*state, 90, 60);
+    glssao_effect *effect = fixture_shared_effect(f, 90, 60);
     SCOPED(frame) const glssao_frame frame = fixture_room(PERSPECTIVE, 90, 60);
     glssao_settings settings = settings_at_scale(1.0f);
     for (int i = 0; i < 2; ++i) {

@@ -20,26 +20,25 @@ typedef struct setup {
     float sky;
 } setup;
 
-static void set_up(setup *s, fixture *f, analytic_projection projection, const analytic_shape *shapes, int shape_count,
-                   int width, int height)
+static setup set_up(fixture *f, analytic_projection projection, const analytic_shape *shapes, int shape_count,
+                    int width, int height)
 {
     const analytic_view view = analytic_make_view(projection, (double)width / height, 0.5, 40.0, 1.0);
     float *normals;
-    *s = (setup){.width = width, .height = height};
-    analytic_render(&view, shapes, shape_count, width, height, &s->depth, &normals);
-    s->effect = fixture_drawn_effect(f, width, height);
-    s->frame = fixture_maps_frame(&view, width, height, GL_DEPTH_COMPONENT32F, s->depth, normals);
-    s->sky = view.clip_zero_to_one ? 0.0f : 1.0f;
-    s->settings = glssao_default_settings(GLSSAO_RAYS, GLSSAO_HIGH);
-    s->settings.radius = 0.8f;
+    setup s = {.width = width, .height = height};
+    analytic_render(&view, shapes, shape_count, width, height, &s.depth, &normals);
+    s.effect = fixture_drawn_effect(f, width, height);
+    s.frame = fixture_maps_frame(&view, width, height, GL_DEPTH_COMPONENT32F, s.depth, normals);
+    s.sky = view.clip_zero_to_one ? 0.0f : 1.0f;
+    s.settings = glssao_default_settings(GLSSAO_RAYS, GLSSAO_HIGH);
+    s.settings.radius = 0.8f;
     free(normals);
+    return s;
 }
 
-static void set_up_room(setup *s, fixture *f, analytic_projection projection, int width, int height)
+static setup set_up_room(fixture *f, analytic_projection projection, int width, int height)
 {
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
-    set_up(s, f, projection, room, ANALYTIC_ROOM_SHAPES, width, height);
+    return set_up(f, projection, analytic_unit_room, ANALYTIC_ROOM_SHAPES, width, height);
 }
 
 static void tear_down(setup *s)
@@ -48,6 +47,7 @@ static void tear_down(setup *s)
     glssao_destroy(s->effect);
     free(s->depth);
 }
+#define test_end_setup tear_down /* for SCOPED */
 
 /* Replaces the rays of the frame; half: of half size. */
 static void bring(setup *s, GLenum format, bool half, const float *values)
@@ -60,11 +60,10 @@ static void bring(setup *s, GLenum format, bool half, const float *values)
 static void bring_constant(setup *s, GLenum format, bool half, float value)
 {
     const int count = s->width * s->height;
-    float *values = malloc((size_t)count * sizeof *values);
+    SCOPED(memory) float *values = malloc((size_t)count * sizeof *values);
     for (int i = 0; i < count; ++i)
         values[i] = value;
     bring(s, format, half, values);
-    free(values);
 }
 
 /* As two rays a pixel would say, at a known seed; one pixel in eight has none. */
@@ -141,14 +140,13 @@ static void check_blur(const setup *s, const paired_map *from, bool horizontal, 
 
 TEST_GL(rays_are_read_as_they_are)
 {
-    setup s;
-    set_up_room(&s, *state, PERSPECTIVE, 121, 91);
+    SCOPED(setup) setup s = set_up_room(f, PERSPECTIVE, 121, 91);
     for (int half = 0; half < 2; ++half) {
-        float *values = bring_noise(&s, half);
+        SCOPED(memory) float *values = bring_noise(&s, half);
         int count;
         s.settings.blur_rounds = 1;
         free(compute(&s, &count));
-        paired_map map = read_paired(&s, horizon_paired_map(s.effect, 0));
+        SCOPED(paired) paired_map map = read_paired(&s, horizon_paired_map(s.effect, 0));
         for (int y = 0; y < s.height; ++y)
             for (int x = 0; x < s.width; ++x) {
                 const float *own = half ? &values[y / 2 * ((s.width + 1) / 2) + x / 2] : &values[y * s.width + x];
@@ -158,45 +156,36 @@ TEST_GL(rays_are_read_as_they_are)
                 const double got = paired_accessibility(map.texels[3 * (y * s.width + x)]);
                 assert_true(wanted < 0.0 ? got == -1.0 : fabs(got - wanted) <= PAIRED + 2e-6);
             }
-        free(map.texels);
-        free(values);
     }
-    tear_down(&s);
 }
 
 static void check_rounds(fixture *f, analytic_projection projection, int width, int height)
 {
-    setup s;
     int count;
-    set_up_room(&s, f, projection, width, height);
+    SCOPED(setup) setup s = set_up_room(f, projection, width, height);
     free(bring_noise(&s, false));
     s.settings.blur_rounds = 1;
     float *result = compute(&s, &count);
-    paired_map estimate = read_paired(&s, horizon_paired_map(s.effect, 0));
-    paired_map across = read_paired(&s, horizon_paired_map(s.effect, 1));
+    SCOPED(paired) paired_map estimate = read_paired(&s, horizon_paired_map(s.effect, 0));
+    SCOPED(paired) paired_map across = read_paired(&s, horizon_paired_map(s.effect, 1));
     check_blur(&s, &estimate, true, 0, false, across.texels, 3);
     check_blur(&s, &across, false, 0, false, result, 1);
     free(result);
     s.settings.blur_rounds = 2;
     result = compute(&s, &count);
-    paired_map first = read_paired(&s, horizon_paired_map(s.effect, 0));
-    paired_map second = read_paired(&s, horizon_paired_map(s.effect, 1));
+    SCOPED(paired) paired_map first = read_paired(&s, horizon_paired_map(s.effect, 0));
+    SCOPED(paired) paired_map second = read_paired(&s, horizon_paired_map(s.effect, 1));
     check_blur(&s, &across, false, 0, false, first.texels, 3);
     check_blur(&s, &first, true, 1, false, second.texels, 3);
     check_blur(&s, &second, false, 1, false, result, 1);
     free(result);
-    free(estimate.texels);
-    free(across.texels);
-    free(first.texels);
-    free(second.texels);
-    tear_down(&s);
 }
 
 TEST_GL(rounds_agree_with_their_model)
 {
-    check_rounds(*state, PERSPECTIVE, 120, 90);
-    check_rounds(*state, PERSPECTIVE_REVERSED_ZERO_TO_ONE, 121, 91);
-    check_rounds(*state, ORTHOGRAPHIC, 91, 121);
+    check_rounds(f, PERSPECTIVE, 120, 90);
+    check_rounds(f, PERSPECTIVE_REVERSED_ZERO_TO_ONE, 121, 91);
+    check_rounds(f, ORTHOGRAPHIC, 91, 121);
 }
 
 /* What the first pass of a correction writes: the estimate's map with half the difference plus a half as values. */
@@ -221,9 +210,9 @@ static void check_first_round(const setup *s, const paired_map *start, const pai
     const pass_constants c = constants_of(s, 0, true);
     const bool orthographic = s->frame.projection[11] == 0.0f;
     const int width = got->width, height = got->height;
-    paired_map across = {malloc(3 * (size_t)(width * height) * sizeof *across.texels), width, height};
+    SCOPED(paired) paired_map across = {malloc(3 * (size_t)(width * height) * sizeof *across.texels), width, height};
     memcpy(across.texels, start->texels, 3 * (size_t)(width * height) * sizeof *across.texels);
-    bool *open = calloc((size_t)(width * height), sizeof *open);
+    SCOPED(memory) bool *open = calloc((size_t)(width * height), sizeof *open);
     int checked = 0, wrong = 0, told = 0;
     for (int i = 0; i < width * height; ++i) {
         double low, high;
@@ -245,8 +234,6 @@ static void check_first_round(const setup *s, const paired_map *start, const pai
     }
     assert_int_equal(wrong, 0);
     assert_true(checked * 10 > width * height * 9 && told * 6 > checked);
-    free(across.texels);
-    free(open);
 }
 
 /* The first round, and the last pass, which adds the difference to the estimate. */
@@ -254,20 +241,19 @@ TEST_GL(corrections_agree_with_their_model)
 {
     static const float powers[] = {1.0f, 3.0f};
     for (int i = 0; i < 2; ++i) {
-        setup s;
         int count;
-        set_up_room(&s, *state, i ? ORTHOGRAPHIC : PERSPECTIVE, 120, 90);
-        float *rays = bring_noise(&s, true);
+        SCOPED(setup) setup s = set_up_room(f, i ? ORTHOGRAPHIC : PERSPECTIVE, 120, 90);
+        SCOPED(memory) float *rays = bring_noise(&s, true);
         s.settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
         s.settings.upsample = false;
         s.settings.radius = 0.8f;
         s.settings.power = powers[i];
         s.settings.blur_rounds = 1;
-        float *result = compute(&s, &count);
-        paired_map estimate = read_paired(&s, horizon_paired_map(s.effect, 0));
-        paired_map first = read_paired(&s, horizon_rays_map(s.effect, 0));
-        paired_map before = read_paired(&s, horizon_rays_map(s.effect, 1));
-        paired_map start = differences(&s, &estimate, rays);
+        SCOPED(memory) float *result = compute(&s, &count);
+        SCOPED(paired) paired_map estimate = read_paired(&s, horizon_paired_map(s.effect, 0));
+        SCOPED(paired) paired_map first = read_paired(&s, horizon_rays_map(s.effect, 0));
+        SCOPED(paired) paired_map before = read_paired(&s, horizon_rays_map(s.effect, 1));
+        SCOPED(paired) paired_map start = differences(&s, &estimate, rays);
         check_first_round(&s, &start, &first);
         check_blur(&s, &first, true, 1, true, before.texels, 3);
         assert_int_equal(count, estimate.width * estimate.height);
@@ -285,13 +271,6 @@ TEST_GL(corrections_agree_with_their_model)
             moved += fabs((double)result[k] - own) > 0.05;
         }
         assert_true(moved * 50 > count);
-        free(result);
-        free(rays);
-        free(estimate.texels);
-        free(first.texels);
-        free(before.texels);
-        free(start.texels);
-        tear_down(&s);
     }
 }
 
@@ -304,9 +283,8 @@ static const GLenum formats[] = {GL_R8, GL_R16, GL_R16F, GL_R32F};
 TEST_GL(agreeing_rays_win)
 {
     const analytic_shape wall = {ANALYTIC_PLANE, {0.0, 0.0, -4.0}, {0.3, 0.2, 0.9}};
-    setup s;
     int count;
-    set_up(&s, *state, PERSPECTIVE, &wall, 1, 65, 47);
+    SCOPED(setup) setup s = set_up(f, PERSPECTIVE, &wall, 1, 65, 47);
     for (int technique = GLSSAO_CLASSIC; technique <= GLSSAO_RAYS; ++technique)
         for (int i = 0; i < 16; ++i) {
             s.settings = glssao_default_settings((glssao_technique)technique, i & 1 ? GLSSAO_HIGH : GLSSAO_LOW);
@@ -314,25 +292,22 @@ TEST_GL(agreeing_rays_win)
             s.settings.upsample = i & 1;
             s.settings.power = 1.0f;
             bring_constant(&s, formats[i / 4], i & 1, 0.625f);
-            float *result = compute(&s, &count);
+            SCOPED(memory) float *result = compute(&s, &count);
             const int width = s.settings.half_resolution && !s.settings.upsample ? 33 : 65, height = count / width;
             const int border = technique == GLSSAO_RAYS ? 0 : s.settings.half_resolution && width == 33 ? 6 : 14;
             for (int k = 0; k < count; ++k)
                 if (k % width >= border && k % width < width - border && k / width >= border &&
                     k / width < height - border)
                     assert_true(fabs((double)result[k] - 0.625) < 0.002); /* a half step of R8 */
-            free(result);
         }
-    tear_down(&s);
 }
 
 /* No rays anywhere, as hosts may say it. */
 TEST_GL(missing_rays_change_nothing)
 {
     static const float nothing[] = {-1.0f, -1e-6f, NAN, -INFINITY};
-    setup s;
     int count;
-    set_up_room(&s, *state, PERSPECTIVE, 97, 63);
+    SCOPED(setup) setup s = set_up_room(f, PERSPECTIVE, 97, 63);
     for (int technique = GLSSAO_CLASSIC; technique <= GLSSAO_RAYS; ++technique)
         for (int i = 0; i < 4; ++i) {
             s.settings = glssao_default_settings((glssao_technique)technique, i & 1 ? GLSSAO_HIGH : GLSSAO_ULTRA);
@@ -343,7 +318,7 @@ TEST_GL(missing_rays_change_nothing)
             if (technique != GLSSAO_RAYS)
                 before = compute(&s, &count);
             bring_constant(&s, i == 1 ? GL_R16F : GL_R32F, i & 2, nothing[i]);
-            float *result = compute(&s, &count);
+            SCOPED(memory) float *result = compute(&s, &count);
             /* The estimate is rounded to 13 bits on its way, and in the correction distances come from another map:
              * where a neighbour is barely on a plane, that decides. */
             int off = 0;
@@ -351,17 +326,14 @@ TEST_GL(missing_rays_change_nothing)
                 off += !(fabsf(result[k] - (before ? before[k] : 1.0f)) < 2e-4f);
             assert_true(off * 500 < count);
             free(before);
-            free(result);
         }
-    tear_down(&s);
 }
 
 /* Rays that say what the technique says leave it as it is. */
 TEST_GL(rays_that_agree_with_the_estimate_keep_it)
 {
-    setup s;
     int count;
-    set_up_room(&s, *state, PERSPECTIVE, 96, 64);
+    SCOPED(setup) setup s = set_up_room(f, PERSPECTIVE, 96, 64);
     for (int technique = GLSSAO_CLASSIC; technique < GLSSAO_RAYS; ++technique) {
         s.settings = glssao_default_settings((glssao_technique)technique, GLSSAO_HIGH);
         s.settings.half_resolution = false;
@@ -372,16 +344,14 @@ TEST_GL(rays_that_agree_with_the_estimate_keep_it)
         for (int i = 0; i < count; ++i)
             linear[i] = sqrtf(before[i]);
         bring(&s, GL_R32F, false, linear);
-        float *result = compute(&s, &count);
+        SCOPED(memory) float *result = compute(&s, &count);
         for (int i = 0; i < count; ++i)
             assert_true(fabsf(result[i] - before[i]) < 1e-3f);
         gl.DeleteTextures(1, &s.frame.rays_texture);
         free(before);
         free(linear);
-        free(result);
         s.frame.rays_texture = 0;
     }
-    tear_down(&s);
 }
 
 /* Rays see what darkens a tile that nothing in the picture does: with and without tiles the result is the same. */
@@ -389,8 +359,7 @@ TEST_GL(corrections_reach_open_tiles)
 {
     const analytic_shape shapes[] = {{ANALYTIC_PLANE, {0.0, 0.0, -4.0}, {0.0, 0.0, 1.0}},
                                      {ANALYTIC_SPHERE, {-1.5, -1.0, -3.7}, {0.3, 0.0, 0.0}}};
-    setup s;
-    set_up(&s, *state, PERSPECTIVE, shapes, 2, 320, 240);
+    SCOPED(setup) setup s = set_up(f, PERSPECTIVE, shapes, 2, 320, 240);
     bring_constant(&s, GL_R8, true, 0.5f);
     s.settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     for (int i = 0; i < 2; ++i) {
@@ -410,7 +379,6 @@ TEST_GL(corrections_reach_open_tiles)
         free(results[1]);
         s.settings.upsample = false;
     }
-    tear_down(&s);
 }
 
 /* Rays of which all are open but a few in some tiles, near their middles or borders, and some are missing. Returns for
@@ -419,7 +387,7 @@ static bool *bring_few_blocked(setup *s, bool half, int factor, int out_tiles[2]
 {
     const int width = half ? (s->width + 1) / 2 : s->width, height = half ? (s->height + 1) / 2 : s->height;
     const int step = half ? 1 : factor, pixels = 16 * (half ? 1 : factor);
-    float *values = malloc((size_t)(width * height) * sizeof *values);
+    SCOPED(memory) float *values = malloc((size_t)(width * height) * sizeof *values);
     out_tiles[0] = (width + pixels - 1) / pixels;
     out_tiles[1] = (height + pixels - 1) / pixels;
     bool *blocked = calloc((size_t)(out_tiles[0] * out_tiles[1]), sizeof *blocked);
@@ -434,7 +402,6 @@ static bool *bring_few_blocked(setup *s, bool half, int factor, int out_tiles[2]
                 blocked[tile] = true;
         }
     bring(s, GL_R32F, half, values);
-    free(values);
     return blocked;
 }
 
@@ -443,21 +410,19 @@ static void check_drawn_tiles(const setup *s, const bool *blocked, const int til
 {
     int width, height, open = 0;
     const uint32_t map = glssao_map(s->effect, GLSSAO_MAP_TILES, &width, &height);
-    float *rings = fixture_read_texture(map, width, height, 1);
+    SCOPED(memory) float *rings = fixture_read_texture(map, width, height, 1);
     assert_true(width == tiles[0] && height == tiles[1]);
     for (int i = 0; i < width * height; ++i) {
         assert_true((rings[i] == 0.0f) == blocked[i]);
         open += rings[i] * 16.0f > 2.5f;
     }
     assert_true(open > 0);
-    free(rings);
 }
 
 /* Leaving out tiles whose rays are open, and whose estimate is where they correct one, changes no pixel. */
 TEST_GL(tiles_of_open_rays_are_left_out)
 {
-    setup s;
-    set_up_room(&s, *state, PERSPECTIVE, 449, 322);
+    SCOPED(setup) setup s = set_up_room(f, PERSPECTIVE, 449, 322);
     for (int i = 0; i < 12; ++i) {
         const glssao_technique technique = i % 4 < 2 ? GLSSAO_RAYS : i % 4 == 2 ? GLSSAO_HORIZON : GLSSAO_CLASSIC;
         const int factor = i % 3 == 0 ? 1 : 2;
@@ -470,7 +435,7 @@ TEST_GL(tiles_of_open_rays_are_left_out)
         s.settings.blur_rounds = i == 4 ? 0 : 1 + i / 4; /* 1 to 3 */
         s.settings.power = i == 7 ? 2.0f : 1.0f;
         s.frame.margin = i >= 10 ? 16 : 0;
-        bool *blocked = bring_few_blocked(&s, factor == 2 && i % 2 == 0, factor, tiles);
+        SCOPED(memory) bool *blocked = bring_few_blocked(&s, factor == 2 && i % 2 == 0, factor, tiles);
         for (int on = 0; on < 2; ++on) {
             s.settings.tiles = on ? GLSSAO_TILES_ON : GLSSAO_TILES_OFF;
             results[on] = compute(&s, &counts[on]);
@@ -482,11 +447,9 @@ TEST_GL(tiles_of_open_rays_are_left_out)
             if (!(fabsf(results[0][k] - results[1][k]) <= 1.01f / 65535.0f))
                 fail_msg("case %d: pixel %d is %g with tiles, %g without", i, k, (double)results[1][k],
                          (double)results[0][k]);
-        free(blocked);
         free(results[0]);
         free(results[1]);
     }
-    tear_down(&s);
 }
 
 /* Infinite and huge values count as open. Sky is open, whatever its rays say. */
@@ -494,25 +457,21 @@ TEST_GL(odd_values_stay_in_range)
 {
     static const float odd[] = {INFINITY, 1e30f, 7.0f, 0.0f, NAN, -1.0f, 0.25f};
     const analytic_shape ball = {ANALYTIC_SPHERE, {0.0, 0.0, -3.0}, {1.0, 0.0, 0.0}};
-    setup s;
     int count;
-    set_up(&s, *state, PERSPECTIVE_INFINITE_REVERSED_ZERO_TO_ONE, &ball, 1, 63, 49);
-    float *values = malloc((size_t)(63 * 49) * sizeof *values);
+    SCOPED(setup) setup s = set_up(f, PERSPECTIVE_INFINITE_REVERSED_ZERO_TO_ONE, &ball, 1, 63, 49);
+    SCOPED(memory) float *values = malloc((size_t)(63 * 49) * sizeof *values);
     for (int i = 0; i < 63 * 49; ++i)
         values[i] = odd[i % 7];
     bring(&s, GL_R32F, false, values);
     for (int technique = GLSSAO_CLASSIC; technique <= GLSSAO_RAYS; ++technique) {
         s.settings = glssao_default_settings((glssao_technique)technique, GLSSAO_ULTRA);
         s.settings.half_resolution = false;
-        float *result = compute(&s, &count);
+        SCOPED(memory) float *result = compute(&s, &count);
         for (int i = 0; i < count; ++i) {
             assert_true(result[i] >= 0.0f && result[i] <= 1.0f);
             assert_true(s.depth[i] != s.sky || result[i] == 1.0f);
         }
-        free(result);
     }
-    free(values);
-    tear_down(&s);
 }
 
 /* With a margin the result is what the middle of the whole picture has. */
@@ -521,26 +480,22 @@ TEST_GL(margins_cut_the_same_picture)
     const int width = 92, height = 68, margin = 12;
     for (int half = 0; half < 2; ++half)
         for (int technique = GLSSAO_HORIZON; technique <= GLSSAO_RAYS; ++technique) {
-            setup s;
             int count;
-            set_up_room(&s, *state, PERSPECTIVE, width, height);
+            SCOPED(setup) setup s = set_up_room(f, PERSPECTIVE, width, height);
             free(bring_noise(&s, half));
             s.settings = glssao_default_settings((glssao_technique)technique, half ? GLSSAO_HIGH : GLSSAO_ULTRA);
             s.settings.half_resolution = half;
             s.settings.upsample = true;
             s.settings.radius = 0.3f;
-            float *whole = compute(&s, &count);
+            SCOPED(memory) float *whole = compute(&s, &count);
             s.frame.margin = margin;
-            float *inner = compute(&s, &count);
+            SCOPED(memory) float *inner = compute(&s, &count);
             const int across = width - 2 * margin;
             assert_int_equal(count, across * (height - 2 * margin));
             for (int i = 0; i < count; ++i) {
                 const int x = i % across + margin, y = i / across + margin;
                 assert_true(fabsf(inner[i] - whole[y * width + x]) < 1e-4f);
             }
-            free(whole);
-            free(inner);
-            tear_down(&s);
         }
 }
 
@@ -548,33 +503,27 @@ TEST_GL(margins_cut_the_same_picture)
 TEST_GL(viewports_do_not_move_rays)
 {
     const int width = 60, height = 40, left = 7, bottom = 3;
-    setup s, large;
     int count;
-    set_up_room(&s, *state, PERSPECTIVE, width, height);
+    SCOPED(setup) setup s = set_up_room(f, PERSPECTIVE, width, height);
+    SCOPED(setup) setup large = set_up_room(f, PERSPECTIVE, width + 20, height + 10);
     s.settings.blur_rounds = 1;
     free(bring_noise(&s, false));
-    float *wanted = compute(&s, &count);
-    set_up_room(&large, *state, PERSPECTIVE, width + 20, height + 10);
     for (int y = 0; y < height; ++y) /* the picture of `s` within */
         memcpy(large.depth + (y + bottom) * large.width + left, s.depth + y * width, (size_t)width * sizeof *s.depth);
     gl.DeleteTextures(1, &large.frame.depth_texture);
     large.frame.depth_texture = fixture_depth_texture(GL_DEPTH_COMPONENT32F, large.width, large.height, large.depth);
     large.frame.normal_texture = 0;
     s.frame.normal_texture = 0;
-    free(wanted);
-    wanted = compute(&s, &count);
+    SCOPED(memory) float *wanted = compute(&s, &count);
     memcpy(large.frame.projection, s.frame.projection, sizeof s.frame.projection);
     memcpy(large.frame.viewport, (const int[4]){left, bottom, width, height}, sizeof large.frame.viewport);
     large.frame.rays_texture = s.frame.rays_texture;
     assert_int_equal(glssao_resize(large.effect, width, height), GLSSAO_OK);
+    SCOPED(memory)
     float *got = compute(&(setup){.effect = large.effect, .frame = large.frame, .settings = s.settings}, &count);
     for (int i = 0; i < count; ++i)
         assert_true(fabsf(got[i] - wanted[i]) < 1e-4f);
-    free(got);
-    free(wanted);
     large.frame.rays_texture = 0;
-    tear_down(&large);
-    tear_down(&s);
 }
 
 TEST_GL(every_size_is_taken)
@@ -583,19 +532,16 @@ TEST_GL(every_size_is_taken)
     for (int i = 0; i < 6; ++i)
         for (int technique = GLSSAO_CLASSIC; technique <= GLSSAO_RAYS; ++technique)
             for (int k = 0; k < 4; ++k) {
-                setup s;
                 int count;
-                set_up_room(&s, *state, k & 1 ? ORTHOGRAPHIC : PERSPECTIVE, sizes[i][0], sizes[i][1]);
+                SCOPED(setup) setup s = set_up_room(f, k & 1 ? ORTHOGRAPHIC : PERSPECTIVE, sizes[i][0], sizes[i][1]);
                 s.settings = glssao_default_settings((glssao_technique)technique, GLSSAO_HIGH);
                 s.settings.half_resolution = k & 1;
                 s.settings.upsample = true;
                 free(bring_noise(&s, k & 2));
-                float *result = compute(&s, &count);
+                SCOPED(memory) float *result = compute(&s, &count);
                 assert_int_equal(count, sizes[i][0] * sizes[i][1]);
                 for (int j = 0; j < count; ++j)
                     assert_true(result[j] >= 0.0f && result[j] <= 1.0f);
-                free(result);
-                tear_down(&s);
             }
 }
 
@@ -603,26 +549,22 @@ TEST_GL(every_size_is_taken)
 TEST_GL(power_comes_last)
 {
     const analytic_shape wall = {ANALYTIC_PLANE, {0.0, 0.0, -4.0}, {0.0, 0.0, 1.0}};
-    setup s;
     int count;
-    set_up(&s, *state, PERSPECTIVE, &wall, 1, 64, 48);
-    float *values = malloc((size_t)(64 * 48) * sizeof *values);
+    SCOPED(setup) setup s = set_up(f, PERSPECTIVE, &wall, 1, 64, 48);
+    SCOPED(memory) float *values = malloc((size_t)(64 * 48) * sizeof *values);
     for (int i = 0; i < 64 * 48; ++i)
         values[i] = (float)(i % 2); /* columns by turns */
     bring(&s, GL_R8, false, values);
     s.settings.power = 3.0f;
     s.settings.blur_rounds = 1;
     for (int half = 0; half < 2; ++half) {
-        float *result = compute(&s, &count);
+        SCOPED(memory) float *result = compute(&s, &count);
         for (int y = 4; y < 44; ++y)
             for (int x = 4; x < 60; ++x) /* 1/2 1 1 1 1/2 of columns by turns: 2 of 4 */
                 assert_true(fabs((double)result[y * 64 + x] - (half ? 0.0 : 0.125)) < 1e-3);
         s.settings.half_resolution = true; /* only even columns have a say */
         s.settings.upsample = true;
-        free(result);
     }
-    free(values);
-    tear_down(&s);
 }
 
 /* ---- refusals ---- */
@@ -635,10 +577,8 @@ static void refuse(setup *s, fixture *f, const char *said)
 
 TEST_GL(wrong_rays_are_refused)
 {
-    fixture *f = *state;
-    setup s;
     const float one = 1.0f;
-    set_up_room(&s, f, PERSPECTIVE, 64, 48);
+    SCOPED(setup) setup s = set_up_room(f, PERSPECTIVE, 64, 48);
     refuse(&s, f, "frame.rays_texture = 0: no texture, and the rays technique has no estimate of its own");
     bring_constant(&s, GL_R8, false, 1.0f);
     gl.BindTexture(GL_TEXTURE_2D, s.frame.rays_texture);
@@ -657,15 +597,13 @@ TEST_GL(wrong_rays_are_refused)
     s.frame.rays_texture = 4711;
     refuse(&s, f, "frame.rays_texture = 4711: no texture of this context");
     s.frame.rays_texture = 0;
-    tear_down(&s);
 }
 
 /* A mean of many estimates is not corrected by a few rays. */
 TEST_GL(accumulation_ignores_rays)
 {
-    setup s;
     int width, height;
-    set_up_room(&s, *state, PERSPECTIVE, 64, 48);
+    SCOPED(setup) setup s = set_up_room(f, PERSPECTIVE, 64, 48);
     s.settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     float *maps[2];
     for (int i = 0; i < 2; ++i) {
@@ -679,7 +617,6 @@ TEST_GL(accumulation_ignores_rays)
     assert_memory_equal(maps[0], maps[1], (size_t)(width * height) * sizeof *maps[0]);
     free(maps[0]);
     free(maps[1]);
-    tear_down(&s);
 }
 
 TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -119,7 +119,7 @@ TEST_GL(random_scenes_have_few_specks)
                               .normal_texture = fixture_normal_texture(W, H, s.normals)};
         memcpy(frame.projection, s.view.projection, sizeof frame.projection);
         for (int level = 0; level < 4; ++level) {
-            const int count = count_specks(*state, &s, &frame, level);
+            const int count = count_specks(f, &s, &frame, level);
             if (count > 0)
                 print_message("seed %u, %s: %d\n", (unsigned)seed, level_names[level], count);
             counts[level] += count;

@@ -19,7 +19,7 @@ typedef struct shaded {
 static shaded shade(fixture *f, const small_scene *s, const scene_view *view, glssao_technique technique)
 {
     char error[256];
-    scene_renderer *renderer = scene_renderer_create(&s->scene, FAULT(error));
+    SCOPED(renderer) scene_renderer *renderer = scene_renderer_create(&s->scene, FAULT(error));
     if (!renderer)
         fail_msg("%s", error);
     SCOPED(effect) glssao_effect *effect = fixture_effect(f, WIDTH, HEIGHT);
@@ -36,7 +36,6 @@ static shaded shade(fixture *f, const small_scene *s, const scene_view *view, gl
     int width, height;
     shaded result = {.normals = fixture_read_texture(normals, WIDTH, HEIGHT, 4)};
     result.accessibility = fixture_compute(effect, &frame, &settings, &width, &height);
-    scene_renderer_destroy(renderer);
     return result;
 }
 
@@ -75,7 +74,7 @@ TEST_GL(transformed_instances_shade_like_baked_triangles)
     const scene_view view = camera_view(&c, WIDTH, HEIGHT);
     static const glssao_technique techniques[] = {GLSSAO_CLASSIC, GLSSAO_HEMISPHERE, GLSSAO_HORIZON};
     for (int t = 0; t < 3; t++) {
-        shaded instanced = shade(*state, s, &view, techniques[t]), baked = shade(*state, b, &view, techniques[t]);
+        shaded instanced = shade(f, s, &view, techniques[t]), baked = shade(f, b, &view, techniques[t]);
         int other_normal = 0, other_value = 0, occluded = 0;
         double mean = 0;
         for (int i = 0; i < WIDTH * HEIGHT; i++) {

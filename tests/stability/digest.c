@@ -127,10 +127,8 @@ static glssao_settings horizon(int samples, bool half)
 
 static subject room(analytic_projection kind)
 {
-    analytic_shape shapes[ANALYTIC_ROOM_SHAPES];
-    analytic_room(shapes, 1.0);
     const analytic_view view = analytic_make_view(kind, (double)width / height, 0.5, 40.0, 1.0);
-    return subject_of(&view, shapes, ANALYTIC_ROOM_SHAPES, width, height);
+    return subject_of(&view, analytic_unit_room, ANALYTIC_ROOM_SHAPES, width, height);
 }
 
 static gbuffer drawn(const char *name, int margin)

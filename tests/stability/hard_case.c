@@ -43,11 +43,10 @@ static void check_rebuilt_normals(fixture *f, const hard_case *c, const subject 
     int width, height;
     const uint32_t map =
         glssao_map(fixture_shared_effect(f, s->width, s->height), GLSSAO_MAP_REBUILT_NORMAL, &width, &height);
-    float *normals = fixture_read_texture(map, width, height, 3);
+    SCOPED(memory) float *normals = fixture_read_texture(map, width, height, 3);
     for (int i = 0; i < 3 * width * height; ++i)
         if (!(fabsf(normals[i]) <= 1.001f)) /* also true for NaN */
             fail_msg("%s: a rebuilt normal of %g", c->name, (double)normals[i]);
-    free(normals);
 }
 
 /* The same frame with bent normals: they are sound, and accessibility is what it is without them. */
@@ -61,7 +60,7 @@ static void check_bent(fixture *f, const hard_case *c, const subject *s, const g
     const uint32_t map = glssao_map(f->effect, GLSSAO_MAP_BENT_NORMAL, &width, &height);
     assert_true(width == p.width && height == p.height);
     const bool is_alike = width == without->width; /* where nothing can be occluded, no pass ran, upsampling neither */
-    float *bent = fixture_read_texture(map, width, height, 4);
+    SCOPED(memory) float *bent = fixture_read_texture(map, width, height, 4);
     for (int i = 0; i < width * height; ++i) {
         const float *b = bent + 4 * i;
         const double length =
@@ -72,7 +71,6 @@ static void check_bent(fixture *f, const hard_case *c, const subject *s, const g
             fail_msg("%s, %s, pixel %d: a bent normal of length %g, alpha %g; accessibility %g, %g apart", c->name,
                      one->name, i, length, (double)b[3], (double)p.values[i], apart);
     }
-    free(bent);
     free(p.values);
 }
 
@@ -83,7 +81,7 @@ static void check(fixture *f, const hard_case *c, const subject *s, normal_store
     one.settings = settings_scaled(&one.settings, distance / 3.0 * or_default(c->lengths, 1.0));
     if (c->change)
         c->change(&one.settings);
-    glssao_frame frame = subject_frame(s, c->depth, normal);
+    SCOPED(frame) glssao_frame frame = subject_frame(s, c->depth, normal);
     picture p = subject_shade(f, s->width, s->height, &frame, &one.settings);
     if (!picture_is_sound(&p))
         fail_msg("%s, %s, %s, %s: not sound", c->name, one.name, subject_depth_name(c->depth),
@@ -99,7 +97,6 @@ static void check(fixture *f, const hard_case *c, const subject *s, normal_store
     if (one.settings.technique == GLSSAO_HORIZON && number % 3 == 0) /* at full and at half size */
         check_bent(f, c, s, &frame, &one, &p);
     free(p.values);
-    fixture_delete_frame(&frame);
 }
 
 int hard_case_run(fixture *f, const hard_case *c, int stride)

@@ -80,7 +80,7 @@ static GLuint depth_with_stencil(const subject *s)
 
 static GLuint octahedral(const subject *s)
 {
-    float *texels = malloc(count_of(s) * 2 * sizeof *texels);
+    SCOPED(memory) float *texels = malloc(count_of(s) * 2 * sizeof *texels);
     for (size_t i = 0; i < count_of(s); ++i) {
         const float *n = s->normals + 3 * i;
         const float sum = fabsf(n[0]) + fabsf(n[1]) + fabsf(n[2]), x = n[0] / sum, y = n[1] / sum;
@@ -88,29 +88,26 @@ static GLuint octahedral(const subject *s)
         texels[2 * i + 1] = n[2] >= 0.0f ? y : (1.0f - fabsf(x)) * (y >= 0.0f ? 1.0f : -1.0f);
     }
     GLuint texture = make_texture(GL_RG16_SNORM, GL_RG, GL_FLOAT, s, texels);
-    free(texels);
     return texture;
 }
 
 static GLuint unsigned_normals(const subject *s)
 {
-    float *texels = malloc(count_of(s) * 3 * sizeof *texels);
+    SCOPED(memory) float *texels = malloc(count_of(s) * 3 * sizeof *texels);
     for (size_t i = 0; i < 3 * count_of(s); ++i)
         texels[i] = 0.5f * s->normals[i] + 0.5f;
     GLuint texture = make_texture(GL_RGB8, GL_RGB, GL_FLOAT, s, texels);
-    free(texels);
     return texture;
 }
 
 static GLuint normals_with_distance(const subject *s, GLenum internal)
 {
-    float *texels = malloc(count_of(s) * 4 * sizeof *texels);
+    SCOPED(memory) float *texels = malloc(count_of(s) * 4 * sizeof *texels);
     for (size_t i = 0; i < count_of(s); ++i) {
         memcpy(texels + 4 * i, s->normals + 3 * i, 3 * sizeof *texels);
         texels[4 * i + 3] = s->distance[i];
     }
     GLuint texture = make_texture(internal, GL_RGBA, GL_FLOAT, s, texels);
-    free(texels);
     return texture;
 }
 

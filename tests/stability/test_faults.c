@@ -219,7 +219,7 @@ TEST_GL(each_call_survives_each_fault)
             continue;
         }
         path = acts[i].dispatches ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT;
-        while (fail_once(*state, &acts[i], faults))
+        while (fail_once(f, &acts[i], faults))
             faults += stride;
         print_message("%s: %d faults\n", acts[i].name, faults);
         assert_true(faults >= least[i] - stride);
@@ -230,11 +230,9 @@ static int set_up(void **state)
 {
     if (fixture_setup(state) != 0)
         return 1;
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
     const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
-    subject s = subject_of(&view, room, ANALYTIC_ROOM_SHAPES, W, H);
-    subject large = subject_of(&view, room, ANALYTIC_ROOM_SHAPES, W + 8, H + 8);
+    subject s = subject_of(&view, analytic_unit_room, ANALYTIC_ROOM_SHAPES, W, H);
+    subject large = subject_of(&view, analytic_unit_room, ANALYTIC_ROOM_SHAPES, W + 8, H + 8);
     plain = subject_frame(&s, DEPTH_24, NORMAL_32F);
     bare = subject_frame(&s, DEPTH_24, NORMAL_NONE);
     cropped = subject_frame(&large, DEPTH_24, NORMAL_32F);

@@ -226,7 +226,7 @@ static void run(fixture *f, const hard_case *c)
 TEST_GL(hard_cases)
 {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i)
-        run(*state, &cases[i]);
+        run(f, &cases[i]);
 }
 
 /* A plane in every projection, upright and mirrored. */
@@ -244,7 +244,7 @@ TEST_GL(projections)
                                  .depth = DEPTH_32F,
                                  .normal = NORMAL_32F,
                                  .least = {0.999, 0.999, 0.999}};
-            run(*state, &c);
+            run(f, &c);
         }
 }
 
@@ -263,7 +263,7 @@ TEST_GL(stores)
                                  .zoom = far ? 0.1 : 1.0,
                                  .least = OPEN,
                                  .turn = 1 + depth};
-            run(*state, &c);
+            run(f, &c);
         }
 }
 

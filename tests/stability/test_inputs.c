@@ -11,10 +11,8 @@ static const int numbers[NUMBERS] = {0, 5, 12, 17, 18, 23}; /* configurations */
 
 static subject room(void)
 {
-    analytic_shape shapes[ANALYTIC_ROOM_SHAPES];
-    analytic_room(shapes, 1.0);
     const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
-    return subject_of(&view, shapes, ANALYTIC_ROOM_SHAPES, W, H);
+    return subject_of(&view, analytic_unit_room, ANALYTIC_ROOM_SHAPES, W, H);
 }
 
 /* ---- textures that are drawn into, since multisample textures cannot be filled otherwise ---- */
@@ -114,7 +112,7 @@ TEST_GL(first_samples_are_taken)
             gl.ActiveTexture(GL_TEXTURE0 + (GLenum)unit);
             gl.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, other.depth_texture);
         }
-        assert_same(*state, &plain, &other, 0.0);
+        assert_same(f, &plain, &other, 0.0);
         for (int unit = 0; unit < 8; ++unit) {
             gl.ActiveTexture(GL_TEXTURE0 + (GLenum)unit);
             gl.GetIntegerv(GL_TEXTURE_BINDING_2D_MULTISAMPLE, &bound);
@@ -129,7 +127,7 @@ TEST_GL(first_samples_are_taken)
     glssao_frame plain = subject_frame(&s, ALPHA_32F, NORMAL_32F), other = plain;
     other.multisample = true;
     other.normal_texture = multisampled(plain.normal_texture, GL_RGBA32F, false);
-    assert_same(*state, &plain, &other, 0.0);
+    assert_same(f, &plain, &other, 0.0);
     gl.DeleteTextures(1, &other.normal_texture);
     fixture_delete_frame(&plain);
 }
@@ -137,7 +135,6 @@ TEST_GL(first_samples_are_taken)
 /* To the bit on llvmpipe. Hardware filters DEPTH24 otherwise than the floats of a copy. */
 TEST_GL(viewports_are_crops)
 {
-    fixture *f = *state;
     SCOPED(subject) subject s = room(), large = {.width = LARGE_W, .height = LARGE_H, .view = s.view};
     large.depth = enlarged(s.depth, 1);
     large.normals = enlarged(s.normals, 3);
@@ -168,7 +165,7 @@ TEST_GL(logarithms_are_undone)
         other.depth_kind = GLSSAO_DEPTH_LOGARITHMIC;
         other.log_depth_far = (float)far_distance;
         other.log_depth_constant = (float)constants[i];
-        assert_same(*state, &plain, &other, 1e-3);
+        assert_same(f, &plain, &other, 1e-3);
         free(stored.depth);
     }
 }
@@ -191,21 +188,21 @@ TEST_GL(unreadable_inputs_are_named)
 #define REFUSED(field, value, named)                                                                                   \
     bad = good;                                                                                                        \
     bad.field = value;                                                                                                 \
-    assert_refused(*state, &bad, named)
+    assert_refused(f, &bad, named)
     REFUSED(multisample, true, "frame.depth_texture");
-    (void)fixture_no_gl_error(state); /* a texture of another target cannot be bound, and OpenGL reports an error */
+    (void)fixture_no_gl_error(NULL); /* a texture of another target cannot be bound, and OpenGL reports an error */
     REFUSED(viewport[0], -1, "frame.viewport[0]");
     REFUSED(viewport[1], -1, "frame.viewport[1]");
     REFUSED(viewport[2], W, "frame.viewport");
     REFUSED(depth_kind, GLSSAO_DEPTH_LOGARITHMIC, "frame.log_depth_far");
     bad.log_depth_far = 10.0f;
     bad.log_depth_constant = -1.0f;
-    assert_refused(*state, &bad, "frame.log_depth_constant");
+    assert_refused(f, &bad, "frame.log_depth_constant");
     bad.log_depth_constant = NAN;
-    assert_refused(*state, &bad, "frame.log_depth_constant");
+    assert_refused(f, &bad, "frame.log_depth_constant");
     bad = good;
     memcpy(bad.viewport, (const int[4]){1, 0, W, H}, sizeof bad.viewport);
-    assert_refused(*state, &bad, "frame.viewport");
+    assert_refused(f, &bad, "frame.viewport");
     REFUSED(projection[0], 0.0f, "frame.projection is singular");
     REFUSED(projection[14], 0.0f, "frame.projection");
     REFUSED(projection[5], NAN, "frame.projection[5]");
@@ -269,7 +266,6 @@ TEST_GL(formats_that_cannot_hold_it_are_named)
          "GL_RGBA8 can't hold view distance in alpha"},
         {GL_RGBA16F, GL_RGBA, GL_FLOAT, GLSSAO_DEPTH_NORMAL_ALPHA, GLSSAO_NORMAL_SIGNED, NULL},
     };
-    fixture *f = *state;
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     SCOPED(subject) subject s = room();
     SCOPED(frame) const glssao_frame good = subject_frame(&s, DEPTH_24, NORMAL_NONE);
@@ -305,7 +301,6 @@ TEST_GL(textures_that_hold_no_motion_are_named)
         {GL_RG16F, GL_RG, GL_FLOAT, NULL},
         {GL_RGBA32F, GL_RGBA, GL_FLOAT, NULL},
     };
-    fixture *f = *state;
     glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     settings.history = 4;
     SCOPED(subject) subject s = room();
@@ -363,7 +358,7 @@ TEST_GL(targets_and_sizes_are_named)
             GLint after = -1;
             gl.ActiveTexture(GL_TEXTURE1);
             gl.BindTexture(cases[i].target, names[bound]);
-            assert_refused(*state, &frame, cases[i].named);
+            assert_refused(f, &frame, cases[i].named);
             gl.GetIntegerv(cases[i].binding, &after);
             assert_int_equal(after, names[bound]);
             gl.BindTexture(cases[i].target, 0);
@@ -372,9 +367,8 @@ TEST_GL(targets_and_sizes_are_named)
         gl.DeleteTextures(1, &texture);
         gl.DeleteTextures(1, &other);
     }
-    glssao_effect *effect = fixture_shared_effect(*state, W + 2, H);
+    glssao_effect *effect = fixture_shared_effect(f, W + 2, H);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
-    fixture *f = *state;
     fixture_clear_log(f);
     fixture_refused(f, glssao_compute(effect, &good, &settings),
                     "a GL_TEXTURE_2D of 60 x 44, not of the full size, 62 x 44: call glssao_resize");
@@ -384,7 +378,6 @@ TEST_GL(targets_and_sizes_are_named)
 
 TEST_GL(a_map_that_a_pass_draws_into_is_refused)
 {
-    fixture *f = *state;
     SCOPED(subject) subject s = room();
     glssao_frame frame = subject_frame(&s, DEPTH_24, NORMAL_NONE), bad = frame;
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
@@ -404,7 +397,6 @@ TEST_GL(a_map_that_a_pass_draws_into_is_refused)
 /* Drawn into, attached beside the drawn texture, or attached with no draw buffer: each is feedback. */
 TEST_GL(applying_into_what_is_read_is_refused)
 {
-    fixture *f = *state;
     SCOPED(subject) subject s = room();
     SCOPED(frame) glssao_frame frame = subject_frame(&s, DEPTH_24, NORMAL_32F);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
@@ -438,12 +430,12 @@ TEST_GL(depth_may_stay_attached_to_the_bound_framebuffer)
     SCOPED(subject) subject s = room();
     SCOPED(frame) glssao_frame frame = subject_frame(&s, DEPTH_24, NORMAL_32F);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
-    SCOPED(picture) picture detached = subject_shade(*state, W, H, &frame, &settings);
+    SCOPED(picture) picture detached = subject_shade(f, W, H, &frame, &settings);
     GLuint framebuffer;
     gl.GenFramebuffers(1, &framebuffer);
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, frame.depth_texture, 0);
-    SCOPED(picture) picture attached = subject_shade(*state, W, H, &frame, &settings);
+    SCOPED(picture) picture attached = subject_shade(f, W, H, &frame, &settings);
     assert_memory_equal(detached.values, attached.values, (size_t)W * H * sizeof(float));
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     gl.DeleteFramebuffers(1, &framebuffer);

@@ -98,10 +98,8 @@ static void assert_agree(const picture *a, const picture *b, const char *what)
 
 static glssao_frame room_frame(analytic_projection kind, int width, int height, depth_store depth, normal_store normal)
 {
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
     const analytic_view view = analytic_make_view(kind, (double)width / height, 0.5, 40.0, 1.0);
-    SCOPED(subject) subject s = subject_of(&view, room, ANALYTIC_ROOM_SHAPES, width, height);
+    SCOPED(subject) subject s = subject_of(&view, analytic_unit_room, ANALYTIC_ROOM_SHAPES, width, height);
     const glssao_frame frame = subject_frame(&s, depth, normal);
     return frame;
 }
@@ -148,6 +146,7 @@ static int end_ways(void **state)
     }
     return fixture_no_gl_error(state);
 }
+#define TEST_WAYS(name) TEST_OF(name, fixture, f, end_ways)
 
 static glssao_settings wide_horizon(glssao_quality quality)
 {
@@ -158,18 +157,18 @@ static glssao_settings wide_horizon(glssao_quality quality)
 
 static int stride = 1;
 
-TEST_WITH(techniques_and_qualities_agree, end_ways)
+TEST_WAYS(techniques_and_qualities_agree)
 {
     SCOPED(frame) glssao_frame frame = room_frame(PERSPECTIVE, 97, 63, DEPTH_24, NORMAL_32F);
     for (int i = 0; i < CONFIGURATIONS; i += stride) {
         configuration c = configuration_of(i);
         if (c.settings.blur == GLSSAO_BLUR_NONE)
             continue;
-        assert_alike(*state, c.name, 97, 63, &frame, &c.settings);
+        assert_alike(f, c.name, 97, 63, &frame, &c.settings);
     }
 }
 
-TEST_WITH(blurs_and_sizes_of_the_result_agree, end_ways)
+TEST_WAYS(blurs_and_sizes_of_the_result_agree)
 {
     glssao_frame frame = room_frame(ORTHOGRAPHIC_REVERSED, 66, 51, DEPTH_32F, NORMAL_16F);
     for (int blur = GLSSAO_BLUR_NONE; blur <= GLSSAO_BLUR_PLANAR; ++blur)
@@ -181,22 +180,22 @@ TEST_WITH(blurs_and_sizes_of_the_result_agree, end_ways)
             s.upsample = size > 1;
             char what[64];
             snprintf(what, sizeof what, "blur %d, size %d", blur, size);
-            assert_alike(*state, what, 66, 51, &frame, &s);
+            assert_alike(f, what, 66, 51, &frame, &s);
         }
     fixture_delete_frame(&frame);
 }
 
-TEST_WITH(odd_and_small_sizes_agree, end_ways)
+TEST_WAYS(odd_and_small_sizes_agree)
 {
     static const int sizes[][2] = {{1, 40}, {47, 2}, {8, 8}, {17, 33}, {128, 9}};
     const glssao_settings s = wide_horizon(GLSSAO_MEDIUM);
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; ++i) {
         SCOPED(frame) glssao_frame frame = room_frame(PERSPECTIVE, sizes[i][0], sizes[i][1], DEPTH_32F, NORMAL_32F);
-        assert_alike(*state, "size", sizes[i][0], sizes[i][1], &frame, &s);
+        assert_alike(f, "size", sizes[i][0], sizes[i][1], &frame, &s);
     }
 }
 
-TEST_WITH(ways_to_hand_over_agree, end_ways)
+TEST_WAYS(ways_to_hand_over_agree)
 {
     static const struct {
         analytic_projection projection;
@@ -209,11 +208,11 @@ TEST_WITH(ways_to_hand_over_agree, end_ways)
     const glssao_settings s = wide_horizon(GLSSAO_MEDIUM);
     for (size_t i = 0; i < sizeof stores / sizeof *stores; ++i) {
         SCOPED(frame) glssao_frame frame = room_frame(stores[i].projection, 64, 48, stores[i].depth, stores[i].normal);
-        assert_alike(*state, subject_depth_name(stores[i].depth), 64, 48, &frame, &s);
+        assert_alike(f, subject_depth_name(stores[i].depth), 64, 48, &frame, &s);
     }
 }
 
-TEST_WITH(margins_layers_and_viewports_agree, end_ways)
+TEST_WAYS(margins_layers_and_viewports_agree)
 {
     const analytic_shape wall[] = {{ANALYTIC_PLANE, {0.0, 0.0, -9.0}, {0.0, 0.0, 1.0}}};
     const analytic_view view = analytic_make_view(PERSPECTIVE, 90.0 / 70.0, 0.5, 40.0, 1.0);
@@ -234,14 +233,14 @@ TEST_WITH(margins_layers_and_viewports_agree, end_ways)
             s.blur = GLSSAO_BLUR_NONE;
         if (i == 3)
             s.blur = GLSSAO_BLUR_GAUSSIAN;
-        assert_alike(*state, "margin and layers", 90, 70, &changed, &s);
+        assert_alike(f, "margin and layers", 90, 70, &changed, &s);
         memcpy(changed.viewport, (const int[4]){3, 5, 80, 60}, sizeof changed.viewport);
-        assert_alike(*state, "viewport", 80, 60, &changed, &s);
+        assert_alike(f, "viewport", 80, 60, &changed, &s);
     }
 }
 
 /* Rays alone and as a correction, at each size of rays and estimate. */
-TEST_WITH(rays_agree, end_ways)
+TEST_WAYS(rays_agree)
 {
     float values[66 * 51];
     for (int i = 0; i < 66 * 51; ++i)
@@ -256,20 +255,20 @@ TEST_WITH(rays_agree, end_ways)
         s.power = 1.0f + (float)(i % 2);
         frame.margin = margin ? 8 : 0;
         frame.rays_texture = fixture_texture(GL_R32F, GL_RED, GL_FLOAT, width, height, values);
-        assert_alike(*state, "rays", 66, 51, &frame, &s);
+        assert_alike(f, "rays", 66, 51, &frame, &s);
         gl.DeleteTextures(1, &frame.rays_texture);
         frame.rays_texture = 0;
     }
 }
 
 /* Estimates are added by drawing; the passes before and after may be dispatched. */
-TEST_WITH(accumulated_estimates_agree, end_ways)
+TEST_WAYS(accumulated_estimates_agree)
 {
     picture pictures[2];
     SCOPED(frame) glssao_frame frame = room_frame(PERSPECTIVE, 64, 48, DEPTH_32F, NORMAL_32F);
     const glssao_settings s = wide_horizon(GLSSAO_LOW);
     for (int i = 0; i < 2; ++i) {
-        host *const h = &(host){.f = *state};
+        host *const h = &(host){.f = f};
         SCOPED(effect) glssao_effect *effect = NULL;
         assert_int_equal(make(h, i ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT, 64, 48, &effect), GLSSAO_OK);
         for (int k = 0; k < 3; ++k)
@@ -282,7 +281,7 @@ TEST_WITH(accumulated_estimates_agree, end_ways)
 }
 
 /* Which way a host's frames take, and the bits of the picture where they are drawn. */
-TEST_WITH(the_context_and_the_config_decide, end_ways)
+TEST_WAYS(the_context_and_the_config_decide)
 {
     static const struct {
         bool knows_3_3_alone, claims_3_3, claims_gpu;
@@ -298,7 +297,6 @@ TEST_WITH(the_context_and_the_config_decide, end_ways)
         {true, true, false, GLSSAO_PATH_AUTO, GLSSAO_PATH_FRAGMENT},
         {true, false, false, GLSSAO_PATH_COMPUTE, GLSSAO_PATH_AUTO},
     };
-    fixture *f = *state;
     SCOPED(frame) glssao_frame frame = room_frame(PERSPECTIVE, 64, 48, DEPTH_24, NORMAL_32F);
     const glssao_settings s = wide_horizon(GLSSAO_MEDIUM);
     picture wanted = {0};
@@ -332,18 +330,16 @@ TEST_WITH(the_context_and_the_config_decide, end_ways)
     free(wanted.values);
 }
 
-TEST_WITH(an_unknown_path_is_refused, end_ways)
+TEST_WAYS(an_unknown_path_is_refused)
 {
-    fixture *f = *state;
     glssao_effect *none;
     assert_int_equal(make(&(host){.f = f}, (glssao_path)3, 64, 48, &none), GLSSAO_INVALID_ARGUMENT);
     assert_non_null(strstr(f->log, "config.path = 3"));
 }
 
 /* If the library chose compute shaders and the driver refuses them, the host notices nothing. */
-TEST_WITH(refused_compute_shaders_are_done_without, end_ways)
+TEST_WAYS(refused_compute_shaders_are_done_without)
 {
-    fixture *f = *state;
     host h = {.f = f, .claims_gpu = true, .refuses_compute = true};
     SCOPED(frame) glssao_frame frame = room_frame(PERSPECTIVE, 64, 48, DEPTH_24, NORMAL_32F);
     const glssao_settings s = wide_horizon(GLSSAO_MEDIUM);

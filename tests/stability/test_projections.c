@@ -35,10 +35,8 @@ static int teardown(void **state)
 
 static subject room(analytic_projection kind)
 {
-    analytic_shape shapes[ANALYTIC_ROOM_SHAPES];
-    analytic_room(shapes, 1.0);
     const analytic_view view = analytic_make_view(kind, (double)W / H, 0.5, 40.0, 1.0);
-    return subject_of(&view, shapes, ANALYTIC_ROOM_SHAPES, W, H);
+    return subject_of(&view, analytic_unit_room, ANALYTIC_ROOM_SHAPES, W, H);
 }
 
 static void assert_same(fixture *f, const glssao_frame *plain, const glssao_frame *other, double most, const char *what)
@@ -97,7 +95,7 @@ TEST_GL(turned_cameras_see_the_same)
             turn_frame(&s, degrees[i], normals ? NORMAL_32F : NORMAL_NONE, &turned);
             char what[32];
             snprintf(what, sizeof what, "%g degrees", degrees[i]);
-            assert_same(*state, &plain, &turned, 5e-4, what);
+            assert_same(f, &plain, &turned, 5e-4, what);
         }
 }
 
@@ -110,7 +108,7 @@ TEST_GL(rebuilt_normals_are_in_view_space)
     turn_frame(&s, 30.0, NORMAL_NONE, &frames[1]);
     float *maps[2];
     for (int i = 0; i < 2; ++i) {
-        free(subject_shade_by(*state, effects[0], &frames[i], &settings).values);
+        free(subject_shade_by(f, effects[0], &frames[i], &settings).values);
         maps[i] = fixture_read_rebuilt(effects[0], W, H, 2);
     }
     const double c = cos(PI / 6.0), n = sin(PI / 6.0);
@@ -183,8 +181,7 @@ TEST_GL(normals_in_world_space_are_turned)
         memcpy(other.view, view, sizeof view);
         other.world_normals = true;
         /* Half floats and 8 bits are off by up to half a degree; at thresholds that shows. */
-        assert_same(*state, &plain, &other, store == NORMAL_32F || store == NORMAL_OCTAHEDRAL ? 1e-3 : 6e-3,
-                    "world space");
+        assert_same(f, &plain, &other, store == NORMAL_32F || store == NORMAL_OCTAHEDRAL ? 1e-3 : 6e-3, "world space");
         glssao_frame turned = other; /* and by a camera that rolls: view space turns, world space does not */
         const double c = cos(1.0), n = sin(1.0);
         for (int k = 0; k < 4; ++k) {
@@ -193,7 +190,7 @@ TEST_GL(normals_in_world_space_are_turned)
             turned.view[4 * k] = (float)(c * (double)view[4 * k] - n * (double)view[4 * k + 1]);
             turned.view[4 * k + 1] = (float)(n * (double)view[4 * k] + c * (double)view[4 * k + 1]);
         }
-        assert_same(*state, &other, &turned, 1e-3, "world space, turned");
+        assert_same(f, &other, &turned, 1e-3, "world space, turned");
         subject_free(&s);
         free(world.normals);
     }
@@ -201,7 +198,6 @@ TEST_GL(normals_in_world_space_are_turned)
 
 TEST_GL(views_are_checked_where_they_count)
 {
-    fixture *f = *state;
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     SCOPED(subject) subject s = room(PERSPECTIVE);
     SCOPED(frame) glssao_frame frame = subject_frame(&s, DEPTH_32F, NORMAL_32F);
@@ -235,7 +231,7 @@ TEST_GL(residues_change_nothing)
         for (int k = 0; k < 6; ++k) /* infinite reversed depth has a third row of 0, and so none of its own */
             if (i != 1 || entries[k] % 4 != 2)
                 other.projection[entries[k]] = (k % 2 ? -2.7e-8f : 2.7e-8f) * (i == 2 ? 0.01f : 1.0f);
-        assert_same(*state, &plain, &other, 0.0, "residues");
+        assert_same(f, &plain, &other, 0.0, "residues");
         fixture_delete_frame(&plain);
     }
 }
@@ -252,7 +248,7 @@ TEST_GL(eyes_behind_the_near_plane_see_the_same)
             other.projection[14] -= (float)moves[i] * other.projection[10];
             char what[48];
             snprintf(what, sizeof what, "an eye that is %g farther%s", moves[i], reversed ? ", reversed" : "");
-            assert_same(*state, &plain, &other, 1e-3, what);
+            assert_same(f, &plain, &other, 1e-3, what);
             fixture_delete_frame(&plain);
         }
 }
@@ -266,14 +262,14 @@ TEST_GL(far_fades_follow_the_hosts_eye)
         SCOPED(frame) glssao_frame frame = subject_frame(&s, DEPTH_32F, NORMAL_32F);
         glssao_settings settings = glssao_default_settings(i % 2 ? GLSSAO_HORIZON : GLSSAO_HEMISPHERE, GLSSAO_HIGH);
         settings.radius = 2.0f;
-        SCOPED(picture) picture without = subject_shade_by(*state, effects[0], &frame, &settings);
+        SCOPED(picture) picture without = subject_shade_by(f, effects[0], &frame, &settings);
         settings.fade_far_start = 5.0f;
         settings.fade_far_end = 9.0f;
-        SCOPED(picture) picture plain = subject_shade_by(*state, effects[0], &frame, &settings);
+        SCOPED(picture) picture plain = subject_shade_by(f, effects[0], &frame, &settings);
         frame.projection[14] -= (float)moves[i / 2] * frame.projection[10];
         settings.fade_far_start -= (float)moves[i / 2];
         settings.fade_far_end -= (float)moves[i / 2];
-        SCOPED(picture) picture moved = subject_shade_by(*state, effects[0], &frame, &settings);
+        SCOPED(picture) picture moved = subject_shade_by(f, effects[0], &frame, &settings);
         double apart = 0.0, faded = 0.0;
         for (int k = 0; k < W * H; ++k) {
             apart = fmax(apart, fabs((double)plain.values[k] - (double)moved.values[k]));
@@ -321,7 +317,7 @@ TEST_GL(oblique_near_planes_change_nothing)
         SCOPED(frame) glssao_frame plain = subject_frame(&s, DISTANCE_32F, i % 2 ? NORMAL_NONE : NORMAL_32F);
         make_oblique(&s, planes[i % 2], i == 3);
         SCOPED(frame) glssao_frame other = subject_frame(&s, stores[i / 2], i % 2 ? NORMAL_NONE : NORMAL_32F);
-        assert_same(*state, &plain, &other, 2e-3, "an oblique near plane");
+        assert_same(f, &plain, &other, 2e-3, "an oblique near plane");
     }
 }
 
@@ -343,7 +339,7 @@ TEST_GL(planes_stay_open)
                 frame.projection[14] -= 10.0f * frame.projection[10]; /* the plane lies behind the eye */
             for (int number = 1; number < CONFIGURATIONS; number += 3) {
                 const configuration c = configuration_of(number);
-                SCOPED(picture) picture p = subject_shade_by(*state, effects[0], &frame, &c.settings);
+                SCOPED(picture) picture p = subject_shade_by(f, effects[0], &frame, &c.settings);
                 if (picture_least(&p) < 0.995)
                     fail_msg("case %d, %s: %g", i, c.name, picture_least(&p));
             }
@@ -355,7 +351,6 @@ TEST_GL(planes_stay_open)
 
 TEST_GL(doubts_are_told_once)
 {
-    fixture *f = *state;
     static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     SCOPED(subject) subject s = room(PERSPECTIVE);

@@ -156,7 +156,7 @@ TEST_GL(random_cases)
 {
     print_message("%d cases from seed %llu\n", cases, (unsigned long long)first_seed);
     for (int i = 0; i < cases; ++i)
-        random_case(*state, first_seed + (uint64_t)i);
+        random_case(f, first_seed + (uint64_t)i);
 }
 
 int main(int argc, char **argv)

@@ -63,13 +63,13 @@ static picture plain(fixture *f, const glssao_settings *settings)
 
 typedef void (*relation)(fixture *f, const configuration *c, const picture *first);
 
-static void for_each_configuration(void **state, relation check)
+static void for_each_configuration(fixture *f, relation check)
 {
     for (int i = 0; i < CONFIGURATIONS; i += stride) {
         const configuration c = configuration_of(i);
-        SCOPED(picture) picture first = plain(*state, &c.settings);
+        SCOPED(picture) picture first = plain(f, &c.settings);
         assert_true(picture_mean(&first) < 0.995); /* some pixel is occluded */
-        check(*state, &c, &first);
+        check(f, &c, &first);
     }
 }
 
@@ -82,7 +82,7 @@ static void check_repeats(fixture *f, const configuration *c, const picture *fir
 
 TEST_GL(runs_repeat)
 {
-    for_each_configuration(state, check_repeats);
+    for_each_configuration(f, check_repeats);
 }
 
 static void check_scale(fixture *f, const configuration *c, const picture *first)
@@ -100,7 +100,7 @@ static void check_scale(fixture *f, const configuration *c, const picture *first
 
 TEST_GL(scale_changes_nothing)
 {
-    for_each_configuration(state, check_scale);
+    for_each_configuration(f, check_scale);
 }
 
 static void check_directions(fixture *f, const configuration *c, const picture *first)
@@ -118,7 +118,7 @@ static void check_directions(fixture *f, const configuration *c, const picture *
 
 TEST_GL(depth_directions_agree)
 {
-    for_each_configuration(state, check_directions);
+    for_each_configuration(f, check_directions);
 }
 
 /* The lower left part of the picture, by an off-centre projection. It must equal the crop, except for a margin on its
@@ -150,7 +150,7 @@ static void check_tile(fixture *f, const configuration *c, const picture *first)
 
 TEST_GL(tiles_are_crops)
 {
-    for_each_configuration(state, check_tile);
+    for_each_configuration(f, check_tile);
 }
 
 /* Noise, sample positions and the texel that stands for four at half size do not turn along. */
@@ -171,7 +171,7 @@ static void check_turn(fixture *f, const configuration *c, const picture *first)
 
 TEST_GL(quarter_turns_turn_the_picture)
 {
-    for_each_configuration(state, check_turn);
+    for_each_configuration(f, check_turn);
 }
 
 /* The filters compare stored normals, which project to a plane that has no place for those straight away from the eye.
@@ -187,7 +187,7 @@ static void check_away(fixture *f, const configuration *c, const picture *first)
 
 TEST_GL(normals_may_look_away)
 {
-    for_each_configuration(state, check_away);
+    for_each_configuration(f, check_away);
 }
 
 static void check_radius(fixture *f, const configuration *c, const picture *first)
@@ -213,7 +213,7 @@ static void check_radius(fixture *f, const configuration *c, const picture *firs
 
 TEST_GL(greater_radius_never_brightens_the_mean)
 {
-    for_each_configuration(state, check_radius);
+    for_each_configuration(f, check_radius);
 }
 
 /* Later rounds of the planar blur weigh neighbours by likeness, which a power changes: each by less than half the
@@ -242,7 +242,7 @@ static void check_power(fixture *f, const configuration *c, const picture *first
 
 TEST_GL(greater_power_never_brightens)
 {
-    for_each_configuration(state, check_power);
+    for_each_configuration(f, check_power);
 }
 
 int main(int argc, char **argv)

@@ -210,14 +210,15 @@ double analytic_accessibility(const analytic_shape *shapes, int shape_count, con
     return analytic_open(shapes, shape_count, point, normal, radius, rays, mean);
 }
 
+const analytic_shape analytic_unit_room[ANALYTIC_ROOM_SHAPES] = {
+    {ANALYTIC_PLANE, {0.0, -1.5, 0.0}, {0.0, 1.0, 0.0}},   {ANALYTIC_PLANE, {-2.5, 0.0, 0.0}, {1.0, 0.0, 0.0}},
+    {ANALYTIC_SPHERE, {0.6, -0.7, -4.0}, {0.8, 0.0, 0.0}}, {ANALYTIC_SPHERE, {1.8, -1.1, -5.2}, {0.4, 0.0, 0.0}},
+    {ANALYTIC_BOX, {-1.2, -1.0, -5.5}, {0.5, 0.5, 0.5}},   {ANALYTIC_BOX, {0.9, -0.2, -8.5}, {1.6, 1.3, 0.4}},
+};
+
 void analytic_room(analytic_shape shapes[ANALYTIC_ROOM_SHAPES], double scale)
 {
-    static const analytic_shape room[ANALYTIC_ROOM_SHAPES] = {
-        {ANALYTIC_PLANE, {0.0, -1.5, 0.0}, {0.0, 1.0, 0.0}},   {ANALYTIC_PLANE, {-2.5, 0.0, 0.0}, {1.0, 0.0, 0.0}},
-        {ANALYTIC_SPHERE, {0.6, -0.7, -4.0}, {0.8, 0.0, 0.0}}, {ANALYTIC_SPHERE, {1.8, -1.1, -5.2}, {0.4, 0.0, 0.0}},
-        {ANALYTIC_BOX, {-1.2, -1.0, -5.5}, {0.5, 0.5, 0.5}},   {ANALYTIC_BOX, {0.9, -0.2, -8.5}, {1.6, 1.3, 0.4}},
-    };
-    memcpy(shapes, room, sizeof room);
+    memcpy(shapes, analytic_unit_room, sizeof analytic_unit_room);
     for (int i = 0; i < ANALYTIC_ROOM_SHAPES; ++i)
         for (int axis = 0; axis < 3; ++axis) {
             shapes[i].center[axis] *= scale;

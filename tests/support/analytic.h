@@ -52,6 +52,8 @@ double analytic_accessibility(const analytic_shape *shapes, int shape_count, con
 double analytic_open(const analytic_shape *shapes, int shape_count, const double point[3], const double normal[3],
                      double radius, int rays, double out_mean[3]);
 
-/* A floor, a wall, two spheres and two boxes, 3 to 9 units away. `scale` multiplies all lengths. */
+/* A floor, a wall, two spheres and two boxes, 3 to 9 units away. */
 enum { ANALYTIC_ROOM_SHAPES = 6 };
+extern const analytic_shape analytic_unit_room[ANALYTIC_ROOM_SHAPES];
+/* The same with all lengths times `scale`. */
 void analytic_room(analytic_shape shapes[ANALYTIC_ROOM_SHAPES], double scale);

@@ -19,5 +19,6 @@ typedef struct analytic_shot {
 analytic_shot analytic_take(const analytic_shape *shapes, int shape_count, analytic_projection projection, int width,
                             int height);
 void analytic_free_shot(analytic_shot *s);
+#define test_end_shot analytic_free_shot /* for SCOPED */
 /* View-space position of a pixel's surface, in perspective. */
 void analytic_position(const analytic_shot *s, int x, int y, double out[3]);

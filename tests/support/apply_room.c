@@ -8,16 +8,6 @@
 
 enum { W = APPLY_W, H = APPLY_H };
 
-GLuint apply_make_texture(GLenum format, int width, int height, GLenum components, const float *texels)
-{
-    const GLuint texture = fixture_texture(format, components, GL_FLOAT, width, height, texels);
-    gl.BindTexture(GL_TEXTURE_2D, texture);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl.BindTexture(GL_TEXTURE_2D, 0);
-    return texture;
-}
-
 static float strength_at(int i)
 {
     return i % 97 == 5 ? -3.0f : i % 97 == 6 ? 7.0f : i % 97 == 7 ? NAN : (float)(i % 11) / 10.0f;
@@ -46,8 +36,8 @@ apply_room apply_open_room(fixture *f, glssao_path path)
         for (int k = 0; k < 3; ++k)
             r.albedos[3 * i + k] = (float)((i * (k + 3)) % 17) / 16.0f;
     }
-    r.strength = apply_make_texture(GL_R32F, W, H, GL_RED, r.strengths);
-    r.albedo = apply_make_texture(GL_RGB32F, W, H, GL_RGB, r.albedos);
+    r.strength = gl_make_texture(GL_R32F, GL_RED, GL_FLOAT, W, H, r.strengths);
+    r.albedo = gl_make_texture(GL_RGB32F, GL_RGB, GL_FLOAT, W, H, r.albedos);
     return r;
 }
 
@@ -77,10 +67,8 @@ void apply_clear(const apply_target *t)
 apply_target apply_make_target(GLenum format, int width, int height)
 {
     apply_target t = {
-        .texture = apply_make_texture(format, width, height, GL_RGBA, NULL), .width = width, .height = height};
-    gl.GenFramebuffers(1, &t.framebuffer);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, t.framebuffer);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, t.texture, 0);
+        .texture = gl_make_texture(format, GL_RGBA, GL_FLOAT, width, height, NULL), .width = width, .height = height};
+    (void)gl_make_framebuffer(t.texture, 0, &t.framebuffer);
     apply_clear(&t);
     return t;
 }

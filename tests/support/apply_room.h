@@ -28,7 +28,6 @@ int apply_last_path(void);
 
 /* Its calls are counted by gl_counter. */
 glssao_effect *apply_make_effect(fixture *f, glssao_path path, int width, int height);
-GLuint apply_make_texture(GLenum format, int width, int height, GLenum components, const float *texels);
 
 /* A picture, which is cleared to these values. */
 extern const float apply_before[4];

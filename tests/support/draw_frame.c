@@ -72,13 +72,12 @@ frame frame_draw_with(const small_scene *s, const scene_view *view, const scene_
                       const scene_draw_options *options, unsigned ambient_map)
 {
     char error[512];
-    scene_renderer *r = scene_renderer_create(&s->scene, FAULT(error));
+    SCOPED(renderer) scene_renderer *r = scene_renderer_create(&s->scene, FAULT(error));
     if (!r)
         fail_msg("%s", error);
     if (options && !scene_renderer_configure(r, lighting, options, FAULT(error)))
         fail_msg("%s", error);
     const frame f = draw_by(r, view, lighting, !options || !options->no_prepass, ambient_map);
-    scene_renderer_destroy(r);
     return f;
 }
 
@@ -110,9 +109,8 @@ int frame_count_drawn(const frame *f, int pixels)
 int frame_count_drawn_by(small_scene *s)
 {
     const scene_lighting lighting = scene_default_lighting();
-    frame f = frame_draw(s, &frame_front, &lighting, 0);
+    SCOPED(drawn) frame f = frame_draw(s, &frame_front, &lighting, 0);
     const int count = frame_count_drawn(&f, FRAME_SIZE * FRAME_SIZE);
-    frame_free(&f);
     free(s);
     return count;
 }

@@ -23,10 +23,9 @@ int fixture_setup(void **state)
 
 int fixture_teardown(void **state)
 {
-    fixture *f = *state;
+    SCOPED(memory) fixture *f = *state;
     glssao_destroy(f->effect);
     context_destroy(f->context);
-    free(f);
     return 0;
 }
 
@@ -150,12 +149,11 @@ GLuint fixture_depth_texture(GLenum internal_format, int width, int height, cons
     if (internal_format != GL_DEPTH24_STENCIL8)
         return fixture_texture(internal_format, GL_DEPTH_COMPONENT, GL_FLOAT, width, height, depth);
     size_t count = (size_t)width * (size_t)height;
-    uint32_t *packed = calloc(count, sizeof *packed);
+    SCOPED(memory) uint32_t *packed = calloc(count, sizeof *packed);
     for (size_t i = 0; i < count; ++i)
         packed[i] = (uint32_t)((double)depth[i] * 16777215.0 + 0.5) << 8;
     GLuint texture =
         fixture_texture(GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, width, height, packed);
-    free(packed);
     return texture;
 }
 
@@ -185,7 +183,7 @@ float *fixture_read_rebuilt(const glssao_effect *effect, int width, int height, 
     const uint32_t map = glssao_map(effect, GLSSAO_MAP_REBUILT_NORMAL, &map_width, &map_height);
     assert_int_equal(map_width, (width + factor - 1) / factor);
     assert_int_equal(map_height, (height + factor - 1) / factor);
-    float *stored = fixture_read_texture(map, map_width, map_height, 3);
+    SCOPED(memory) float *stored = fixture_read_texture(map, map_width, map_height, 3);
     float *normals = malloc((size_t)(3 * width * height) * sizeof *normals);
     assert_non_null(normals);
     for (int y = 0; y < height; ++y)
@@ -199,7 +197,6 @@ float *fixture_read_rebuilt(const glssao_effect *effect, int width, int height, 
             for (int axis = 0; axis < 3; ++axis)
                 n[axis] /= length;
         }
-    free(stored);
     return normals;
 }
 
@@ -263,10 +260,8 @@ glssao_frame fixture_frame(const analytic_view *view, const analytic_shape *shap
 
 glssao_frame fixture_room(analytic_projection kind, int width, int height)
 {
-    analytic_shape room[ANALYTIC_ROOM_SHAPES];
-    analytic_room(room, 1.0);
     const analytic_view view = analytic_make_view(kind, (double)width / height, 0.5, 40.0, 1.0);
-    return fixture_frame(&view, room, ANALYTIC_ROOM_SHAPES, width, height);
+    return fixture_frame(&view, analytic_unit_room, ANALYTIC_ROOM_SHAPES, width, height);
 }
 
 void fixture_delete_frame(const glssao_frame *frame)
@@ -287,11 +282,6 @@ float *fixture_compute(glssao_effect *effect, const glssao_frame *frame, const g
 {
     assert_int_equal(glssao_compute(effect, frame, settings), GLSSAO_OK);
     return fixture_read_ambient(effect, out_width, out_height);
-}
-
-void test_end_effect(glssao_effect **effect)
-{
-    glssao_destroy(*effect);
 }
 
 void test_end_texture(const GLuint *texture)

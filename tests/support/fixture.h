@@ -23,8 +23,8 @@ int fixture_setup(void **state);
 int fixture_teardown(void **state);
 /* cmocka test teardown. Fails if GL has an error or the library logged one. */
 int fixture_no_gl_error(void **state);
-/* A test after which GL must hold no error. */
-#define TEST_GL(name) TEST_WITH(name, fixture_no_gl_error)
+/* A test of the fixture f, after which GL must hold no error. */
+#define TEST_GL(name) TEST_OF(name, fixture, f, fixture_no_gl_error)
 
 void fixture_clear_log(fixture *f);
 void fixture_log(glssao_log_level level, const char *message, void *user);
@@ -88,7 +88,7 @@ float *fixture_compute(glssao_effect *effect, const glssao_frame *frame, const g
                        int *out_width, int *out_height);
 
 /* For SCOPED, which runs them in the reverse order of the variables. */
-void test_end_effect(glssao_effect **effect);
+SCOPED_BY(effect, glssao_effect, glssao_destroy)
 void test_end_texture(const GLuint *texture);
 #define test_end_frame fixture_delete_frame
 #define test_end_target fixture_delete_target

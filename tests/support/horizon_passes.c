@@ -4,7 +4,13 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
+
+void paired_free(paired_map *map)
+{
+    free(map->texels);
+}
 
 /* The parts of a texel's red channel. */
 enum { NORMAL_BITS = 10, AXIS_BITS = 5 };

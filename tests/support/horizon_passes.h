@@ -13,6 +13,8 @@ typedef struct paired_map {
     float *texels; /* three a texel, the third unused */
     int width, height;
 } paired_map;
+void paired_free(paired_map *map);
+#define test_end_paired paired_free /* for SCOPED */
 
 typedef struct pass_constants {
     double tolerance, near, hollow; /* scene units; used by the last of the later blur rounds only */

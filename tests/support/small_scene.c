@@ -109,21 +109,19 @@ void small_scene_add_sphere(small_scene *s)
     enum { AROUND = 24, DOWN = 12 };
     const double pi = 3.14159265358979323846;
     uint32_t first = s->scene.vertex_count;
-    for (int j = 0; j <= DOWN; j++) {
+    for (int j = 0; j <= DOWN; j++)
         for (int i = 0; i <= AROUND; i++) {
             double longitude = 2 * pi * i / AROUND, latitude = pi * j / DOWN;
             float point[3] = {(float)(sin(latitude) * sin(longitude)), (float)cos(latitude),
                               (float)(sin(latitude) * cos(longitude))};
             add_vertex(s, point, point, (float)i / 4, (float)j / 4);
         }
-    }
-    for (uint32_t j = 0; j < DOWN; j++) {
+    for (uint32_t j = 0; j < DOWN; j++)
         for (uint32_t i = 0; i < AROUND; i++) {
             uint32_t above = first + j * (AROUND + 1) + i, below = above + AROUND + 1;
             add_triangle(s, above, below, above + 1);
             add_triangle(s, above + 1, below, below + 1);
         }
-    }
 }
 
 void small_scene_add_instance(small_scene *s, const float world_from_mesh[16])
@@ -131,7 +129,7 @@ void small_scene_add_instance(small_scene *s, const float world_from_mesh[16])
     const float *m = world_from_mesh ? world_from_mesh : identity;
     const scene_primitive *p = &s->primitives[s->scene.primitive_count - 1];
     scene *all = &s->scene;
-    for (int k = 0; k < 8; k++) {
+    for (int k = 0; k < 8; k++)
         for (int row = 0; row < 3; row++) {
             float at = m[12 + row];
             for (int c = 0; c < 3; c++)
@@ -140,7 +138,6 @@ void small_scene_add_instance(small_scene *s, const float world_from_mesh[16])
             all->bounds_min[row] = first ? at : fminf(all->bounds_min[row], at);
             all->bounds_max[row] = first ? at : fmaxf(all->bounds_max[row], at);
         }
-    }
     memcpy(s->instances[all->instance_count++].world_from_mesh, m, sizeof identity);
     s->meshes[all->mesh_count - 1].instance_count++;
 }
@@ -150,13 +147,12 @@ void small_scene_turned_and_scaled(float x, float y, float z, float out[16])
     const double axis[3] = {1 / sqrt(14), 2 / sqrt(14), 3 / sqrt(14)}, cosine = cos(0.8), sine = sin(0.8);
     const double scale[3] = {x, y, z};
     memset(out, 0, 16 * sizeof *out);
-    for (int c = 0; c < 3; c++) {
+    for (int c = 0; c < 3; c++)
         for (int r = 0; r < 3; r++) {
             const double skew = r == c ? 0 : axis[3 - r - c] * ((r + 1) % 3 == c ? -sine : sine);
             const double turn = (r == c ? cosine : 0) + skew + (1 - cosine) * axis[r] * axis[c];
             out[4 * c + r] = (float)(turn * scale[c]);
         }
-    }
     out[15] = 1;
 }
 

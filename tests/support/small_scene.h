@@ -5,6 +5,7 @@
 #pragma once
 
 #include "scene.h"
+#include "scene_scopes.h"
 
 enum { SMALL_SCENE_VERTICES = 16384, SMALL_SCENE_PARTS = 256 };
 

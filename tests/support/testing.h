@@ -34,15 +34,26 @@ int test_release(void **state);
 #define SCOPED(kind) __attribute__((cleanup(test_end_##kind)))
 /* `at` points to a pointer. */
 void test_end_memory(const void *at);
+/* Makes a test_end_KIND for pointers, which hands them to `release`. */
+#define SCOPED_BY(kind, type, release)                                                                                 \
+    static inline void test_end_##kind(type **at)                                                                      \
+    {                                                                                                                  \
+        release(*at);                                                                                                  \
+    }
 
-/* A test with a teardown of its own. */
-#define TEST_WITH(name, teardown)                                                                                      \
-    static void name(void **state);                                                                                    \
+/* A test with a teardown of its own, and with the group's *state as `given`. */
+#define TEST_OF(name, type, given, teardown)                                                                           \
+    static void name(type *given);                                                                                     \
+    static void name##_runs(void **state)                                                                              \
+    {                                                                                                                  \
+        name((type *)*state);                                                                                          \
+    }                                                                                                                  \
     __attribute__((constructor)) static void name##_registers(void)                                                    \
     {                                                                                                                  \
-        test_register(#name, name, teardown);                                                                          \
+        test_register(#name, name##_runs, teardown);                                                                   \
     }                                                                                                                  \
-    static void name(__attribute__((unused)) void **state)
+    static void name(__attribute__((unused)) type *given)
+#define TEST_WITH(name, teardown) TEST_OF(name, void, state, teardown)
 #define TEST(name) TEST_WITH(name, test_release)
 
 void test_register(const char *name, CMUnitTestFunction test, CMFixtureFunction teardown);

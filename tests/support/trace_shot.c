@@ -10,9 +10,8 @@ trace_scene *trace_shot_open(const scene *s)
 {
     char error[ERROR_LENGTH] = "";
     trace_scene *t = trace_scene_create(s, FAULT(error));
-    if (!t) {
+    if (!t)
         fail_msg("%s", error);
-    }
     return t;
 }
 
@@ -22,9 +21,8 @@ double trace_shot_point(const trace_scene *t, float x, float y, float z, float r
     const float position[1][3] = {{x, y, z}}, up[1][3] = {{0, 1, 0}};
     const trace_options options = {.radius = radius, .samples = samples, .threads = 1};
     float out = -1;
-    if (!trace_points(t, position, up, 1, TRACE_COSINE, 1e-5f, &options, &out, NULL, FAULT(error))) {
+    if (!trace_points(t, position, up, 1, TRACE_COSINE, 1e-5f, &options, &out, NULL, FAULT(error)))
         fail_msg("%s", error);
-    }
     return (double)out;
 }
 
@@ -42,28 +40,24 @@ trace_shot trace_shot_take(const scene *s, const scene_view *view, trace_options
 {
     char error[ERROR_LENGTH] = "";
     trace_shot out;
-    trace_scene *t = trace_shot_open(s);
-    if (!trace_accessibility(t, view, &options, out.accessibility, out.foreground, &out.stats, FAULT(error))) {
+    SCOPED(traced) trace_scene *t = trace_shot_open(s);
+    if (!trace_accessibility(t, view, &options, out.accessibility, out.foreground, &out.stats, FAULT(error)))
         fail_msg("%s", error);
-    }
-    trace_scene_destroy(t);
     return out;
 }
 
 int trace_shot_foreground(const trace_shot *p)
 {
     int count = 0;
-    for (int i = 0; i < TRACE_SHOT_PIXELS; i++) {
+    for (int i = 0; i < TRACE_SHOT_PIXELS; i++)
         count += p->foreground[i];
-    }
     return count;
 }
 
 double trace_shot_difference(const trace_shot *a, const trace_shot *b)
 {
     double sum = 0;
-    for (int i = 0; i < TRACE_SHOT_PIXELS; i++) {
+    for (int i = 0; i < TRACE_SHOT_PIXELS; i++)
         sum += fabs((double)a->accessibility[i] - (double)b->accessibility[i]);
-    }
     return sum / TRACE_SHOT_PIXELS;
 }

@@ -4,7 +4,10 @@
  */
 #pragma once
 
+#include "testing.h"
 #include "trace.h"
+
+SCOPED_BY(traced, trace_scene, trace_scene_destroy)
 
 enum { TRACE_SHOT_SIDE = 32, TRACE_SHOT_PIXELS = TRACE_SHOT_SIDE * TRACE_SHOT_SIDE };
 

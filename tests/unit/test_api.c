@@ -84,14 +84,12 @@ static glssao_result create_through(fixture *f, const char *missing, const char 
 
 TEST_GL(driver_with_other_block_offsets_is_refused)
 {
-    fixture *f = *state;
     assert_int_equal(create_with(f, &(liar){.f = f, .wrong_offsets = true}), GLSSAO_SHADER_ERROR);
     assert_non_null(strstr(f->log, "block cbSsao: gBlurWeights has offset 420 in the driver and 416 in C"));
 }
 
 TEST_GL(each_missing_function_is_named)
 {
-    fixture *f = *state;
     static const char *const names[] = {"glActiveTexture", "glGetIntegerv",  "glGetString",
                                         "glGenSamplers",   "glQueryCounter", "glViewport"};
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
@@ -105,12 +103,11 @@ TEST_GL(functions_newer_than_3_3_are_optional)
     static const char *const names[] = {"glClipControl", "glViewportIndexedf", "glBlendFuncSeparatei",
                                         "glBlendEquationSeparatei"};
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
-        assert_int_equal(create_through(*state, names[i], NULL), GLSSAO_OK);
+        assert_int_equal(create_through(f, names[i], NULL), GLSSAO_OK);
 }
 
 TEST_GL(context_of_3_2_is_refused_and_3_3_taken)
 {
-    fixture *f = *state;
     assert_int_equal(create_through(f, NULL, "3.2"), GLSSAO_UNSUPPORTED_CONTEXT);
     assert_non_null(strstr(f->log, "OpenGL 3.3"));
     assert_int_equal(create_through(f, NULL, "2.1"), GLSSAO_UNSUPPORTED_CONTEXT);
@@ -121,7 +118,6 @@ TEST_GL(context_of_3_2_is_refused_and_3_3_taken)
 
 TEST_GL(create_refuses_bad_sizes_and_null)
 {
-    fixture *f = *state;
     static const int sizes[][2] = {{0, 8}, {8, 0}, {-1, 8}, {8, -2147483647}, {1 << 20, 8}, {8, 2147483647}};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; ++i) {
         glssao_config config = fixture_config(f, sizes[i][0], sizes[i][1]);
@@ -182,6 +178,7 @@ static void free_inputs(scene_inputs *in)
     gl.DeleteTextures(1, &in->frame.depth_texture);
     glssao_destroy(in->effect);
 }
+#define test_end_inputs free_inputs /* for SCOPED */
 
 /* The call is refused, the log names the field, and picture, constants and stats stay as they were. */
 static void check_refused(fixture *f, const scene_inputs *in, const glssao_frame *frame,
@@ -209,8 +206,7 @@ static void check_refused(fixture *f, const scene_inputs *in, const glssao_frame
 
 TEST_GL(compute_refuses_bad_settings)
 {
-    fixture *f = *state;
-    scene_inputs in = make_inputs(f);
+    SCOPED(inputs) scene_inputs in = make_inputs(f);
     assert_int_equal(glssao_compute(in.effect, &in.frame, &in.settings), GLSSAO_OK);
     glssao_settings s;
 #define REFUSED(field, value)                                                                                          \
@@ -261,13 +257,11 @@ TEST_GL(compute_refuses_bad_settings)
     check_refused(f, &in, &in.frame, NULL, "settings is NULL");
     check_refused(f, &in, NULL, &in.settings, "frame is NULL");
     assert_int_equal(glssao_compute(in.effect, &in.frame, &in.settings), GLSSAO_OK); /* still usable */
-    free_inputs(&in);
 }
 
 TEST_GL(compute_refuses_bad_frames)
 {
-    fixture *f = *state;
-    scene_inputs in = make_inputs(f);
+    SCOPED(inputs) scene_inputs in = make_inputs(f);
     assert_int_equal(glssao_compute(in.effect, &in.frame, &in.settings), GLSSAO_OK);
     glssao_frame frame;
 #define REFUSED(member, value, text)                                                                                   \
@@ -301,22 +295,19 @@ TEST_GL(compute_refuses_bad_frames)
     check_refused(f, &in, &frame, &in.settings, "frame.depth_texture"); /* not the full size */
     gl.DeleteTextures(1, &frame.depth_texture);
     check_refused(f, &in, &frame, &in.settings, "frame.depth_texture"); /* deleted */
-    free_inputs(&in);
 }
 
 TEST_GL(orthographic_projection_of_no_extent_is_refused)
 {
-    scene_inputs in = make_inputs(*state);
+    SCOPED(inputs) scene_inputs in = make_inputs(f);
     glssao_frame frame = in.frame;
     const float flat[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0.5f, 1};
     memcpy(frame.projection, flat, sizeof flat);
-    check_refused(*state, &in, &frame, &in.settings, "frame.projection is singular");
-    free_inputs(&in);
+    check_refused(f, &in, &frame, &in.settings, "frame.projection is singular");
 }
 
 TEST_GL(calls_out_of_order_are_refused)
 {
-    fixture *f = *state;
     scene_inputs in = make_inputs(f);
     assert_int_equal(glssao_apply(in.effect, 0), GLSSAO_INVALID_ARGUMENT);
     assert_int_equal(glssao_end_normals(in.effect), GLSSAO_INVALID_ARGUMENT);
@@ -341,7 +332,7 @@ TEST_GL(calls_out_of_order_are_refused)
 
 TEST_GL(resize_refuses_and_keeps_the_old_size)
 {
-    scene_inputs in = make_inputs(*state);
+    SCOPED(inputs) scene_inputs in = make_inputs(f);
     static const int sizes[][2] = {{0, 1}, {1, -1}, {1 << 24, 1}, {1, 1 << 24}};
     for (int i = 0; i < 4; ++i)
         assert_int_equal(glssao_resize(in.effect, sizes[i][0], sizes[i][1]), GLSSAO_INVALID_ARGUMENT);
@@ -349,12 +340,11 @@ TEST_GL(resize_refuses_and_keeps_the_old_size)
     glssao_map(in.effect, GLSSAO_MAP_NORMAL, &w, &h);
     assert_true(w == 16 && h == 12);
     assert_int_equal(glssao_compute(in.effect, &in.frame, &in.settings), GLSSAO_OK);
-    free_inputs(&in);
 }
 
 TEST_GL(other_map_belongs_to_the_last_frame)
 {
-    scene_inputs in = make_inputs(*state);
+    SCOPED(inputs) scene_inputs in = make_inputs(f);
     const glssao_settings horizon = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     const uint32_t plain = glssao_map(in.effect, GLSSAO_MAP_AMBIENT_OTHER, NULL, NULL);
     assert_int_equal(glssao_compute(in.effect, &in.frame, &horizon), GLSSAO_OK);
@@ -368,16 +358,14 @@ TEST_GL(other_map_belongs_to_the_last_frame)
     int w, h;
     const uint32_t resized = glssao_map(in.effect, GLSSAO_MAP_AMBIENT_OTHER, &w, &h);
     assert_true(resized != 0 && w == 4 && h == 4);
-    free_inputs(&in);
 }
 
 TEST_GL(begin_normals_clears_to_the_documented_values)
 {
-    fixture *f = *state;
     static const GLenum formats[] = {GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT32F,
                                      GL_DEPTH24_STENCIL8};
     for (int i = 0; i < 4; ++i) {
-        scene_inputs in = make_inputs(f);
+        SCOPED(inputs) scene_inputs in = make_inputs(f);
         float depth[16 * 12] = {0};
         SCOPED(texture) GLuint texture = fixture_depth_texture(formats[i], 16, 12, depth);
         gl.ClearDepth(0.25);
@@ -395,19 +383,17 @@ TEST_GL(begin_normals_clears_to_the_documented_values)
             assert_true(normals[4 * k] == 0.0f && normals[4 * k + 1] == 0.0f && normals[4 * k + 2] == 1.0f &&
                         normals[4 * k + 3] == 0.0f);
         }
-        free_inputs(&in);
     }
 }
 
 TEST_GL(maps_are_born_as_documented)
 {
-    SCOPED(effect) glssao_effect *effect = fixture_effect(*state, 17, 9);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, 17, 9);
     int w, h;
-    float *ambient = fixture_read_texture(glssao_map(effect, GLSSAO_MAP_AMBIENT, &w, &h), 9, 5, 1);
+    SCOPED(memory) float *ambient = fixture_read_texture(glssao_map(effect, GLSSAO_MAP_AMBIENT, &w, &h), 9, 5, 1);
     assert_true(w == 9 && h == 5);
     for (int i = 0; i < 9 * 5; ++i)
         assert_true(ambient[i] == 1.0f);
-    free(ambient);
     static const struct {
         glssao_map_id id;
         int width;
@@ -430,8 +416,7 @@ TEST_GL(maps_are_born_as_documented)
 
 TEST_GL(timers_can_be_forbidden)
 {
-    fixture *f = *state;
-    scene_inputs in = make_inputs(f);
+    SCOPED(inputs) scene_inputs in = make_inputs(f);
     glssao_destroy(in.effect);
     glssao_config config = fixture_config(f, 16, 12);
     config.no_timers = true;
@@ -441,7 +426,6 @@ TEST_GL(timers_can_be_forbidden)
     glssao_stats stats = glssao_get_stats(in.effect);
     assert_true(stats.gpu_ms < 0.0 && stats.passes[GLSSAO_PASS_ESTIMATE].gpu_ms < 0.0);
     assert_true(stats.draw_calls > 0);
-    free_inputs(&in);
 }
 
 TEST_GL(texts_are_never_null)

@@ -96,7 +96,7 @@ static void check_picture(const apply_room *r, const glssao_apply_options *o, co
 TEST_GL(each_option_follows_its_formula)
 {
     for (int path = GLSSAO_PATH_FRAGMENT; path <= apply_last_path(); ++path) {
-        SCOPED(room) apply_room r = apply_open_room(*state, (glssao_path)path);
+        SCOPED(room) apply_room r = apply_open_room(f, (glssao_path)path);
         glssao_apply_options options[8];
         for (int i = 0; i < 8; ++i)
             options[i] = glssao_default_apply_options();
@@ -134,7 +134,7 @@ TEST_GL(each_option_follows_its_formula)
 TEST_GL(sRGB_framebuffers_multiply_light_while_the_host_has_them_on)
 {
     for (int path = GLSSAO_PATH_FRAGMENT; path <= apply_last_path(); ++path) {
-        SCOPED(room) apply_room r = apply_open_room(*state, (glssao_path)path);
+        SCOPED(room) apply_room r = apply_open_room(f, (glssao_path)path);
         glssao_apply_options options = glssao_default_apply_options();
         memcpy(options.color, (const float[3]){0.0f, 0.25f, 0.5f}, sizeof options.color);
         for (int i = 0; i < 2; ++i) {
@@ -168,7 +168,7 @@ TEST_GL(bounces_brighten_with_albedo)
 TEST_GL(show_replaces_the_picture)
 {
     for (int path = GLSSAO_PATH_FRAGMENT; path <= apply_last_path(); ++path) {
-        SCOPED(room) apply_room r = apply_open_room(*state, (glssao_path)path);
+        SCOPED(room) apply_room r = apply_open_room(f, (glssao_path)path);
         SCOPED(applied) apply_target t = apply_make_target(GL_RGBA32F, W, H);
         glssao_apply_options options = glssao_default_apply_options();
         options.framebuffer = t.framebuffer;
@@ -187,7 +187,7 @@ TEST_GL(show_replaces_the_picture)
 /* A strength texture with another swizzle and base level reads as if it had none, and keeps both. */
 TEST_GL(parameters_of_the_strength_texture_are_lent)
 {
-    SCOPED(room) apply_room r = apply_open_room(*state, GLSSAO_PATH_FRAGMENT);
+    SCOPED(room) apply_room r = apply_open_room(f, GLSSAO_PATH_FRAGMENT);
     SCOPED(applied) apply_target t = apply_make_target(GL_RGBA32F, W, H);
     PFNGLGETTEXPARAMETERIVPROC get;
     guest_load(r.f, "glGetTexParameteriv", &get);
@@ -229,7 +229,7 @@ static GLuint make_unusual(enum unusual kind, GLuint *out_texture, GLuint *out_r
         return framebuffer;
     }
     const int level = kind == SECOND_LEVEL;
-    *out_texture = apply_make_texture(GL_RGBA8, W << level, H << level, GL_RGBA, NULL);
+    *out_texture = gl_make_texture(GL_RGBA8, GL_RGBA, GL_FLOAT, W << level, H << level, NULL);
     gl.BindTexture(GL_TEXTURE_2D, *out_texture);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, level);
     if (level)
@@ -262,7 +262,7 @@ TEST_GL(unusual_targets_get_the_same_picture)
 {
     static const bool dispatches[UNUSUAL] = {[NO_MIPMAPS] = true, [SECOND_ATTACHMENT] = true};
     for (int path = GLSSAO_PATH_FRAGMENT; path <= apply_last_path(); ++path) {
-        apply_room r = apply_open_room(*state, (glssao_path)path);
+        apply_room r = apply_open_room(f, (glssao_path)path);
         for (int kind = 0; kind < UNUSUAL; ++kind) {
             GLuint texture, renderbuffer;
             apply_target t = {
@@ -282,9 +282,8 @@ TEST_GL(unusual_targets_get_the_same_picture)
             glssao_apply_options options = glssao_default_apply_options();
             if (kind == NO_DRAW_BUFFER)
                 options.intensity = 0.0f; /* for the formula: nothing is drawn into */
-            float *got = apply_read_target(&t);
+            SCOPED(memory) float *got = apply_read_target(&t);
             check_picture(&r, &options, &formats[0], true, got, "unusual target");
-            free(got);
             if (kind == NO_MIPMAPS)
                 assert_int_equal(min_filter(r.f, texture), GL_NEAREST_MIPMAP_LINEAR); /* lent, and given back */
             gl.DeleteFramebuffers(1, &t.framebuffer);

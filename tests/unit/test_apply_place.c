@@ -28,7 +28,7 @@ static void check_place(const float *got, int width, int height, const int place
 TEST_GL(rectangle_places_and_stretches)
 {
     for (int path = GLSSAO_PATH_FRAGMENT; path <= apply_last_path(); ++path) {
-        apply_room r = apply_open_room(*state, (glssao_path)path);
+        apply_room r = apply_open_room(f, (glssao_path)path);
         apply_target t = apply_make_target(GL_RGBA32F, 3 * W, 2 * H);
         glssao_apply_options options = glssao_default_apply_options();
         options.framebuffer = t.framebuffer;
@@ -41,7 +41,7 @@ TEST_GL(rectangle_places_and_stretches)
 
         apply_clear(&t);
         const int wide[4] = {3, 0, 2 * W, H};
-        float *stretched = malloc((size_t)(2 * W * H) * sizeof *stretched);
+        SCOPED(memory) float *stretched = malloc((size_t)(2 * W * H) * sizeof *stretched);
         for (int i = 0; i < 2 * W * H; ++i) {
             const int x = i % (2 * W), y = i / (2 * W), near = x / 2, other = near + (x % 2 ? 1 : -1);
             const int clamped = other < 0 ? 0 : other >= W ? W - 1 : other;
@@ -54,7 +54,6 @@ TEST_GL(rectangle_places_and_stretches)
             const double wanted = (double)(apply_before[0] * stretched[i]);
             assert_float_equal(got[4 * (i / (2 * W) * t.width + i % (2 * W) + 3)], wanted, 2e-3);
         }
-        free(stretched);
         free(got);
         apply_delete_target(&t);
         apply_close_room(&r);
@@ -64,10 +63,8 @@ TEST_GL(rectangle_places_and_stretches)
 /* Four views of one depth texture and one picture: each receives its own occlusion, with a strength texture alike. */
 TEST_GL(four_views_in_one_framebuffer)
 {
-    analytic_shape shapes[ANALYTIC_ROOM_SHAPES];
-    analytic_room(shapes, 1.0);
     for (int path = GLSSAO_PATH_FRAGMENT; path <= apply_last_path(); ++path) {
-        SCOPED(effect) glssao_effect *effect = apply_make_effect(*state, (glssao_path)path, W, H);
+        SCOPED(effect) glssao_effect *effect = apply_make_effect(f, (glssao_path)path, W, H);
         glssao_settings settings = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_HIGH);
         settings.half_resolution = false;
         SCOPED(memory)
@@ -77,14 +74,14 @@ TEST_GL(four_views_in_one_framebuffer)
             views[i] = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
             views[i].projection[0] *= 1.0f + 0.3f * (float)i;
             SCOPED(memory) float *part = NULL, *normals = NULL;
-            analytic_render(&views[i], shapes, ANALYTIC_ROOM_SHAPES, W, H, &part, &normals);
+            analytic_render(&views[i], analytic_unit_room, ANALYTIC_ROOM_SHAPES, W, H, &part, &normals);
             for (int k = 0; k < W * H; ++k)
                 depth[((k / W) + i / 2 * H) * 2 * W + k % W + i % 2 * W] = part[k];
         }
         for (int i = 0; i < 4 * W * H; ++i)
             strengths[i] = (float)(i % 13) / 12.0f;
         SCOPED(texture) const GLuint atlas = fixture_depth_texture(GL_DEPTH_COMPONENT32F, 2 * W, 2 * H, depth);
-        SCOPED(texture) const GLuint strength = apply_make_texture(GL_R32F, 2 * W, 2 * H, GL_RED, strengths);
+        SCOPED(texture) const GLuint strength = gl_make_texture(GL_R32F, GL_RED, GL_FLOAT, 2 * W, 2 * H, strengths);
         SCOPED(applied)
         apply_target plain = apply_make_target(GL_RGBA32F, 2 * W, 2 * H),
                      weighted = apply_make_target(GL_RGBA32F, 2 * W, 2 * H);
@@ -117,7 +114,7 @@ TEST_GL(four_views_in_one_framebuffer)
 TEST_GL(margin_shifts_the_strength_texture)
 {
     enum { M = 8, PW = W - 2 * M, PH = H - 2 * M };
-    SCOPED(room) apply_room r = apply_open_room(*state, GLSSAO_PATH_FRAGMENT);
+    SCOPED(room) apply_room r = apply_open_room(f, GLSSAO_PATH_FRAGMENT);
     r.frame.margin = M;
     int w, h;
     SCOPED(memory) float *inner = fixture_compute(r.effect, &r.frame, &r.settings, &w, &h);
@@ -159,7 +156,7 @@ static void add_stencil(const fixture *f, const apply_target *t, GLuint *out_ren
 TEST_GL(tests_of_the_host_are_kept_on_request_and_ignored_once_told)
 {
     for (int path = GLSSAO_PATH_FRAGMENT; path <= apply_last_path(); ++path) {
-        SCOPED(room) apply_room r = apply_open_room(*state, (glssao_path)path);
+        SCOPED(room) apply_room r = apply_open_room(f, (glssao_path)path);
         apply_target t = apply_make_target(GL_RGBA32F, W, H);
         GLuint stencil;
         add_stencil(r.f, &t, &stencil);
@@ -196,7 +193,7 @@ TEST_GL(tests_of_the_host_are_kept_on_request_and_ignored_once_told)
 
 TEST_GL(other_state_that_has_no_effect_is_told_once)
 {
-    SCOPED(room) apply_room r = apply_open_room(*state, GLSSAO_PATH_FRAGMENT);
+    SCOPED(room) apply_room r = apply_open_room(f, GLSSAO_PATH_FRAGMENT);
     SCOPED(applied) apply_target t = apply_make_target(GL_RGBA32F, 2 * W, H);
     glssao_apply_options placed = glssao_default_apply_options();
     placed.framebuffer = t.framebuffer;
@@ -221,9 +218,9 @@ TEST_GL(other_state_that_has_no_effect_is_told_once)
 
 TEST_GL(bad_options_are_named_and_change_nothing)
 {
-    apply_room r = apply_open_room(*state, GLSSAO_PATH_FRAGMENT);
+    apply_room r = apply_open_room(f, GLSSAO_PATH_FRAGMENT);
     apply_target t = apply_make_target(GL_RGBA32F, W, H);
-    const GLuint small = apply_make_texture(GL_R8, W / 2, H, GL_RED, NULL);
+    const GLuint small = gl_make_texture(GL_R8, GL_RED, GL_FLOAT, W / 2, H, NULL);
     GLuint integer, array;
     gl.GenTextures(1, &integer);
     gl.BindTexture(GL_TEXTURE_2D, integer);

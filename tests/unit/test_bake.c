@@ -41,11 +41,9 @@ static char *read_file(const char *path, size_t *out_size)
 
 static bool contains(const char *data, size_t size, const char *text)
 {
-    for (size_t i = 0; i + strlen(text) <= size; i++) {
-        if (memcmp(data + i, text, strlen(text)) == 0) {
+    for (size_t i = 0; i + strlen(text) <= size; i++)
+        if (memcmp(data + i, text, strlen(text)) == 0)
             return true;
-        }
-    }
     return false;
 }
 
@@ -53,9 +51,8 @@ static void assert_says(const char *words)
 {
     size_t size;
     SCOPED(memory) char *text = read_file(gltf_writer_path("err"), &size);
-    if (!strstr(text, words)) {
+    if (!strstr(text, words))
         fail_msg("\"%s\" does not say \"%s\"", text, words);
-    }
 }
 
 /* A wall at x = 0 and a floor of strips along it, shown twice: beside the wall, and far away from everything. The
@@ -73,9 +70,8 @@ static const char *write_room(const char *name, const float *x, bool coloured)
     }
     for (int i = 0; i < COLUMNS - 1; i++) {
         const int corners[6] = {0, 1, 2, 2, 1, 3};
-        for (int k = 0; k < 6; k++) {
+        for (int k = 0; k < 6; k++)
             indices[6 * i + k] = (uint16_t)(2 * i + corners[k]);
-        }
     }
     const float wall[4][3] = {{0, 0, -100}, {0, 100, -100}, {0, 0, 100}, {0, 100, 100}};
     const uint16_t wall_indices[6] = {0, 1, 2, 2, 1, 3};
@@ -194,9 +190,8 @@ static double rms_error(const scene *s, const float *x)
     for (int i = 0; i < STEPS; i++) {
         const double at = (double)x[0] + (double)(x[COLUMNS - 1] - x[0]) * (i + 0.5) / STEPS;
         int k = 0;
-        while (k < COLUMNS - 2 && at > (double)x[k + 1]) {
+        while (k < COLUMNS - 2 && at > (double)x[k + 1])
             k++;
-        }
         const double along = (at - (double)x[k]) / (double)(x[k + 1] - x[k]);
         const double value = (1 - along) * red_at(s, x[k], false) + along * red_at(s, x[k + 1], false);
         sum += (value - beside_wall(at)) * (value - beside_wall(at));
@@ -218,9 +213,8 @@ TEST(fit_errs_least_on_large_triangles)
         scene *s = gltf_scene(out, NULL);
         errors[i] = rms_error(s, wide_x);
     }
-    if (!(errors[2] < 0.8 * errors[0] && errors[2] < 0.8 * errors[1])) {
+    if (!(errors[2] < 0.8 * errors[0] && errors[2] < 0.8 * errors[1]))
         fail_msg("triangles %g, vertices %g, fit %g", errors[0], errors[1], errors[2]);
-    }
 }
 
 TEST(all_else_is_kept)
@@ -228,7 +222,7 @@ TEST(all_else_is_kept)
     const char *out = output_path("out.glb");
     assert_int_equal(run("", write_room("in.gltf", floor_x, true), out), 0);
     size_t size;
-    char *data = read_file(out, &size);
+    SCOPED(memory) char *data = read_file(out, &size);
     const char *const kept[] = {"\"ACME_thing\":{\"deep\":[true,null,1e-07]}",
                                 "\"extras\":{\"kept\":[1,2.5,\"x\"]}",
                                 "\"name\":\"fall\"",
@@ -236,13 +230,10 @@ TEST(all_else_is_kept)
                                 "\"name\":\"near\"",
                                 "\"translation\":[1000,0,0]",
                                 "\"mimeType\":\"image/png\""};
-    for (size_t i = 0; i < sizeof kept / sizeof kept[0]; i++) {
-        if (!contains(data, size, kept[i])) {
+    for (size_t i = 0; i < sizeof kept / sizeof kept[0]; i++)
+        if (!contains(data, size, kept[i]))
             fail_msg("%s is not in the file", kept[i]);
-        }
-    }
     assert_false(contains(data, size, "\"uri\"")); /* stands alone */
-    free(data);
     scene *s = gltf_scene(out, NULL);
     assert_int_equal(s->image_count, 1);
     assert_int_equal(s->images[0].rgba[0], 200);
@@ -273,9 +264,8 @@ TEST(same_seed_gives_the_same_file)
     assert_int_equal(sizes[0], sizes[1]);
     assert_memory_equal(files[0], files[1], sizes[0]);
     assert_memory_not_equal(files[0], files[2], sizes[0]);
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         free(files[i]);
-    }
 }
 
 TEST(faults_have_their_exit_codes)

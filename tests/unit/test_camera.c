@@ -113,7 +113,7 @@ TEST(frame_sees_the_whole_bounds)
 {
     const float aspects[] = {1, 16.0f / 9, 9.0f / 16, 20, 0.05f};
     for (int shape = 0; shape < 6; shape++) {
-        for (int power = -4; power <= 4; power += 4) {
+        for (int power = -4; power <= 4; power += 4)
             for (size_t a = 0; a < sizeof aspects / sizeof aspects[0]; a++) {
                 const scene s = scaled(shapes(shape), powf(10, (float)power));
                 const camera c = camera_frame_scene(&s, aspects[a]);
@@ -127,7 +127,6 @@ TEST(frame_sees_the_whole_bounds)
                     fail_msg("shape %d, scale 1e%d, aspect %g: corners at %g %g %g", shape, power, (double)aspects[a],
                              ndc[0], ndc[1], ndc[2]);
             }
-        }
     }
 }
 

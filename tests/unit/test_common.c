@@ -72,11 +72,10 @@ TEST_WITH(regular_files_alone_are_read, remove_file)
     const char *reason;
     size_t size = 0;
     write_file("hello");
-    uint8_t *data = read_file(path, 5, &size, &reason);
+    SCOPED(memory) uint8_t *data = read_file(path, 5, &size, &reason);
     assert_non_null(data);
     assert_int_equal(size, 5);
     assert_string_equal((char *)data, "hello");
-    free(data);
     assert_null(read_file(path, 4, &size, &reason));
     assert_string_equal(reason, "too large");
     assert_null(read_file(".", 100, &size, &reason));
@@ -97,12 +96,11 @@ TEST(streams_are_read_to_their_end)
     assert_int_equal(pipe(ends), 0);
     assert_int_equal(write(ends[1], "abc", 3), 3);
     close(ends[1]);
-    uint8_t *data = read_stream(ends[0], 100, &size, &reason);
+    SCOPED(memory) uint8_t *data = read_stream(ends[0], 100, &size, &reason);
     close(ends[0]);
     assert_non_null(data);
     assert_int_equal(size, 3);
     assert_string_equal((char *)data, "abc");
-    free(data);
     assert_int_equal(pipe(ends), 0);
     assert_int_equal(write(ends[1], "abc", 3), 3);
     close(ends[1]);
@@ -156,13 +154,12 @@ TEST_WITH(abandoned_files_are_gone, remove_file)
     whole_file file;
     write_file("old");
     assert_true(whole_file_open(&file, path, FAULT(error)));
-    char *temporary = file.temporary; /* stays: a signal handler may still read it */
+    SCOPED(memory) char *temporary = file.temporary; /* stays: a signal handler may still read it */
     assert_int_equal(access(temporary, F_OK), 0);
     whole_file_abandon_all();
     assert_int_not_equal(access(temporary, F_OK), 0);
     assert_false(whole_file_close(&file, true, FAULT(error)));
     assert_int_equal(access(path, F_OK), 0);
-    free(temporary);
 }
 
 TEST(errors_have_their_colours)

@@ -83,7 +83,7 @@ static void check_depth(const glssao_effect *effect, int width, int height, int 
 
 TEST_GL(every_depth_format_arrives)
 {
-    SCOPED(effect) glssao_effect *effect = fixture_effect(*state, W, H);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
     const glssao_settings settings = make_settings();
     glssao_frame frame = make_frame();
     memcpy(frame.viewport, (const int[4]){0, 0, W, H}, sizeof frame.viewport);
@@ -92,7 +92,7 @@ TEST_GL(every_depth_format_arrives)
             SCOPED(host) host h = make_host(&formats[i], samples, W, H);
             for (int again = 0; again < 2; ++again) {
                 if (glssao_compute_framebuffer(effect, h.framebuffer, &frame, &settings) != GLSSAO_OK)
-                    fail_msg("%s, %d samples: %s", formats[i].name, samples, ((fixture *)*state)->log);
+                    fail_msg("%s, %d samples: %s", formats[i].name, samples, f->log);
                 check_depth(effect, W, H, SPLIT, formats[i].name);
             }
         }
@@ -116,7 +116,6 @@ static void put_depth(GLuint texture, const host *h, int x, int y)
 /* Anywhere in the framebuffer, with normals or without, the result is that of glssao_compute. */
 TEST_GL(the_result_is_that_of_the_depth_as_a_texture)
 {
-    fixture *f = *state;
     SCOPED(frame) glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
     const GLuint normals = frame.normal_texture;
     SCOPED(host) host h = make_host(&formats[4], 0, 2 * W, 2 * H);
@@ -142,7 +141,7 @@ TEST_GL(the_result_is_that_of_the_depth_as_a_texture)
 /* glViewport says which part, the effect takes its size, and glssao_apply covers it. */
 TEST_GL(viewport_and_size_of_the_host_are_followed)
 {
-    SCOPED(effect) glssao_effect *effect = fixture_effect(*state, 8, 8);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, 8, 8);
     const glssao_settings settings = make_settings();
     const glssao_frame frame = make_frame();
     SCOPED(host) host h = make_host(&formats[2], 0, W, H);
@@ -190,7 +189,6 @@ static void check_refused(fixture *f, glssao_result got, glssao_result wanted, c
 
 TEST_GL(bad_arguments_are_named)
 {
-    fixture *f = *state;
     SCOPED(effect) glssao_effect *effect = fixture_effect(f, 8, 8);
     const glssao_settings settings = make_settings();
     SCOPED(host) host h = make_host(&formats[2], 0, W, H);
@@ -227,7 +225,6 @@ TEST_GL(bad_arguments_are_named)
 
 TEST_GL(framebuffers_that_hold_no_depth_are_named)
 {
-    fixture *f = *state;
     SCOPED(effect) glssao_effect *effect = fixture_effect(f, 8, 8);
     const glssao_settings settings = make_settings();
     glssao_frame frame = make_frame();
@@ -333,7 +330,6 @@ static glssao_effect *effect_of_a_driver(fixture *f, bool host_restores_state)
 
 TEST_GL(drivers_that_refuse_the_blit_copy_texels)
 {
-    fixture *f = *state;
     const glssao_settings settings = make_settings();
     glssao_frame frame = make_frame();
     memcpy(frame.viewport, (const int[4]){5, 3, W, H}, sizeof frame.viewport);
@@ -363,7 +359,6 @@ TEST_GL(errors_of_the_host_stay)
 {
     if (GLSSAO_CHECK_GL)
         skip(); /* such builds ask for errors after every pass and take the host's */
-    fixture *f = *state;
     SCOPED(effect) glssao_effect *effect = effect_of_a_driver(f, false);
     const glssao_settings settings = make_settings();
     glssao_frame frame = make_frame();
@@ -383,8 +378,7 @@ TEST_GL(errors_of_the_host_stay)
 /* With config.host_restores_state the part is told, not looked up. test_guest_calls counts its queries. */
 TEST_GL(hosts_that_restore_state_name_the_part)
 {
-    fixture *f = *state;
-    glssao_effect *effect = effect_of_a_driver(f, true);
+    SCOPED(effect) glssao_effect *effect = effect_of_a_driver(f, true);
     const glssao_settings settings = make_settings();
     glssao_frame frame = make_frame();
     host h = make_host(&formats[1], 0, W, H);
@@ -399,14 +393,12 @@ TEST_GL(hosts_that_restore_state_name_the_part)
     gl.UseProgram(0);
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     delete_host(&h);
-    glssao_destroy(effect);
 }
 
 /* The copy counts in the time of the inputs, of frames that came to something. */
 TEST_GL(the_copy_is_timed)
 {
-    fixture *f = *state;
-    glssao_effect *effect = fixture_effect(f, W, H);
+    SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
     const glssao_settings settings = make_settings();
     glssao_frame frame = make_frame(), bad = make_frame();
     bad.normal_texture = 4242;
@@ -435,7 +427,6 @@ TEST_GL(the_copy_is_timed)
     fixture_clear_log(f);
     gl.DeleteTextures(1, &frame.depth_texture);
     delete_host(&h);
-    glssao_destroy(effect);
 }
 
 TEST_MAIN(NULL, fixture_setup, fixture_teardown)

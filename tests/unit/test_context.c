@@ -16,9 +16,8 @@
 static bool osmesa_installed(void)
 {
     void *library = dlopen("libOSMesa.so.8", RTLD_LAZY | RTLD_LOCAL);
-    if (!library) {
+    if (!library)
         library = dlopen("libOSMesa.so", RTLD_LAZY | RTLD_LOCAL);
-    }
     return library != NULL;
 }
 
@@ -26,9 +25,8 @@ static context *create(context_kind kind)
 {
     char error[1024] = "";
     context *c = context_create(&(context_options){.kind = kind}, error, sizeof error);
-    if (!c) {
+    if (!c)
         print_error("%s\n", error);
-    }
     assert_non_null(c);
     return c;
 }
@@ -36,9 +34,8 @@ static context *create(context_kind kind)
 static void load_functions(context *c)
 {
     char error[256] = "";
-    if (!gl_load(context_load, c, error, sizeof error)) {
+    if (!gl_load(context_load, c, error, sizeof error))
         fail_msg("%s", error);
-    }
 }
 
 /* Clears a 1 x 1 picture of the context and reads it back. */
@@ -90,9 +87,8 @@ TEST(egl_gives_core_3_3)
 
 TEST(osmesa_gives_core_3_3)
 {
-    if (!osmesa_installed()) {
+    if (!osmesa_installed())
         skip();
-    }
     assert_core_3_3(CONTEXT_OSMESA);
 }
 
@@ -166,9 +162,8 @@ TEST(two_egl_contexts_live_side_by_side)
 
 TEST(egl_and_osmesa_live_side_by_side)
 {
-    if (!osmesa_installed()) {
+    if (!osmesa_installed())
         skip();
-    }
     assert_two_live_side_by_side(CONTEXT_EGL, CONTEXT_OSMESA);
     assert_two_live_side_by_side(CONTEXT_OSMESA, CONTEXT_EGL);
 }
@@ -179,9 +174,8 @@ static void *clear_on_thread(void *kind)
     char error[1024] = "";
     for (int round = 0; round < 4; round++) {
         context *c = context_create(&(context_options){.kind = *(const context_kind *)kind}, error, sizeof error);
-        if (!c) {
+        if (!c)
             return NULL;
-        }
         void *addresses[] = {context_load("glGetString", c), context_load("glFinish", c)};
         PFNGLGETSTRINGPROC get_string;
         PFNGLFINISHPROC finish;
@@ -190,9 +184,8 @@ static void *clear_on_thread(void *kind)
         finish();
         const bool alive = get_string(GL_VERSION) != NULL;
         context_destroy(c);
-        if (!alive) {
+        if (!alive)
             return NULL;
-        }
     }
     return kind;
 }
@@ -201,9 +194,8 @@ TEST(threads_make_contexts_of_their_own)
 {
     context_kind kinds[] = {CONTEXT_EGL, osmesa_installed() ? CONTEXT_OSMESA : CONTEXT_EGL, CONTEXT_AUTO};
     pthread_t threads[3];
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         assert_int_equal(pthread_create(&threads[i], NULL, clear_on_thread, &kinds[i]), 0);
-    }
     for (int i = 0; i < 3; i++) {
         void *result = NULL;
         pthread_join(threads[i], &result);

@@ -37,17 +37,17 @@ static void delete_inputs(inputs *in)
     free(in->depth);
     free(in->normals);
 }
+#define test_end_inputs delete_inputs /* for SCOPED */
 
 /* Alone in the fixture's context. The caller frees. */
 static float *compute_alone(fixture *f, glssao_technique technique, double scale)
 {
-    inputs in = make_inputs(scale);
+    SCOPED(inputs) inputs in = make_inputs(scale);
     upload(&in);
     SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
     glssao_settings settings = glssao_default_settings(technique, GLSSAO_MEDIUM);
     int width, height;
     float *picture = fixture_compute(effect, &in.frame, &settings, &width, &height);
-    delete_inputs(&in);
     return picture;
 }
 
@@ -65,7 +65,6 @@ static context *another_context(context *share)
 
 TEST_GL(two_effects_in_one_context_do_not_mix)
 {
-    fixture *f = *state;
     float *alone[2] = {compute_alone(f, GLSSAO_HORIZON, 1.0), compute_alone(f, GLSSAO_CLASSIC, 0.7)};
     inputs in[2] = {make_inputs(1.0), make_inputs(0.7)};
     const glssao_settings settings[2] = {glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM),
@@ -184,12 +183,11 @@ TEST_GL(contexts_on_two_threads_do_not_mix)
 {
     /* Different techniques, so that the same object names mean different things in the two contexts. */
     job jobs[2] = {{.technique = GLSSAO_HORIZON, .scale = 1.0}, {.technique = GLSSAO_CLASSIC, .scale = 0.7}};
-    check_threads(*state, jobs);
+    check_threads(f, jobs);
 }
 
 TEST_GL(contexts_that_share_objects_take_each_other_s_textures)
 {
-    fixture *f = *state;
     inputs in[2] = {make_inputs(1.0), make_inputs(0.7)};
     job jobs[2] = {{.technique = GLSSAO_HORIZON, .scale = 1.0}, {.technique = GLSSAO_HORIZON, .scale = 0.7}};
     for (int i = 0; i < 2; ++i) {
@@ -206,9 +204,8 @@ TEST_GL(contexts_that_share_objects_take_each_other_s_textures)
 /* The result of one context is read in another that shares objects with it. */
 TEST_GL(a_map_is_read_in_a_sharing_context)
 {
-    fixture *f = *state;
     SCOPED(memory) float *alone = compute_alone(f, GLSSAO_HORIZON, 1.0);
-    inputs in = make_inputs(1.0);
+    SCOPED(inputs) inputs in = make_inputs(1.0);
     upload(&in);
     SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
@@ -224,7 +221,6 @@ TEST_GL(a_map_is_read_in_a_sharing_context)
     context_destroy(other);
     assert_true(context_make_current(f->context));
     assert_memory_equal(got, alone, (size_t)width * (size_t)height * sizeof *got);
-    delete_inputs(&in);
 }
 
 TEST_MAIN(NULL, fixture_setup, fixture_teardown)

@@ -6,6 +6,8 @@
 #include "picture.h"
 #include "testing.h"
 
+SCOPED_BY(environment, environment, environment_destroy)
+
 enum { W = 128, H = W / 2, MOST_BYTES = 40 + 8 * W * H };
 
 static const char path[] = "test_environment.hdr", png_path[] = "test_environment.png";
@@ -145,7 +147,7 @@ static void mirror_is_what_its_integral_says(const environment *e, int level, co
 
 TEST(surfaces_get_what_the_integrals_say)
 {
-    environment *e = load(orders, true);
+    SCOPED(environment) environment *e = load(orders, true);
     for (int i = 0; i < 40; i++) { /* all over the sphere */
         const double up = 1 - (2 * i + 1) / 40.0, turn = 2.399963 * i, side = sqrt(1 - up * up);
         const double direction[3] = {side * cos(turn), up, side * sin(turn)};
@@ -153,7 +155,6 @@ TEST(surfaces_get_what_the_integrals_say)
         for (int level = 0; level < ENVIRONMENT_LEVELS; level++)
             mirror_is_what_its_integral_says(e, level, direction);
     }
-    environment_destroy(e);
 }
 
 static double lamp(const double direction[3], int channel)
@@ -186,18 +187,17 @@ TEST(bytes_are_srgb)
     static uint8_t grey[8 * 4 * 3];
     memset(grey, 188, sizeof grey); /* 0.5, linear */
     assert_true(picture_write_png(png_path, 8, 4, 3, grey, FAULT(error)));
-    environment *e = environment_load(png_path, FAULT(error));
+    SCOPED(environment) environment *e = environment_load(png_path, FAULT(error));
     remove(png_path);
     assert_non_null(e);
     assert_near((double)e->sky.rgb[0], pow((188 / 255.0 + 0.055) / 1.055, 2.4), 1e-5, "grey");
-    environment_destroy(e);
 }
 
 /* A larger picture than is kept is averaged. */
 TEST(large_pictures_are_halved)
 {
     enum { LARGE = 2 * ENVIRONMENT_MOST_WIDTH, RUN = 64 };
-    uint8_t *bytes = malloc(64 + (size_t)LARGE / 2 * (4 + 4 * LARGE / RUN * 2));
+    SCOPED(memory) uint8_t *bytes = malloc(64 + (size_t)LARGE / 2 * (4 + 4 * LARGE / RUN * 2));
     assert_non_null(bytes);
     size_t size =
         (size_t)sprintf((char *)bytes, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n", LARGE / 2, LARGE);
@@ -210,13 +210,11 @@ TEST(large_pictures_are_halved)
         }
     }
     write_file(path, bytes, size);
-    free(bytes);
-    environment *e = environment_load(path, FAULT(error));
+    SCOPED(environment) environment *e = environment_load(path, FAULT(error));
     remove(path);
     assert_non_null(e);
     assert_int_equal(e->sky.width, ENVIRONMENT_MOST_WIDTH);
     assert_near((double)e->sky.rgb[3 * 12345], 0.5, 1e-5, "a pair");
-    environment_destroy(e);
 }
 
 static void assert_refused(const char *name, const char *why)

@@ -4,8 +4,8 @@
  * line that names it. GLSSAO_SHARED_SCENES names the folder; without it the tests are skipped.
  */
 #define _XOPEN_SOURCE 700 /* nftw */
+#include "scene_scopes.h"
 #include "scene_validity.h"
-#include "testing.h"
 
 #include <ftw.h>
 #include <sys/stat.h>
@@ -44,7 +44,7 @@ static int visit(const char *path, const struct stat *about, int type, struct FT
     if (type != FTW_F || !is_gltf(path))
         return 0;
     char error[1024] = "";
-    scene *s = scene_load(path, FAULT(error));
+    SCOPED(scene) scene *s = scene_load(path, FAULT(error));
     seen.files++;
     seen.loaded += s != NULL;
     seen.refused += s == NULL;
@@ -56,7 +56,6 @@ static int visit(const char *path, const struct stat *about, int type, struct FT
         report(path, "the error does not name the file and a fault");
     if (!s && (strchr(error, '\n') || strchr(error, '\r')))
         report(path, "the error has more than one line");
-    scene_destroy(s);
     return 0;
 }
 
@@ -131,7 +130,7 @@ TEST(scenes_have_the_triangles_and_the_box_that_others_measured)
 {
     NEED_FOLDER();
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; ++i) {
-        scene *s = load(scenes[i].file);
+        SCOPED(scene) scene *s = load(scenes[i].file);
         print_message("%s\n", scenes[i].file);
         assert_null(scene_find_flaw(s));
         assert_int_equal(scene_count_triangles(s), scenes[i].triangles);
@@ -141,18 +140,16 @@ TEST(scenes_have_the_triangles_and_the_box_that_others_measured)
             assert_float_equal(s->bounds_min[axis], scenes[i].box_min[axis], slack);
             assert_float_equal(s->bounds_max[axis], scenes[i].box_max[axis], slack);
         }
-        scene_destroy(s);
     }
 }
 
 TEST(instances_share_their_meshes)
 {
     NEED_FOLDER();
-    scene *s = load("teapots-galore/TeapotsGalore.gltf");
+    SCOPED(scene) scene *s = load("teapots-galore/TeapotsGalore.gltf");
     assert_int_equal(s->mesh_count, 2);
     assert_int_equal(s->instance_count, 1900);
     assert_true(s->vertex_count < 10000);
-    scene_destroy(s);
 }
 
 TEST(unlit_and_alpha_modes_arrive)
@@ -174,12 +171,11 @@ TEST(unlit_and_alpha_modes_arrive)
 TEST(draco_is_unpacked)
 {
     NEED_FOLDER();
-    scene *s = load("extra-carbon-sphere-draco/carbon-sphere.glb");
+    SCOPED(scene) scene *s = load("extra-carbon-sphere-draco/carbon-sphere.glb");
     assert_int_equal(scene_count_triangles(s), 215579);
     assert_float_equal(s->bounds_min[0], -7.1383f, 1e-3f);
     assert_float_equal(s->bounds_max[1], 7.2895f, 1e-3f);
     assert_null(scene_find_flaw(s));
-    scene_destroy(s);
 }
 
 TEST(scenes_without_anything_to_draw_are_empty)
@@ -249,7 +245,7 @@ TEST(harmful_faults_are_refused)
             continue;
         char file[1100];
         snprintf(file, sizeof file, "invalid/%s", path);
-        scene *s = scene_load(in_folder(file), FAULT(error));
+        SCOPED(scene) scene *s = scene_load(in_folder(file), FAULT(error));
         erroneous++;
         erroneous_refused += s == NULL;
         harmful += must_be_refused(codes);
@@ -257,7 +253,6 @@ TEST(harmful_faults_are_refused)
             print_error("%s loads in spite of %s\n", path, codes);
             harmful_loaded++;
         }
-        scene_destroy(s);
     }
     fclose(manifest);
     print_message("%d files with errors: %d refused; %d with harmful ones\n", erroneous, erroneous_refused, harmful);

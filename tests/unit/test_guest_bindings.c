@@ -102,7 +102,7 @@ static void check_maps(const guest *g, const GLuint names[GLSSAO_MAP_BENT_NORMAL
 TEST_GL(maps_may_stay_bound_when_a_setting_changes)
 {
     for (int from = 0; from < CHANGES; ++from) {
-        guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+        guest g = guest_open(f, GLSSAO_PATH_AUTO);
         for (int to = 0; to < CHANGES; ++to) {
             GLuint names[GLSSAO_MAP_BENT_NORMAL + 1];
             run_change(&g, &changes[from]);
@@ -126,7 +126,7 @@ TEST_GL(maps_may_stay_bound_when_a_setting_changes)
 
 TEST_GL(every_unit_is_restored)
 {
-    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(f, GLSSAO_PATH_AUTO);
     GLuint textures[UNITS], samplers[UNITS], multisample;
     SCOPED(target) const fixture_target white = guest_make_white();
     gl.GenTextures(UNITS, textures);

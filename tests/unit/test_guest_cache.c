@@ -67,9 +67,9 @@ static void empty_folder(const char *folder)
 }
 
 /* A folder that one run has filled; false where the driver keeps no binaries or the loader hides them. */
-static bool open_cache(cache *c, void **state)
+static bool open_cache(cache *c, fixture *f)
 {
-    *c = (cache){.g = guest_open(*state, GLSSAO_PATH_FRAGMENT),
+    *c = (cache){.g = guest_open(f, GLSSAO_PATH_FRAGMENT),
                  .folder = "/tmp/glssao-cache-XXXXXX",
                  .outside = "/tmp/glssao-outside-XXXXXX"};
     assert_non_null(mkdtemp(c->folder));
@@ -123,7 +123,7 @@ TEST_GL(links_that_lie_in_wait_are_not_written_through)
 {
     static const char *const ends[] = {"", ".part", ".tmp", "~"};
     cache c;
-    if (open_cache(&c, state))
+    if (open_cache(&c, f))
         for (size_t e = 0; e < sizeof ends / sizeof *ends; ++e) {
             char victim[PATH_SIZE];
             path_of(victim, c.outside, "victim", "");
@@ -144,7 +144,7 @@ TEST_GL(links_that_lie_in_wait_are_not_written_through)
 TEST_GL(files_that_lie_in_wait_are_not_written_to)
 {
     cache c;
-    if (open_cache(&c, state)) {
+    if (open_cache(&c, f)) {
         empty_folder(c.folder);
         char path[PATH_SIZE];
         for (int i = 0; i < c.count; ++i) {
@@ -164,7 +164,7 @@ TEST_GL(files_that_lie_in_wait_are_not_written_to)
 TEST_GL(links_are_not_read_through)
 {
     cache c;
-    if (open_cache(&c, state)) {
+    if (open_cache(&c, f)) {
         for (int i = 0; i < c.count; ++i) {
             char inside[PATH_SIZE], outside[PATH_SIZE];
             path_of(inside, c.folder, c.names[i], "");
@@ -184,7 +184,7 @@ TEST_GL(links_are_not_read_through)
 TEST_GL(pipes_are_not_opened)
 {
     cache c;
-    if (open_cache(&c, state)) {
+    if (open_cache(&c, f)) {
         empty_folder(c.folder);
         for (int i = 0; i < c.count; ++i) {
             char path[PATH_SIZE];
@@ -203,7 +203,7 @@ TEST_GL(files_that_others_may_write_are_not_read)
 {
     static const mode_t modes[] = {0620, 0602, 0666};
     cache c;
-    if (open_cache(&c, state))
+    if (open_cache(&c, f))
         for (size_t m = 0; m < sizeof modes / sizeof *modes; ++m) {
             for (int i = 0; i < c.count; ++i) {
                 char path[PATH_SIZE];
@@ -222,7 +222,7 @@ TEST_GL(files_that_others_may_write_are_not_read)
 TEST_GL(files_are_written_for_the_owner_alone_to_change)
 {
     cache c;
-    if (open_cache(&c, state)) {
+    if (open_cache(&c, f)) {
         empty_folder(c.folder);
         const mode_t before = umask(0);
         (void)run(&c, c.folder);
@@ -246,7 +246,7 @@ TEST_GL(a_folder_that_others_may_write_is_not_used)
 {
     static const mode_t modes[] = {0777, 01777, 0770};
     cache c;
-    if (open_cache(&c, state))
+    if (open_cache(&c, f))
         for (size_t m = 0; m < sizeof modes / sizeof *modes; ++m) {
             assert_int_equal(chmod(c.folder, modes[m]), 0);
             const gl_counts counts = run(&c, c.folder);
@@ -263,7 +263,7 @@ TEST_GL(what_another_user_owns_is_not_used)
 {
     enum { ANOTHER = 65534 };
     cache c;
-    if (open_cache(&c, state) && geteuid() == 0) {
+    if (open_cache(&c, f) && geteuid() == 0) {
         char path[PATH_SIZE];
         for (int i = 0; i < c.count; ++i) {
             path_of(path, c.folder, c.names[i], "");

@@ -200,9 +200,9 @@ static void *load(const char *name, void *user)
     return address;
 }
 
-static guest open_watched(void **state)
+static guest open_watched(fixture *f)
 {
-    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    guest g = guest_open(f, GLSSAO_PATH_AUTO);
     glssao_destroy(g.effect);
     glssao_config config = fixture_config(g.f, GUEST_W, GUEST_H);
     config.load = load;
@@ -249,7 +249,7 @@ TEST_GL(apply_asks_only_for_what_it_changes)
         {GL_IMAGE_BINDING_NAME, "image units"},
         {GL_IMAGE_BINDING_FORMAT, "image units"},
     };
-    SCOPED(guest) guest g = open_watched(state);
+    SCOPED(guest) guest g = open_watched(f);
     GLuint texture, framebuffer;
     framebuffer = bind_target(&texture);
     queries.count = 0;
@@ -282,7 +282,7 @@ static glssao_proc get_proc(const char *name)
 
 TEST_GL(hosts_that_restore_state_are_asked_nothing)
 {
-    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(f, GLSSAO_PATH_AUTO);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     SCOPED(memory) float *const wanted = guest_picture(&g, &g.frame, &settings);
     glssao_destroy(g.effect);
@@ -334,7 +334,7 @@ TEST_GL(hosts_that_restore_state_are_asked_nothing)
 /* A driver blocks where a query is begun whose last result is still to come, or where a result is asked for early. */
 TEST_GL(timers_never_make_the_cpu_wait)
 {
-    SCOPED(guest) guest g = open_watched(state);
+    SCOPED(guest) guest g = open_watched(f);
     memset(&timers, 0, sizeof timers);
     timers.never_ready = true;
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
@@ -401,7 +401,6 @@ static void compute_all(guest *g)
 TEST_GL(a_debug_context_has_nothing_to_say)
 {
     PFNGLDEBUGMESSAGECALLBACKPROC set_callback;
-    fixture *f = *state;
     guest_load(f, "glDebugMessageCallback", &set_callback);
     set_callback(take_message, NULL);
     gl.Enable(GL_DEBUG_OUTPUT);

@@ -112,7 +112,7 @@ TEST_GL(a_map_without_memory_is_told_as_such)
         {"compute with a margin", GLSSAO_HIGH, 8, false, false, false},
         {"accumulate", GLSSAO_LOW, 0, false, false, true},
     };
-    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(f, GLSSAO_PATH_AUTO);
     glssao_destroy(g.effect);
     g.effect = NULL;
     driver.to_go = -1;
@@ -129,7 +129,6 @@ TEST_GL(a_map_without_memory_is_told_as_such)
 /* llvmpipe takes textures of 2 GiB at most; a normal map of this size has 2 GiB. A driver that takes it is fine. */
 TEST_GL(a_size_that_the_driver_refuses_leaves_no_error)
 {
-    fixture *f = *state;
     GLint largest = 0;
     gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
     const glssao_config config = fixture_config(f, largest, largest);

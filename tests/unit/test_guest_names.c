@@ -9,7 +9,7 @@
 
 TEST_GL(apply_refuses_a_name_that_is_no_framebuffer)
 {
-    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(f, GLSSAO_PATH_AUTO);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     assert_int_equal(glssao_compute(g.effect, &g.frame, &settings), GLSSAO_OK);
     SCOPED(target) const fixture_target bound = guest_make_white();
@@ -114,7 +114,7 @@ TEST_GL(a_texture_of_another_target_leaves_no_error)
         {GL_TEXTURE_BUFFER, "a buffer texture"},
         {GL_TEXTURE_2D_MULTISAMPLE, "a multisample texture"},
     };
-    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(f, GLSSAO_PATH_AUTO);
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; ++i) {
         GLuint name = make_of_target(g.f, kinds[i].value);
         guest_no_error("making textures");
@@ -138,7 +138,7 @@ TEST_GL(the_hosts_own_error_stays)
 {
     if (GLSSAO_CHECK_GL)
         skip(); /* such builds ask for errors after every pass and take the host's */
-    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(f, GLSSAO_PATH_AUTO);
     SCOPED(texture) GLuint name = make_of_target(g.f, GL_TEXTURE_3D);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     glssao_frame wrong = g.frame;
@@ -157,7 +157,7 @@ TEST_GL(the_hosts_own_error_stays)
 /* GL deletes a program that is current once another becomes current, and no call brings it back. */
 TEST_GL(a_deleted_program_that_is_current_stays_current)
 {
-    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(f, GLSSAO_PATH_AUTO);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_LOW);
     assert_int_equal(glssao_compute(g.effect, &g.frame, &settings), GLSSAO_OK);
     SCOPED(target) const fixture_target t = guest_make_white();
@@ -192,7 +192,7 @@ TEST_GL(a_deleted_program_that_is_current_stays_current)
  * once the inner pair has ended. */
 TEST_GL(crossed_pairs_give_the_hosts_framebuffer_back)
 {
-    SCOPED(guest) guest a = guest_open(*state, GLSSAO_PATH_AUTO), b = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest a = guest_open(f, GLSSAO_PATH_AUTO), b = guest_open(f, GLSSAO_PATH_AUTO);
     SCOPED(target) const fixture_target t = guest_make_white();
     gl.Viewport(3, 5, 17, 19);
     GLuint depth[2];

@@ -32,7 +32,7 @@ TEST_GL(clamped_fragment_colours_change_nothing)
     void(APIENTRY * clamp_color)(GLenum, GLenum);
     if (!guest_is_compatibility())
         return; /* the core profile has no such state */
-    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(f, GLSSAO_PATH_AUTO);
     guest_load(g.f, "glClampColor", &clamp_color);
     static const glssao_technique techniques[] = {GLSSAO_CLASSIC, GLSSAO_HEMISPHERE, GLSSAO_HORIZON};
     glssao_frame bare = g.frame; /* rebuilt normals are negative, distances above 1 */
@@ -67,7 +67,7 @@ TEST_GL(pixel_transfer_changes_nothing)
     void(APIENTRY * pixel_map)(GLenum, GLsizei, const GLfloat *);
     if (!guest_is_compatibility() || fixture_hides_newer()) /* the core profile's functions alone can't set it */
         return;
-    SCOPED(guest) guest calm = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest calm = guest_open(f, GLSSAO_PATH_AUTO);
     guest_load(calm.f, "glPixelTransferf", &pixel_transfer);
     guest_load(calm.f, "glPixelMapfv", &pixel_map);
     const double wanted_error = error_of_accumulation(&calm);
@@ -84,7 +84,7 @@ TEST_GL(pixel_transfer_changes_nothing)
             pixel_transfer(RED_SCALE, 0.5f);
             pixel_transfer(RED_BIAS, 0.25f);
         }
-        SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+        SCOPED(guest) guest g = guest_open(f, GLSSAO_PATH_AUTO);
         const glssao_frame own = g.frame; /* uploaded by this test, with the transfer on */
         g.frame = calm.frame;
         const double error = error_of_accumulation(&g);
@@ -115,7 +115,7 @@ TEST_GL(feedback_and_selection_are_refused)
     void(APIENTRY * select_buffer)(GLsizei, GLuint *);
     if (!guest_is_compatibility())
         return;
-    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(f, GLSSAO_PATH_AUTO);
     guest_load(g.f, "glRenderMode", &render_mode);
     guest_load(g.f, "glFeedbackBuffer", &feedback_buffer);
     guest_load(g.f, "glSelectBuffer", &select_buffer);
@@ -169,7 +169,7 @@ TEST_GL(a_frame_under_conditional_rendering_harms_no_later_one)
 {
     PFNGLBEGINCONDITIONALRENDERPROC begin;
     PFNGLENDCONDITIONALRENDERPROC end;
-    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(f, GLSSAO_PATH_AUTO);
     guest_load(g.f, "glBeginConditionalRender", &begin);
     guest_load(g.f, "glEndConditionalRender", &end);
     const GLuint query = query_without_samples();
@@ -202,7 +202,7 @@ TEST_GL(active_transform_feedback_is_refused)
     PFNGLBEGINTRANSFORMFEEDBACKPROC begin;
     PFNGLENDTRANSFORMFEEDBACKPROC end;
     PFNGLTRANSFORMFEEDBACKVARYINGSPROC varyings;
-    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    guest g = guest_open(f, GLSSAO_PATH_AUTO);
     GLint version[2];
     gl.GetIntegerv(GL_MAJOR_VERSION, &version[0]);
     if (version[0] < 4 || fixture_hides_newer()) { /* OpenGL 3.3 can't be asked */

@@ -60,7 +60,7 @@ static void check_parameter(guest *g, const parameter *set, glssao_settings sett
     float *pictures[2];
     GLint now = 0;
     for (int i = 0; i < 2; ++i) { /* without and with */
-        glssao_frame frame = copy_frame(g, set->where == STENCIL);
+        SCOPED(frame) glssao_frame frame = copy_frame(g, set->where == STENCIL);
         if (copied) {
             frame.viewport[2] = GUEST_W;
             frame.viewport[3] = GUEST_H;
@@ -76,7 +76,6 @@ static void check_parameter(guest *g, const parameter *set, glssao_settings sett
         get(GL_TEXTURE_2D, set->value, &now);
         gl.BindTexture(GL_TEXTURE_2D, 0);
         guest_no_error(set->name);
-        fixture_delete_frame(&frame);
     }
     guest_same_picture(pictures[1], pictures[0], set->name);
     if (now != set->harmful)
@@ -88,7 +87,7 @@ static void check_parameter(guest *g, const parameter *set, glssao_settings sett
 TEST_GL(parameters_of_host_textures_change_nothing)
 {
     static const glssao_technique techniques[] = {GLSSAO_CLASSIC, GLSSAO_HEMISPHERE, GLSSAO_HORIZON};
-    guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    guest g = guest_open(f, GLSSAO_PATH_AUTO);
     GLint major = 0, minor = 0;
     gl.GetIntegerv(GL_MAJOR_VERSION, &major);
     gl.GetIntegerv(GL_MINOR_VERSION, &minor);
@@ -120,7 +119,7 @@ TEST_GL(integer_formats_are_refused)
     };
     static const char *const fields[] = {"frame.depth_texture", "frame.normal_texture", "frame.back_texture",
                                          "frame.second_texture", "frame.normal_texture"};
-    SCOPED(guest) guest g = guest_open(*state, GLSSAO_PATH_AUTO);
+    SCOPED(guest) guest g = guest_open(f, GLSSAO_PATH_AUTO);
     const glssao_settings settings = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_MEDIUM);
     for (size_t i = 0; i < sizeof formats / sizeof *formats; ++i) {
         SCOPED(texture)

@@ -37,7 +37,6 @@ picture draw_imgui(GLuint color)
 
 TEST_GL(imgui_draws_the_same_before_and_after)
 {
-    fixture *f = static_cast<fixture *>(*state);
     const fixture_target target = fixture_make_target(GL_RGBA8, W, H);
     const GLuint color = target.texture;
     gl.Viewport(0, 0, W, H);

@@ -236,13 +236,12 @@ TEST(inverse_times_projection_is_identity)
 
 TEST(default_settings_pass_the_checks)
 {
-    for (int quality = -1; quality < 6; ++quality) {
+    for (int quality = -1; quality < 6; ++quality)
         for (int technique = 0; technique < 3; ++technique) {
             glssao_settings s = glssao_default_settings((glssao_technique)technique, (glssao_quality)quality);
             assert_true(glssao__check_settings(&s, &silent));
             assert_int_equal(s.technique, technique);
         }
-    }
     assert_int_equal(glssao_default_settings((glssao_technique)9, GLSSAO_HIGH).technique, GLSSAO_CLASSIC);
     assert_int_equal(glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH).technique, GLSSAO_HORIZON);
 }

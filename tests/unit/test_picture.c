@@ -50,14 +50,13 @@ TEST_WITH(png_round_trips_odd_sizes, remove_file)
         assert_non_null(read);
         assert_int_equal(read_width, width);
         assert_int_equal(read_height, height);
-        for (int i = 0; i < width * height; i++) {
+        for (int i = 0; i < width * height; i++)
             for (int c = 0; c < 4; c++) {
                 const int wanted = c < 3           ? pixels[i * channels + (channels == 1 ? 0 : c)]
                                    : channels == 4 ? pixels[i * channels + 3]
                                                    : 255;
                 assert_int_equal(read[4 * i + c], wanted);
             }
-        }
     }
 }
 
@@ -221,10 +220,9 @@ TEST_WITH(old_file_is_replaced_where_it_is, remove_file)
     assert_true(written && is_link);
     assert_int_equal(stat(path, &status), 0);
     assert_int_equal(status.st_mode & 0777, 0640);
-    uint8_t *read = picture_read_png(path, &width, &height, FAULT(error));
+    SCOPED(memory) uint8_t *read = picture_read_png(path, &width, &height, FAULT(error));
     assert_non_null(read);
     assert_int_equal(read[0], 7);
-    free(read);
     assert_int_equal(count_files(), 1);
 }
 
@@ -337,10 +335,9 @@ TEST(webp_keeps_its_alpha)
 #if GLSSAO_HAS_WEBP
     const char name[] = "test_picture.webp";
     static uint8_t bytes[65536];
-    uint8_t *pixels = two_colors(40, 30, 4);
+    SCOPED(memory) uint8_t *pixels = two_colors(40, 30, 4);
     assert_true(picture_has_webp());
     assert_true(picture_write(name, 40, 30, 4, pixels, FAULT(error)));
-    free(pixels);
     FILE *file = fopen(name, "rb");
     assert_non_null(file);
     const size_t size = fread(bytes, 1, sizeof bytes, file);

@@ -2,8 +2,8 @@
  *
  * The built-in scenes.
  */
+#include "scene_scopes.h"
 #include "scene_validity.h"
-#include "testing.h"
 
 static const char *const names[] = {"columns", "cornell", "steps", "plane"};
 
@@ -11,13 +11,12 @@ TEST(built_in_scenes_are_valid_and_suggest_a_camera)
 {
     for (int i = 0; i < 4; ++i) {
         char error[256] = "";
-        scene *s = scene_make(names[i], FAULT(error));
+        SCOPED(scene) scene *s = scene_make(names[i], FAULT(error));
         assert_non_null(s);
         assert_null(scene_find_flaw(s));
         assert_string_equal(s->name, names[i]);
         assert_int_equal(s->camera_count, 1);
         assert_true(scene_count_triangles(s) > 100);
-        scene_destroy(s);
     }
 }
 
@@ -46,11 +45,10 @@ TEST(built_in_scenes_wind_counter_clockwise)
 
 TEST(columns_stand_in_two_rows)
 {
-    scene *s = scene_make("columns", &(failure){0});
+    SCOPED(scene) scene *s = scene_make("columns", &(failure){0});
     assert_memory_equal(s->bounds_min, ((float[3]){-10, 0, -15}), 3 * sizeof(float));
     assert_memory_equal(s->bounds_max, ((float[3]){10, 4, 15}), 3 * sizeof(float));
     assert_int_equal(s->instance_count, 22);
-    scene_destroy(s);
 }
 
 TEST(an_unknown_name_is_an_error)

@@ -94,7 +94,7 @@ TEST(lines_and_points_are_drawn_over_what_is_behind_them)
                  {SCENE_POINTS, 0.5f, 2, 2},
                  {SCENE_POINTS, -0.5f, 0, 0}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        small_scene *s = with_thin(cases[i].topology, cases[i].z);
+        SCOPED(memory) small_scene *s = with_thin(cases[i].topology, cases[i].z);
         SCOPED(drawn) frame f = frame_draw(s, &frame_front, &lighting, 0);
         const int blue = count_blue(&f);
         if (blue < cases[i].least || blue > cases[i].most)
@@ -103,7 +103,6 @@ TEST(lines_and_points_are_drawn_over_what_is_behind_them)
         assert_int_equal(frame_count_drawn(&f, FRAME_SIZE * FRAME_SIZE), FRAME_SIZE * FRAME_SIZE / 4);
         assert_int_equal(f.counts.normals, 1);
         assert_int_equal(f.counts.main, 2);
-        free(s);
     }
 }
 
@@ -119,7 +118,7 @@ TEST(each_map_reads_its_uv_set)
         material.emissive[0] = material.emissive[1] = material.emissive[2] = 1;
         material.emissive_map = (scene_map){.used = true, .uv = slot, .uv_from_uv = {1, 0, 0, 0, 1, 0}};
         for (int white = 0; white < 2; white++) {
-            small_scene *s = frame_one_quad(material, NULL);
+            SCOPED(memory) small_scene *s = frame_one_quad(material, NULL);
             small_scene_add_texture(s, 2, 1, halves);
             for (int i = 0; i < 4; i++)
                 for (int set = 0; set < 4; set++) {
@@ -131,7 +130,6 @@ TEST(each_map_reads_its_uv_set)
             s->scene.more_uvs = more_uvs;
             SCOPED(drawn) frame f = frame_draw(s, &frame_front, &lighting, 0);
             assert_int_equal(f.color[FRAME_MIDDLE][0], white ? 255 : 0);
-            free(s);
         }
     }
 }
@@ -141,7 +139,7 @@ TEST(spending_renderer_frees_opaque_texels)
 {
     const scene_lighting lighting = scene_default_lighting();
     uint8_t *texels[2];
-    small_scene *s = small_scene_create();
+    SCOPED(memory) small_scene *s = small_scene_create();
     for (int i = 0; i < 2; i++) {
         texels[i] = malloc(2 * 2 * 4);
         memset(texels[i], i == 0 ? 255 : 200, 2 * 2 * 4);
@@ -157,15 +155,13 @@ TEST(spending_renderer_frees_opaque_texels)
     }
     SCOPED(drawn) frame before = frame_draw(s, &frame_front, &lighting, 0);
     char error[512];
-    scene_renderer *r = scene_renderer_create_spending(&s->scene, NULL, FAULT(error));
+    SCOPED(renderer) scene_renderer *r = scene_renderer_create_spending(&s->scene, NULL, FAULT(error));
     assert_non_null(r);
     assert_null(s->images[0].rgba);
     assert_ptr_equal(s->images[1].rgba, texels[1]);
     SCOPED(drawn) frame after = frame_draw_by(r, &frame_front, &lighting, 0);
     assert_memory_equal(before.color, after.color, FRAME_SIZE * FRAME_SIZE * sizeof *before.color);
-    scene_renderer_destroy(r);
     free(texels[1]);
-    free(s);
 }
 
 /* A quad without normals, and in most cases a second one: the buffer holds what either needs. */
@@ -183,7 +179,7 @@ TEST(vertices_are_uploaded_without_what_no_draw_call_reads)
                  {true, true, true, POSITION + NORMAL + UVS + COLOR}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char error[512];
-        small_scene *s = frame_one_quad(small_scene_material(), NULL);
+        SCOPED(memory) small_scene *s = frame_one_quad(small_scene_material(), NULL);
         s->primitives[0].flat = true;
         if (cases[i].second) {
             scene_material material = small_scene_material();
@@ -192,7 +188,7 @@ TEST(vertices_are_uploaded_without_what_no_draw_call_reads)
             frame_add_quad(s, material, NULL);
             s->vertices[s->scene.vertex_count - 1].color[2] = cases[i].colored ? 0.5f : 1;
         }
-        scene_renderer *r = scene_renderer_create(&s->scene, FAULT(error));
+        SCOPED(renderer) scene_renderer *r = scene_renderer_create(&s->scene, FAULT(error));
         assert_non_null(r);
         GLint all = 0;
         for (int k = 0; k < DRAW_VERTEX_PARTS; k++) {
@@ -204,8 +200,6 @@ TEST(vertices_are_uploaded_without_what_no_draw_call_reads)
         }
         gl.BindBuffer(GL_ARRAY_BUFFER, 0);
         assert_int_equal(all, (int)s->scene.vertex_count * cases[i].floats * 4);
-        scene_renderer_destroy(r);
-        free(s);
     }
 }
 
@@ -213,11 +207,10 @@ TEST(vertices_are_uploaded_without_what_no_draw_call_reads)
 TEST(more_vertices_than_a_buffer_takes_are_refused)
 {
     char error[512];
-    small_scene *s = frame_one_quad(small_scene_material(), NULL);
+    SCOPED(memory) small_scene *s = frame_one_quad(small_scene_material(), NULL);
     s->scene.vertex_count = 178956971; /* 2^31 / 12, rounded up */
     assert_null(scene_renderer_create(&s->scene, FAULT(error)));
     assert_string_equal(error, "178956971 vertices: a vertex buffer takes up to 178956970 of them");
-    free(s);
 }
 
 TEST_MAIN(NULL, fixture_setup, fixture_teardown)

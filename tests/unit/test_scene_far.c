@@ -170,19 +170,17 @@ TEST(packed_files_are_baked)
     const char *const names[] = {GLSSAO_HAS_DRACO ? "packed-draco.glb" : NULL,
                                  GLSSAO_HAS_MESHOPT ? "packed-meshopt.glb" : NULL};
     size_t count;
-    float *reference = bake_reds(case_path("far-from-origin-reference.glb"), "--vertices", &count);
+    SCOPED(memory) float *reference = bake_reds(case_path("far-from-origin-reference.glb"), "--vertices", &count);
     double mean = 0;
     for (size_t i = 0; i < count; ++i)
         mean += (double)reference[i] / (double)count;
-    free(reference);
     for (int i = 0; i < 2; ++i) {
         double packed_mean = 0;
         if (!names[i])
             continue;
-        float *reds = bake_reds(case_path(names[i]), "--vertices", &count);
+        SCOPED(memory) float *reds = bake_reds(case_path(names[i]), "--vertices", &count);
         for (size_t k = 0; k < count; ++k)
             packed_mean += (double)reds[k] / (double)count;
-        free(reds);
         print_message("%s: mean %g, of what it was packed from %g\n", names[i], packed_mean, mean);
         assert_true(fabs(packed_mean - mean) < 0.02);
     }

@@ -4,8 +4,8 @@
  */
 #include "environment.h"
 #include "gltf_writer.h"
+#include "scene_scopes.h"
 #include "scene_validity.h"
-#include "testing.h"
 
 static void assert_refused(const char *path, const char *fault)
 {
@@ -332,19 +332,17 @@ TEST(a_wrong_byte_anywhere_gives_a_valid_scene_or_an_error)
     uint32_t random = 12345;
     int loaded = 0;
     print_message("seed %u\n", random);
-    for (size_t at = 0; at < size; ++at) {
+    for (size_t at = 0; at < size; ++at)
         for (int round = 0; round < 3; ++round) {
             const uint8_t right = bytes[at];
             char error[512] = "";
             random = random * 1664525u + 1013904223u;
             bytes[at] = (uint8_t)(round == 0 ? right ^ 1u << (random >> 29) : random >> 24);
-            scene *s = scene_load(gltf_write_bytes("wrong.glb", bytes, size), FAULT(error));
+            SCOPED(scene) scene *s = scene_load(gltf_write_bytes("wrong.glb", bytes, size), FAULT(error));
             assert_true(s ? !scene_find_flaw(s) : *error && !strchr(error, '\n'));
             loaded += s != NULL;
-            scene_destroy(s);
             bytes[at] = right;
         }
-    }
     print_message("%d of %zu damaged files load\n", loaded, 3 * size);
 }
 

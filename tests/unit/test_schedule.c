@@ -58,12 +58,13 @@ TEST(tiles_add_their_steps)
     glssao_settings s = glssao_default_settings(GLSSAO_HORIZON, GLSSAO_HIGH);
     glssao__request q = schedules_request(&frame, &s, 1280, 720);
     q.can.is_software = true;
-    assert_steps(&q, "distance tile-class tile-near tile-near tile-rows tile-bounds tile-class tile-rings tile-fill "
-                     "tile-fill horizon open planar-blur "
-                     "planar-blur planar-blur "
-                     "upsample spread");
+    assert_steps(&q,
+                 "distance tile-class =0 tile-near tile-rows tile-bounds tile-class tile-rings tile-blocks tile-fill "
+                 "tile-fill horizon open planar-blur "
+                 "planar-blur planar-blur "
+                 "upsample spread");
     s = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_LOW);
-    assert_steps(&q, "tile-rows tile-bounds tile-class tile-rings =1 =1 classic blur blur");
+    assert_steps(&q, "tile-rows tile-bounds tile-class tile-rings tile-blocks =1 =1 classic blur blur");
     q.size[0] = 160; /* too few tiles to pay */
     q.size[1] = 120;
     assert_steps(&q, "classic blur blur");
@@ -184,8 +185,8 @@ TEST(rays_take_the_place_of_an_estimate)
     assert_steps(&q, "rays! planar-blur! planar-blur! planar-tile!");
     q.can.path = GLSSAO_PATH_FRAGMENT;
     q.can.is_software = true;
-    assert_steps(&q,
-                 "tile-values tile-rings tile-fill tile-fill tile-fill rays planar-blur planar-blur upsample spread");
+    assert_steps(&q, "tile-values tile-rings tile-blocks tile-fill tile-fill tile-fill rays planar-blur planar-blur "
+                     "upsample spread");
     s.history = 16; /* which takes a pixel without rays for another thing than an open one */
     assert_steps(&q, "rays planar-blur planar-blur upsample history steady");
     s.history = 0;
@@ -229,18 +230,19 @@ TEST(rays_correct_an_estimate)
                      "planar-tile!");
     q.can.path = GLSSAO_PATH_FRAGMENT;
     q.can.is_software = true;
-    assert_steps(&q, "distance tile-class tile-near tile-near tile-rows tile-bounds tile-class tile-rings =1 =1 "
+    assert_steps(&q, "distance tile-class =0 tile-near tile-rows tile-bounds tile-class tile-rings tile-blocks =1 =1 "
                      "horizon open planar-blur planar-blur "
-                     "tile-values tile-rings tile-fill tile-fill tile-fill tile-fill "
+                     "tile-values tile-rings tile-blocks tile-fill tile-fill tile-fill tile-fill "
                      "rays planar-blur planar-blur planar-blur planar-blur upsample spread");
     s.history = 16; /* tiles are not sorted again */
-    assert_steps(&q, "distance tile-class tile-near tile-near tile-rows tile-bounds tile-class tile-rings =1 =1 =1 "
-                     "horizon open planar-blur planar-blur "
-                     "rays planar-blur planar-blur planar-blur rays planar-blur upsample history steady");
+    assert_steps(&q,
+                 "distance tile-class =0 tile-near tile-rows tile-bounds tile-class tile-rings tile-blocks =1 =1 =1 "
+                 "horizon open planar-blur planar-blur "
+                 "rays planar-blur planar-blur planar-blur rays planar-blur upsample history steady");
     s = glssao_default_settings(GLSSAO_CLASSIC, GLSSAO_LOW);
     s.half_resolution = false; /* one round more */
-    assert_steps(&q, "tile-rows tile-bounds tile-class tile-rings =1 =1 classic open blur blur "
-                     "tile-values tile-rings tile-fill tile-fill tile-fill rays planar-blur "
+    assert_steps(&q, "tile-rows tile-bounds tile-class tile-rings tile-blocks =1 =1 classic open blur blur "
+                     "tile-values tile-rings tile-blocks tile-fill tile-fill tile-fill rays planar-blur "
                      "planar-blur planar-blur planar-blur planar-blur planar-blur");
     s.radius = 0.0f;
     assert_steps(&q, "=1 =1");
@@ -285,10 +287,12 @@ TEST(history_reads_upsampled_blocks)
     q.can.is_software = true; /* tiles that get no estimate are open in both maps that the history reads */
     q.size[0] = 1280;
     q.size[1] = 720;
-    assert_steps(&q, "tile-rows tile-bounds tile-class tile-rings tile-fill =1 =1 =1 classic open blur blur upsample "
-                     "history steady");
+    assert_steps(
+        &q,
+        "tile-rows tile-bounds tile-class tile-rings tile-blocks tile-fill =1 =1 =1 classic open blur blur upsample "
+        "history steady");
     s.history = 0;
-    assert_steps(&q, "tile-rows tile-bounds tile-class tile-rings =1 =1 classic blur blur");
+    assert_steps(&q, "tile-rows tile-bounds tile-class tile-rings tile-blocks =1 =1 classic blur blur");
 }
 
 TEST(histories_take_12_steps_a_side_at_least)
@@ -445,9 +449,8 @@ TEST(loops_are_written_out)
          "{ const int i = 0; { { const int k = 0; { c; } }\n{ const int k = 1; { c; } }\n } }\n"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
-        char *unrolled = glssao__unroll(cases[i].source, true);
+        SCOPED(memory) char *unrolled = glssao__unroll(cases[i].source, true);
         assert_string_equal(unrolled, cases[i].wanted);
-        free(unrolled);
     }
     static const char *const loop = "UNROLL_IF_SHORT for (int i = 0; i < 1; ++i) { x; }";
     char *kept = glssao__unroll(loop, false), *unrolled = glssao__unroll(loop, true);

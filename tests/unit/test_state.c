@@ -494,10 +494,9 @@ static float *walk(fixture *f, const inputs *in, const host *h, glssao_path path
     }
     float *picture = fixture_read_texture(glssao_map(effect, GLSSAO_MAP_AMBIENT, NULL, NULL), W, H, 1);
     /* The scrambled state must not have harmed the rebuilt normals and the cleared spare depth either. */
-    float *depth = fixture_read_depth(in->spare_depth, W, H);
+    SCOPED(memory) float *depth = fixture_read_depth(in->spare_depth, W, H);
     for (int i = 0; i < W * H; ++i)
         assert_true(depth[i] == 1.0f);
-    free(depth);
     if (h) {
         scramble(h);
         take(&before);
@@ -571,13 +570,12 @@ static void check_all(fixture *f)
 
 TEST_GL(host_state_comes_back_and_does_no_harm)
 {
-    check_all(*state);
+    check_all(f);
 }
 
 /* glssao_apply writes no undefined colours into other draw buffers of the host's framebuffer. */
 TEST_GL(apply_writes_the_first_draw_buffer_alone)
 {
-    fixture *f = *state;
     load_newer(f);
     inputs in = make_inputs();
     SCOPED(host) host h = {0};

@@ -29,7 +29,7 @@ TEST(quad_has_its_us_direction_and_a_bitangent_against_v)
     for (int k = 0; k < 12; k++) {
         const bool mirrored = k % 2;
         const double angle = 0.5 * (k / 2);
-        small_scene *s = quad();
+        SCOPED(memory) small_scene *s = quad();
         for (int i = 0; i < 4; i++) {
             float *uv = s->vertices[i].uv[0];
             const double x = (double)uv[0] - 0.5, y = 0.5 - (double)uv[1];
@@ -45,7 +45,6 @@ TEST(quad_has_its_us_direction_and_a_bitangent_against_v)
             assert_float_equal(t[i][3], (float)sign, 0);
         }
         free(t);
-        free(s);
     }
 }
 
@@ -53,7 +52,7 @@ TEST(quad_has_its_us_direction_and_a_bitangent_against_v)
 TEST(mirrored_seam_is_not_averaged)
 {
     static const float left[3] = {-1, 0, 0}, right[3] = {0, 0, 0}, u[3] = {1, 0, 0}, v[3] = {0, 1, 0};
-    small_scene *s = small_scene_create();
+    SCOPED(memory) small_scene *s = small_scene_create();
     small_scene_begin_mesh(s, small_scene_add_material(s, small_scene_material()));
     small_scene_add_quad(s, left, u, v);
     small_scene_add_quad(s, right, u, v);
@@ -66,17 +65,16 @@ TEST(mirrored_seam_is_not_averaged)
         assert_float_equal(t[i][3], side, 0);
     }
     free(t);
-    free(s);
 }
 
 /* Equal vertices count as one, with or without an index buffer. */
 TEST(split_vertices_give_the_same_as_shared_ones)
 {
-    small_scene *s = small_scene_create();
+    SCOPED(memory) small_scene *s = small_scene_create();
     small_scene_begin_mesh(s, small_scene_add_material(s, small_scene_material()));
     small_scene_add_sphere(s);
     float(*shared)[4] = make(s);
-    small_scene *flat = small_scene_create();
+    SCOPED(memory) small_scene *flat = small_scene_create();
     for (uint32_t i = 0; i < s->scene.index_count; i++) {
         flat->vertices[i] = s->vertices[s->indices[i]];
         flat->indices[i] = i;
@@ -88,14 +86,12 @@ TEST(split_vertices_give_the_same_as_shared_ones)
             assert_float_equal(shared[i][k], split[i][k], 1e-6f);
     free(shared);
     free(split);
-    free(flat);
-    free(s);
 }
 
 TEST(uvs_without_direction_give_some_tangent)
 {
     for (int k = 0; k < 3; k++) {
-        small_scene *s = quad();
+        SCOPED(memory) small_scene *s = quad();
         for (int i = 0; i < 4; i++) {
             if (k == 0) /* all at one point; on a line; two corners at one point */
                 memset(s->vertices[i].uv, 0, sizeof s->vertices[i].uv);
@@ -111,7 +107,6 @@ TEST(uvs_without_direction_give_some_tangent)
             assert_true(fabsf(t[i][3]) == 1);
         }
         free(t);
-        free(s);
     }
 }
 
@@ -127,7 +122,7 @@ TEST(file_made_by_mikktspace_has_the_same)
         skip();
     }
     fclose(file);
-    scene *s = scene_load(path, FAULT(error));
+    SCOPED(scene) scene *s = scene_load(path, FAULT(error));
     if (!s)
         fail_msg("%s", error);
     assert_non_null(s->tangents);
@@ -148,7 +143,6 @@ TEST(file_made_by_mikktspace_has_the_same)
     }
     print_message("%u of %u corners within 5 degrees\n", near, corners);
     assert_true(corners > 200000 && near > 0.95 * corners);
-    scene_destroy(s);
 }
 
 TEST_MAIN("tangents", NULL, NULL)

@@ -11,17 +11,15 @@ enum { ERROR_LENGTH = 512 };
 static double mean(const trace_shot *p)
 {
     double sum = 0;
-    for (int i = 0; i < TRACE_SHOT_PIXELS; i++) {
+    for (int i = 0; i < TRACE_SHOT_PIXELS; i++)
         sum += (double)p->accessibility[i];
-    }
     return sum / TRACE_SHOT_PIXELS;
 }
 
 static void multiply_point(const float m[16], const float p[3], float w, float out[3])
 {
-    for (int r = 0; r < 3; r++) {
+    for (int r = 0; r < 3; r++)
         out[r] = m[r] * p[0] + m[4 + r] * p[1] + m[8 + r] * p[2] + m[12 + r] * w;
-    }
 }
 
 /* A corner of three walls with a sphere in it. Placed under the transform's inverse if `inverse` is given. */
@@ -57,13 +55,12 @@ static void make_transform(float angle, const float scale[3], float out[16], flo
     memset(out, 0, 16 * sizeof *out);
     memset(inverse, 0, 16 * sizeof *out);
     memset(transpose, 0, 16 * sizeof *out);
-    for (int col = 0; col < 3; col++) {
+    for (int col = 0; col < 3; col++)
         for (int row = 0; row < 3; row++) {
             out[4 * col + row] = rotation[col][row] * scale[col];
             inverse[4 * row + col] = rotation[col][row] / scale[col];
             transpose[4 * row + col] = rotation[col][row] * scale[col];
         }
-    }
     out[15] = inverse[15] = transpose[15] = 1;
 }
 
@@ -71,7 +68,7 @@ TEST(nodes_may_turn_mirror_and_stretch)
 {
     const trace_options options = {.radius = 1.5f, .samples = 256};
     const scene_view view = trace_shot_view((float[3]){3, 2.5f, 4}, (float[3]){0, -0.2f, 0}, 1);
-    small_scene *plain = small_scene_create();
+    SCOPED(memory) small_scene *plain = small_scene_create();
     small_scene_begin_mesh(plain, small_scene_add_material(plain, small_scene_material()));
     add_hollow(plain, NULL, NULL, false);
     small_scene_add_instance(plain, NULL);
@@ -85,26 +82,22 @@ TEST(nodes_may_turn_mirror_and_stretch)
         memcpy(elsewhere, out, sizeof elsewhere);
         elsewhere[13] = -1000;
         for (int instances = 1; instances <= 2; instances++) { /* two: an Embree instance */
-            small_scene *s = small_scene_create();
+            SCOPED(memory) small_scene *s = small_scene_create();
             small_scene_begin_mesh(s, small_scene_add_material(s, small_scene_material()));
             add_hollow(s, inverse, transpose, scales[i][0] * scales[i][1] * scales[i][2] < 0);
             small_scene_add_instance(s, out);
-            if (instances == 2) {
+            if (instances == 2)
                 small_scene_add_instance(s, elsewhere);
-            }
             const trace_shot p = trace_shot_take(&s->scene, &view, options);
             assert_in_range(trace_shot_foreground(&p), trace_shot_foreground(&truth) - 2,
                             trace_shot_foreground(&truth) + 2);
             /* Each pixel agrees to noise, since a normal's last bit may turn the directions. The mean of all agrees
              * much closer. */
             const double noise = trace_shot_difference(&p, &truth), bias = mean(&p) - mean(&truth);
-            if (!(noise < 0.01 && fabs(bias) < 5e-4)) {
+            if (!(noise < 0.01 && fabs(bias) < 5e-4))
                 fail_msg("scale %zu, %d instances: differs by %g, in the mean by %g", i, instances, noise, bias);
-            }
-            free(s);
         }
     }
-    free(plain);
 }
 
 /* Root mean square of the difference over the picture. */
@@ -123,11 +116,9 @@ static small_scene *make_hollow(scene_view *out_view, float scale)
     small_scene *s = small_scene_create();
     small_scene_begin_mesh(s, small_scene_add_material(s, small_scene_material()));
     add_hollow(s, NULL, NULL, false);
-    for (uint32_t i = 0; i < s->scene.vertex_count; i++) {
-        for (int k = 0; k < 3; k++) {
+    for (uint32_t i = 0; i < s->scene.vertex_count; i++)
+        for (int k = 0; k < 3; k++)
             s->vertices[i].position[k] *= scale;
-        }
-    }
     small_scene_add_instance(s, NULL);
     *out_view = trace_shot_view((float[3]){3, 2.5f, 4}, (float[3]){0, -0.2f, 0}, scale);
     return s;
@@ -136,7 +127,7 @@ static small_scene *make_hollow(scene_view *out_view, float scale)
 TEST(error_falls_with_the_root_of_the_rays)
 {
     scene_view view;
-    small_scene *s = make_hollow(&view, 1);
+    SCOPED(memory) small_scene *s = make_hollow(&view, 1);
     const trace_shot truth =
         trace_shot_take(&s->scene, &view, (trace_options){.radius = 1.5f, .samples = 1 << 14, .seed = 99});
     double before = 0;
@@ -145,18 +136,16 @@ TEST(error_falls_with_the_root_of_the_rays)
         const double error = rms_difference(&p, &truth);
         /* At most the error of independent samples of the worst variance, and at least halved each time. */
         assert_true(error <= 0.5 / sqrt(samples));
-        if (before > 0 && !(error <= before / 2)) {
+        if (before > 0 && !(error <= before / 2))
             fail_msg("%d rays: error %g after %g", samples, error, before);
-        }
         before = error;
     }
-    free(s);
 }
 
 TEST(same_seed_gives_same_bits)
 {
     scene_view view;
-    small_scene *s = make_hollow(&view, 1);
+    SCOPED(memory) small_scene *s = make_hollow(&view, 1);
     const trace_options options = {.radius = 1.5f, .samples = 37, .seed = 5, .threads = 1};
     const trace_shot one = trace_shot_take(&s->scene, &view, options);
     for (int threads = 0; threads < 6; threads++) {
@@ -172,33 +161,30 @@ TEST(same_seed_gives_same_bits)
     const trace_shot p = trace_shot_take(&s->scene, &view, other);
     assert_memory_not_equal(p.accessibility, one.accessibility, sizeof one.accessibility);
     assert_true(trace_shot_difference(&p, &one) < 0.1);
-    free(s);
 }
 
 TEST(scale_does_not_matter)
 {
     scene_view view;
-    small_scene *s = make_hollow(&view, 1);
+    SCOPED(memory) small_scene *s = make_hollow(&view, 1);
     const trace_shot truth = trace_shot_take(&s->scene, &view, (trace_options){.radius = 1.5f, .samples = 256});
     const float scales[] = {1e-4f, 1e4f};
     for (int i = 0; i < 2; i++) {
         scene_view scaled_view;
-        small_scene *scaled = make_hollow(&scaled_view, scales[i]);
+        SCOPED(memory) small_scene *scaled = make_hollow(&scaled_view, scales[i]);
         const trace_shot p =
             trace_shot_take(&scaled->scene, &scaled_view, (trace_options){.radius = 1.5f * scales[i], .samples = 256});
         assert_in_range(trace_shot_foreground(&p), trace_shot_foreground(&truth) - 2,
                         trace_shot_foreground(&truth) + 2);
         assert_true(trace_shot_difference(&p, &truth) < 1e-3);
-        free(scaled);
     }
-    free(s);
 }
 
 /* A quad that faces +z, seen from either side, and one that rays from both sides may hit. */
 TEST(back_faces_are_unseen_but_block)
 {
     for (int double_sided = 0; double_sided < 2; double_sided++) {
-        small_scene *s = small_scene_create();
+        SCOPED(memory) small_scene *s = small_scene_create();
         scene_material m = small_scene_material();
         m.double_sided = double_sided;
         small_scene_begin_mesh(s, small_scene_add_material(s, m));
@@ -211,28 +197,24 @@ TEST(back_faces_are_unseen_but_block)
         const trace_shot from_behind = trace_shot_take(&s->scene, &behind, options);
         assert_int_equal(trace_shot_foreground(&from_front), TRACE_SHOT_PIXELS);
         assert_int_equal(trace_shot_foreground(&from_behind), double_sided ? TRACE_SHOT_PIXELS : 0);
-        for (int i = 0; i < TRACE_SHOT_PIXELS; i++) {
+        for (int i = 0; i < TRACE_SHOT_PIXELS; i++)
             assert_true(from_front.accessibility[i] == 1 && from_behind.accessibility[i] == 1);
-        }
-        free(s);
     }
     for (int facing_down = 0; facing_down < 2; facing_down++) {
         const float wide[3] = {1000, 0, 0}, deep[3] = {0, 0, 1000};
-        small_scene *s = small_scene_create();
+        SCOPED(memory) small_scene *s = small_scene_create();
         small_scene_begin_mesh(s, small_scene_add_material(s, small_scene_material()));
         small_scene_add_quad(s, (float[3]){-500, 1, -500}, facing_down ? wide : deep, facing_down ? deep : wide);
         small_scene_add_instance(s, NULL);
-        trace_scene *t = trace_shot_open(&s->scene);
+        SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
         assert_true(trace_shot_point(t, 0, 0, 0, INFINITY, 64) < 0.02);
-        trace_scene_destroy(t);
-        free(s);
     }
 }
 
 TEST(projections_agree)
 {
     scene_view view;
-    small_scene *s = make_hollow(&view, 1);
+    SCOPED(memory) small_scene *s = make_hollow(&view, 1);
     const trace_options options = {.radius = 1.5f, .samples = 32};
     const trace_shot usual = trace_shot_take(&s->scene, &view, options);
     const float near_plane = 0.1f, far_plane = 100;
@@ -254,16 +236,14 @@ TEST(projections_agree)
     scene_view off_centre = view;
     off_centre.clip_from_view[8] -= 1;
     const trace_shot moved = trace_shot_take(&s->scene, &off_centre, options);
-    for (int y = 0; y < TRACE_SHOT_SIDE; y++) {
-        for (int x = TRACE_SHOT_SIDE / 2; x < TRACE_SHOT_SIDE; x++) {
+    for (int y = 0; y < TRACE_SHOT_SIDE; y++)
+        for (int x = TRACE_SHOT_SIDE / 2; x < TRACE_SHOT_SIDE; x++)
             assert_int_equal(moved.foreground[y * TRACE_SHOT_SIDE + x],
                              usual.foreground[y * TRACE_SHOT_SIDE + x - TRACE_SHOT_SIDE / 2]);
-        }
-    }
 
     /* Orthographic, forwards and reversed: a quad two of 32 pixels wide, cut by the near and far planes when it leaves
      * them. */
-    small_scene *quad = small_scene_create();
+    SCOPED(memory) small_scene *quad = small_scene_create();
     small_scene_begin_mesh(quad, small_scene_add_material(quad, small_scene_material()));
     small_scene_add_quad(quad, (float[3]){0, 0, -50}, (float[3]){0.125f, 0, 0}, (float[3]){0, 0.125f, 0});
     small_scene_add_instance(quad, NULL);
@@ -271,23 +251,20 @@ TEST(projections_agree)
         const bool backwards = i & 1;
         const float far_end = i < 2 ? far_plane : 40;
         scene_view parallel = {.width = TRACE_SHOT_SIDE, .height = TRACE_SHOT_SIDE};
-        for (int k = 0; k < 16; k += 5) {
+        for (int k = 0; k < 16; k += 5)
             parallel.view_from_world[k] = parallel.clip_from_view[k] = 1;
-        }
         parallel.clip_from_view[10] = (backwards ? 2 : -2) / (far_end - near_plane);
         parallel.clip_from_view[14] = (backwards ? 1 : -1) * (far_end + near_plane) / (far_end - near_plane);
         const trace_shot p = trace_shot_take(&quad->scene, &parallel, options);
         assert_int_equal(trace_shot_foreground(&p), i < 2 ? 4 : 0);
         assert_int_equal(p.foreground[(TRACE_SHOT_SIDE / 2 + 1) * TRACE_SHOT_SIDE + TRACE_SHOT_SIDE / 2 + 1], i < 2);
     }
-    free(quad);
-    free(s);
 }
 
 TEST(flat_instances_are_seen)
 {
     const float flat[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1};
-    small_scene *s = small_scene_create();
+    SCOPED(memory) small_scene *s = small_scene_create();
     scene_material m = small_scene_material();
     m.double_sided = true;
     small_scene_begin_mesh(s, small_scene_add_material(s, m));
@@ -297,31 +274,27 @@ TEST(flat_instances_are_seen)
     const scene_view view = trace_shot_view((float[3]){0, 0, 4}, (float[3]){0, 0, 0}, 1);
     const trace_shot p = trace_shot_take(&s->scene, &view, (trace_options){.radius = 1, .samples = 16});
     assert_true(trace_shot_foreground(&p) > TRACE_SHOT_PIXELS / 4);
-    for (int i = 0; i < TRACE_SHOT_PIXELS; i++) {
+    for (int i = 0; i < TRACE_SHOT_PIXELS; i++)
         assert_true(p.accessibility[i] >= 0 && p.accessibility[i] <= 1);
-    }
-    free(s);
 }
 
 TEST(nothing_is_fully_accessible)
 {
-    small_scene *s = small_scene_create();
+    SCOPED(memory) small_scene *s = small_scene_create();
     small_scene_add_material(s, small_scene_material());
     const scene_view view = trace_shot_view((float[3]){0, 0, 4}, (float[3]){0, 0, 0}, 1);
     const trace_shot p = trace_shot_take(&s->scene, &view, (trace_options){.radius = 1, .samples = 16});
     assert_int_equal(trace_shot_foreground(&p), 0);
-    for (int i = 0; i < TRACE_SHOT_PIXELS; i++) {
+    for (int i = 0; i < TRACE_SHOT_PIXELS; i++)
         assert_true(p.accessibility[i] == 1);
-    }
-    free(s);
 }
 
 TEST(wrong_arguments_are_named)
 {
     char error[ERROR_LENGTH] = "";
     scene_view view;
-    small_scene *s = make_hollow(&view, 1);
-    trace_scene *t = trace_shot_open(&s->scene);
+    SCOPED(memory) small_scene *s = make_hollow(&view, 1);
+    SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     static float out[TRACE_SHOT_PIXELS];
     const trace_options no_rays = {.radius = 1}, not_a_radius = {.radius = NAN, .samples = 1};
     assert_false(trace_accessibility(t, &view, &no_rays, out, NULL, NULL, FAULT(error)));
@@ -332,9 +305,7 @@ TEST(wrong_arguments_are_named)
     const trace_options fine = {.radius = 1, .samples = 1};
     assert_false(trace_accessibility(t, &view, &fine, out, NULL, NULL, FAULT(error)));
     assert_non_null(strstr(error, "inverse"));
-    trace_scene_destroy(t);
     trace_scene_destroy(NULL);
-    free(s);
 }
 
 static bool is_stopped(void *user)
@@ -348,8 +319,8 @@ TEST(tracing_ends_when_told_to)
     char error[ERROR_LENGTH] = "";
     scene_view view;
     int asked = 0;
-    small_scene *s = make_hollow(&view, 1);
-    trace_scene *t = trace_shot_open(&s->scene);
+    SCOPED(memory) small_scene *s = make_hollow(&view, 1);
+    SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     static float out[TRACE_SHOT_PIXELS];
     trace_stats stats;
     const trace_options options = {
@@ -358,8 +329,6 @@ TEST(tracing_ends_when_told_to)
     assert_string_equal(error, "stopped");
     assert_true(asked > 0);
     assert_int_equal(stats.rays, 0);
-    trace_scene_destroy(t);
-    free(s);
 }
 
 TEST_MAIN(NULL, NULL, NULL)

@@ -33,15 +33,16 @@ static void set_up_scene(setup *t, const scene *s, const camera *c, float radius
         fail_msg("%s", error);
 }
 
-static void set_up(setup *t, const char *name, bool orthographic)
+static setup set_up(const char *name, bool orthographic)
 {
     char error[ERROR_LENGTH];
-    *t = (setup){.scene = scene_make(name, FAULT(error))};
-    camera c = camera_frame_scene(t->scene, (float)W / H);
+    setup t = {.scene = scene_make(name, FAULT(error))};
+    camera c = camera_frame_scene(t.scene, (float)W / H);
     if (orthographic)
         c.half_height = 2;
-    camera_fit_planes(&c, t->scene);
-    set_up_scene(t, t->scene, &c, 0.5f);
+    camera_fit_planes(&c, t.scene);
+    set_up_scene(&t, t.scene, &c, 0.5f);
+    return t;
 }
 
 static void tear_down(setup *t)
@@ -52,6 +53,7 @@ static void tear_down(setup *t)
     trace_scene_destroy(t->traced);
     scene_destroy(t->scene);
 }
+#define test_end_setup tear_down /* for SCOPED */
 
 static const float *trace_by(setup *t, const trace_options *options, int step)
 {
@@ -113,10 +115,8 @@ TEST_GL(rays_agree_with_the_truth)
 {
     static const char *const names[] = {"steps", "columns", "cornell"};
     for (int i = 0; i < 6; i++) {
-        setup t;
-        set_up(&t, names[i / 2], i % 2);
+        SCOPED(setup) setup t = set_up(names[i / 2], i % 2);
         assert_near_truth(&t, names[i / 2]);
-        tear_down(&t);
     }
 }
 
@@ -125,13 +125,13 @@ TEST_GL(no_surface_blocks_its_own_rays)
 {
     for (int i = 0; i < 12; i++) {
         const float distance = powf(10, (float)(i / 4)), height = distance * powf(0.25f, (float)(i % 4));
-        small_scene *s = small_scene_create();
+        SCOPED(memory) small_scene *s = small_scene_create();
         small_scene_begin_mesh(s, small_scene_add_material(s, small_scene_material()));
         small_scene_add_quad(s, (float[3]){-500, 0, -500}, (float[3]){0, 0, 1000}, (float[3]){1000, 0, 0});
         small_scene_add_instance(s, NULL);
         const camera c = {
             .eye = {3, height, distance}, .up = {0, 1, 0}, .fov_y_rad = 0.8f, .near_plane = 0.1f, .far_plane = 1000};
-        setup t = {.traced = NULL};
+        SCOPED(setup) setup t = {.traced = NULL};
         set_up_scene(&t, &s->scene, &c, 2);
         const float *got = trace(&t, 4, 1, 0, 0);
         int seen = 0, blocked = 0;
@@ -142,8 +142,6 @@ TEST_GL(no_surface_blocks_its_own_rays)
         assert_true(seen > W * H / 20);
         if (blocked > 0)
             fail_msg("from %g, %g up: %d of %d pixels are blocked", (double)distance, (double)height, blocked, seen);
-        tear_down(&t);
-        free(s);
     }
 }
 
@@ -151,7 +149,7 @@ TEST_GL(no_surface_blocks_its_own_rays)
 TEST_GL(alpha_tests_let_rays_through)
 {
     for (int hole = 0; hole < 2; hole++) {
-        small_scene *s = small_scene_create();
+        SCOPED(memory) small_scene *s = small_scene_create();
         scene_material roof = small_scene_material();
         roof.alpha = SCENE_ALPHA_MASK;
         roof.alpha_cutoff = 0.5f;
@@ -164,34 +162,29 @@ TEST_GL(alpha_tests_let_rays_through)
         small_scene_add_instance(s, NULL);
         const camera c = {
             .eye = {0, 0.6f, 5}, .up = {0, 1, 0}, .fov_y_rad = 0.8f, .near_plane = 0.1f, .far_plane = 100};
-        setup t = {.traced = NULL};
+        SCOPED(setup) setup t = {.traced = NULL};
         set_up_scene(&t, &s->scene, &c, 3);
         const float *got = trace(&t, 16, 1, 0, 0);
         float least = 1;
         for (int k = 0; k < W * H; k++)
             least = got[k] >= 0 && got[k] < least ? got[k] : least;
         assert_true(hole ? least == 1 : least < 0.5f);
-        tear_down(&t);
-        free(s);
     }
 }
 
 TEST_GL(threads_change_nothing)
 {
-    setup t;
-    set_up(&t, "steps", false);
+    SCOPED(setup) setup t = set_up("steps", false);
     SCOPED(memory) float *alone = malloc(sizeof(float) * W * H);
     memcpy(alone, trace(&t, 3, 1, 1, 7), sizeof(float) * W * H);
     assert_memory_equal(alone, trace(&t, 3, 1, 5, 7), sizeof(float) * W * H);
     assert_int_not_equal(memcmp(alone, trace(&t, 3, 1, 5, 8), sizeof(float) * W * H), 0);
-    tear_down(&t);
 }
 
 /* At half size a texel stands for the lower left of four pixels. */
 TEST_GL(half_size_takes_every_other_surface)
 {
-    setup t;
-    set_up(&t, "steps", false);
+    SCOPED(setup) setup t = set_up("steps", false);
     SCOPED(memory) uint8_t *full = malloc(W * H);
     const float *got = trace(&t, 1, 1, 0, 0);
     for (int i = 0; i < W * H; i++)
@@ -201,14 +194,12 @@ TEST_GL(half_size_takes_every_other_surface)
     for (int y = 0; y < (H + 1) / 2; y++)
         for (int x = 0; x < (W + 1) / 2; x++)
             assert_int_equal(got[y * ((W + 1) / 2) + x] >= 0, full[2 * y * W + 2 * x]);
-    tear_down(&t);
 }
 
 /* Counts of 0 to N, fed by and by: texels without rays are negative, and the others unbiased whatever their count. */
 TEST_GL(counts_are_kept)
 {
-    setup t;
-    set_up(&t, "columns", false);
+    SCOPED(setup) setup t = set_up("columns", false);
     static float truth[W * H], out[W * H], (*texels)[4];
     static uint8_t seen[W * H], counts[W * H];
     static const float(*rows[H])[4];
@@ -250,7 +241,6 @@ TEST_GL(counts_are_kept)
     for (int k = 1; k < 5; k++)
         assert_true(fabs(bias[k] / number[k]) < 0.006);
     free(texels);
-    tear_down(&t);
 }
 
 typedef struct mean_error {
@@ -288,10 +278,9 @@ static mean_error measure_means(setup *t, bool adaptive, const float truth[W * H
  * threads. */
 TEST_GL(adaptive_counts_pay)
 {
-    setup t;
     static float truth[W * H], first[W * H];
     static uint8_t seen[W * H];
-    set_up(&t, "columns", false);
+    SCOPED(setup) setup t = set_up("columns", false);
     truth_of(&t, truth, seen);
     const mean_error fixed = measure_means(&t, false, truth, seen), adaptive = measure_means(&t, true, truth, seen);
     print_message("fixed: %.0f rays, RMSE %.4f; adaptive: %.0f rays, bias %+.4f, RMSE %.4f\n", fixed.rays, fixed.rmse,
@@ -306,16 +295,14 @@ TEST_GL(adaptive_counts_pay)
             memcpy(first, got, sizeof first);
         assert_memory_equal(first, got, sizeof first);
     }
-    tear_down(&t);
-    set_up(&t, "plane", false); /* nothing is occluded */
-    const float *open = trace_by(&t, &(trace_options){.radius = t.radius, .samples = 12, .adaptive = true}, 1);
+    SCOPED(setup) setup plane = set_up("plane", false); /* nothing is occluded */
+    const float *open = trace_by(&plane, &(trace_options){.radius = plane.radius, .samples = 12, .adaptive = true}, 1);
     int surfaces = 0;
     for (int i = 0; i < W * H; i++) {
         surfaces += open[i] >= 0;
         assert_true(open[i] < 0 || open[i] > 0.999f);
     }
-    assert_true(t.rays.stats.rays < 5 * (uint64_t)surfaces); /* 3 where 16 x 16 agree */
-    tear_down(&t);
+    assert_true(plane.rays.stats.rays < 5 * (uint64_t)surfaces); /* 3 where 16 x 16 agree */
 }
 
 /* Where a direction lies in the square that the concentric map (Shirley and Chiu 1997) comes from. */
@@ -348,10 +335,9 @@ TEST(first_rays_reach_everywhere)
 
 TEST_GL(wrong_arguments_are_named)
 {
-    setup t;
     char error[ERROR_LENGTH] = "";
     failure why = {.text = error, .size = sizeof error};
-    set_up(&t, "plane", false);
+    SCOPED(setup) setup t = set_up("plane", false);
     rays_job job = {.renderer = t.renderer,
                     .depth = t.gbuffer.depth,
                     .normals = t.gbuffer.normals,
@@ -366,7 +352,6 @@ TEST_GL(wrong_arguments_are_named)
     assert_false(rays_trace(&t.rays, t.traced, &job, &why));
     job.options.samples = 1;
     assert_true(rays_trace(&t.rays, t.traced, &job, &why));
-    tear_down(&t);
 }
 
 TEST_MAIN(NULL, fixture_setup, fixture_teardown)

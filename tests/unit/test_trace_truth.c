@@ -16,9 +16,8 @@ static void assert_near_truth(double measured, double truth, int samples)
 {
     /* The binomial deviation bounds that of the stratified samples; 1e-4 covers the offset and the tessellation. */
     const double tolerance = 3 * sqrt(truth * (1 - truth) / samples) + 1e-4;
-    if (!(fabs(measured - truth) <= tolerance)) {
+    if (!(fabs(measured - truth) <= tolerance))
         fail_msg("%.6f instead of %.6f, tolerance %.6f", measured, truth, tolerance);
-    }
 }
 
 /* A floor at y = 0, and walls at x = 0 and z = 0 if wanted, all far larger than the radii here. */
@@ -29,29 +28,25 @@ static small_scene *make_room(int walls)
     small_scene_begin_mesh(s, small_scene_add_material(s, small_scene_material()));
     const float depth[3] = {0, 0, size}, width[3] = {size, 0, 0}, height[3] = {0, size, 0}, corner[3] = {0, 0, 0};
     small_scene_add_quad(s, corner, depth, width);
-    if (walls > 0) {
+    if (walls > 0)
         small_scene_add_quad(s, (float[3]){0, 0, 0}, height, depth);
-    }
-    if (walls > 1) {
+    if (walls > 1)
         small_scene_add_quad(s, corner, width, height);
-    }
     small_scene_add_instance(s, NULL);
     return s;
 }
 
 TEST(empty_plane_is_fully_accessible)
 {
-    small_scene *s = make_room(0);
+    SCOPED(memory) small_scene *s = make_room(0);
     for (int step = 0; step < 8; step++) {
         const float height = 0.02f + 0.7f * (float)step;
         const scene_view view = trace_shot_view((float[3]){50, height, 50}, (float[3]){55, 0, 52}, 1);
         const trace_shot p = trace_shot_take(&s->scene, &view, (trace_options){.radius = 3, .samples = 64});
         assert_true(trace_shot_foreground(&p) > TRACE_SHOT_PIXELS / 8);
-        for (int i = 0; i < TRACE_SHOT_PIXELS; i++) {
+        for (int i = 0; i < TRACE_SHOT_PIXELS; i++)
             assert_true(p.accessibility[i] == 1);
-        }
     }
-    free(s);
 }
 
 /* Cosine-weighted directions are a uniform disk seen from above. A wall at distance d blocks those within the radius R
@@ -64,15 +59,13 @@ static double segment(double c)
 TEST(wall_blocks_a_segment_of_the_disk)
 {
     enum { SAMPLES = 1 << 14 };
-    small_scene *s = make_room(1);
-    trace_scene *t = trace_shot_open(&s->scene);
+    SCOPED(memory) small_scene *s = make_room(1);
+    SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     const float distances[] = {0.01f, 0.2f, 0.5f, 0.9f, 0.99f, 1.01f};
     for (size_t i = 0; i < sizeof distances / sizeof distances[0]; i++) {
         const double measured = trace_shot_point(t, distances[i], 0, 50, 1, SAMPLES);
         assert_near_truth(measured, 1 - segment((double)distances[i]), SAMPLES);
     }
-    trace_scene_destroy(t);
-    free(s);
 }
 
 /* The mean open direction where floor and wall meet, at that distance from the other one and with a radius of 1. The
@@ -89,8 +82,8 @@ TEST(open_directions_have_their_closed_form_beside_a_wall)
     enum { SIDE = TRACE_SHOT_SIDE };
     static float got[TRACE_SHOT_PIXELS][3];
     char error[ERROR_LENGTH];
-    small_scene *s = make_room(1);
-    trace_scene *t = trace_shot_open(&s->scene);
+    SCOPED(memory) small_scene *s = make_room(1);
+    SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     const float eye[3] = {2.5f, 2, 50};
     const scene_view view = trace_shot_view(eye, (float[3]){0, 0.2f, 49}, 1);
     const trace_options options = {.radius = 1, .samples = 4096};
@@ -101,29 +94,24 @@ TEST(open_directions_have_their_closed_form_beside_a_wall)
         const double x = (2 * (i % SIDE + 0.5) / SIDE - 1) / (double)p[0];
         const double y = (2 * (i / SIDE + 0.5) / SIDE - 1) / (double)p[5];
         double way[3], wanted[3] = {0, 0, 0};
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3; k++)
             way[k] = x * (double)m[4 * k] + y * (double)m[4 * k + 1] - (double)m[4 * k + 2];
-        }
         const double to_floor = way[1] < 0 ? -(double)eye[1] / way[1] : INFINITY, to_wall = -(double)eye[0] / way[0];
         const bool is_floor = to_floor < to_wall;
-        if (way[0] >= 0 || (!is_floor && (double)eye[1] + to_wall * way[1] < 1e-3)) {
+        if (way[0] >= 0 || (!is_floor && (double)eye[1] + to_wall * way[1] < 1e-3))
             continue;
-        }
         mean_beside_a_wall(is_floor ? (double)eye[0] + to_floor * way[0] : (double)eye[1] + to_wall * way[1],
                            &wanted[!is_floor], &wanted[is_floor]);
         for (int k = 0; k < 3; k++) {
             const double in_view =
                 wanted[0] * (double)m[k] + wanted[1] * (double)m[4 + k] + wanted[2] * (double)m[8 + k];
-            if (!(fabs((double)got[i][k] - in_view) < 3e-3)) {
+            if (!(fabs((double)got[i][k] - in_view) < 3e-3))
                 fail_msg("pixel %d, axis %d: %.4f instead of %.4f", i, k, (double)got[i][k], in_view);
-            }
         }
         floors += is_floor;
         walls += !is_floor;
     }
     assert_true(floors > TRACE_SHOT_PIXELS / 8 && walls > TRACE_SHOT_PIXELS / 8);
-    trace_scene_destroy(t);
-    free(s);
 }
 
 /* The share of the disk with both x >= a and y >= b. */
@@ -142,16 +130,14 @@ static double disk_corner(double a, double b)
 TEST(corner_of_a_box_blocks_two_segments)
 {
     enum { SAMPLES = 1 << 14 };
-    small_scene *s = make_room(2);
-    trace_scene *t = trace_shot_open(&s->scene);
+    SCOPED(memory) small_scene *s = make_room(2);
+    SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     const float at[][2] = {{0.001f, 0.001f}, {0.1f, 0.3f}, {0.5f, 0.5f}, {0.8f, 0.7f}, {0.3f, 1.2f}};
     for (size_t i = 0; i < sizeof at / sizeof at[0]; i++) {
         const double a = (double)at[i][0], b = (double)at[i][1];
         const double truth = 1 - segment(a) - segment(b) + disk_corner(a, b);
         assert_near_truth(trace_shot_point(t, at[i][0], 0, at[i][1], 1, SAMPLES), truth, SAMPLES);
     }
-    trace_scene_destroy(t);
-    free(s);
 }
 
 /* A sphere of radius 1 that touches the plane y = 0 at the origin. */
@@ -176,26 +162,24 @@ static double blocked_by_sphere(double d, double radius)
 {
     enum { STEPS = 1500 };
     int blocked = 0, total = 0;
-    for (int j = 0; j < STEPS; j++) {
+    for (int j = 0; j < STEPS; j++)
         for (int i = 0; i < STEPS; i++) {
             const double x = 2 * (i + 0.5) / STEPS - 1, z = 2 * (j + 0.5) / STEPS - 1, square = x * x + z * z;
-            if (square >= 1) {
+            if (square >= 1)
                 continue;
-            }
             total++;
             /* |t w - c| = 1 with the centre c = (-d, 1, 0) from the point: t^2 - 2 t (w . c) + d^2 = 0. */
             const double along = sqrt(1 - square) - x * d, under_root = along * along - d * d;
             blocked += along > 0 && under_root >= 0 && along - sqrt(under_root) <= radius;
         }
-    }
     return (double)blocked / total;
 }
 
 TEST(sphere_on_a_plane_blocks_its_form_factor)
 {
     enum { SAMPLES = 1 << 14 };
-    scene *s = make_resting_sphere();
-    trace_scene *t = trace_shot_open(s);
+    SCOPED(scene) scene *s = make_resting_sphere();
+    SCOPED(traced) trace_scene *t = trace_shot_open(s);
     const float distances[] = {0.2f, 0.5f, 1, 2, 5};
     for (size_t i = 0; i < sizeof distances / sizeof distances[0]; i++) {
         const double d = (double)distances[i];
@@ -205,8 +189,6 @@ TEST(sphere_on_a_plane_blocks_its_form_factor)
         assert_near_truth(trace_shot_point(t, distances[i], 0, 0, 0.8f, SAMPLES), 1 - blocked_by_sphere(d, 0.8),
                           SAMPLES);
     }
-    trace_scene_destroy(t);
-    scene_destroy(s);
 }
 
 /* A ceiling at height 1 above the point at the origin, with the floor's material before it. */
@@ -222,50 +204,42 @@ static small_scene *make_ceiling(scene_material material)
 TEST(radius_cuts_hard)
 {
     enum { SAMPLES = 1 << 14 };
-    small_scene *s = make_ceiling(small_scene_material());
-    trace_scene *t = trace_shot_open(&s->scene);
+    SCOPED(memory) small_scene *s = make_ceiling(small_scene_material());
+    SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     assert_true(trace_shot_point(t, 0, 0, 0, 0.999f, 256) == 1);
     assert_true(trace_shot_point(t, 0, 0, 0, 0, 256) == 1);
     for (double radius = 1.25; radius < 20; radius *= 2) {
         /* Blocked where 1 / cos <= R. */
         assert_near_truth(trace_shot_point(t, 0, 0, 0, (float)radius, SAMPLES), 1 / (radius * radius), SAMPLES);
     }
-    trace_scene_destroy(t);
-    free(s);
 }
 
 TEST(uniform_rays_see_the_solid_angle)
 {
     enum { SAMPLES = 1 << 14 };
     char error[ERROR_LENGTH];
-    small_scene *s = make_ceiling(small_scene_material());
-    trace_scene *t = trace_shot_open(&s->scene);
+    SCOPED(memory) small_scene *s = make_ceiling(small_scene_material());
+    SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     const float position[1][3] = {{0, 0, 0}}, up[1][3] = {{0, 1, 0}};
     const trace_options options = {.radius = 4, .samples = SAMPLES};
     float out = -1;
     assert_true(trace_points(t, position, up, 1, TRACE_UNIFORM, 0, &options, &out, NULL, FAULT(error)));
     assert_near_truth((double)out, 0.25, SAMPLES); /* a cap of the hemisphere: 1 - cos, cos = 1/4 */
-    trace_scene_destroy(t);
-    free(s);
 }
 
 static double under(scene_material material, const uint8_t *rgba, float vertex_alpha)
 {
-    small_scene *s = small_scene_create();
-    if (rgba) {
+    SCOPED(memory) small_scene *s = small_scene_create();
+    if (rgba)
         material.base_color_texture = small_scene_add_texture(s, 2, 2, rgba);
-    }
     small_scene_begin_mesh(s, small_scene_add_material(s, material));
     scene_vertex *v =
         small_scene_add_quad(s, (float[3]){-500, 1, -500}, (float[3]){1000, 0, 0}, (float[3]){0, 0, 1000});
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 4; i++)
         v[i].color[3] = vertex_alpha;
-    }
     small_scene_add_instance(s, NULL);
-    trace_scene *t = trace_shot_open(&s->scene);
+    SCOPED(traced) trace_scene *t = trace_shot_open(&s->scene);
     const double out = trace_shot_point(t, 0, 0, 0, INFINITY, 4096);
-    trace_scene_destroy(t);
-    free(s);
     return out;
 }
 

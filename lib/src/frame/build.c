@@ -112,8 +112,8 @@ void glssao__build_tiles(const glssao__builder *b, glssao__step *step, int facto
     const bool corrects = b->c.corrects && (step->pass == GLSSAO_PASS_RAYS || step->pass == GLSSAO_PASS_UPSAMPLE);
     if (corrects && !b->c.sorts_again) /* rays may see what is not in the picture */
         return;
-    step->tiles = (glssao__tile_range){factor * TILE_SIDE, least, most};
-    glssao__build_point(step, UNIT_TILES, corrects ? MAP_TILE_RAYS : MAP_TILE_RINGS);
+    step->tiles = (glssao__tile_range){factor * TILE_SIDE, least, most, false};
+    glssao__build_point(step, UNIT_TILES, corrects ? MAP_TILE_RAYS : MAP_TILE_BLOCKS);
 }
 
 /* The map that holds the value after so many of the passes that draw by turns. */

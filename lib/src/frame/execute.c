@@ -81,11 +81,11 @@ static void use(run *r, const glssao__step *step)
     r->program = program;
     for (int i = 0; i < step->read_count; ++i)
         bind(r, step->reads[i].unit, target, texture_of(r, step->reads[i].map), step->reads[i].sampler);
-    /* OpenGL ignores the location -1. Rings are stored over 16 (tile_rings.frag). */
+    /* OpenGL ignores the location -1. */
     gl->Uniform1i(program->locations[UNIFORM_HORIZONTAL], step->is_horizontal);
     gl->Uniform2f(program->locations[UNIFORM_ORIGIN], (gl_float)step->origin[0], (gl_float)step->origin[1]);
-    gl->Uniform3f(program->locations[UNIFORM_TILE_RANGE], (gl_float)step->tiles.least / 16.0f,
-                  (gl_float)step->tiles.most / 16.0f, (gl_float)step->tiles.side);
+    gl->Uniform4f(program->locations[UNIFORM_TILE_RANGE], (gl_float)step->tiles.least, (gl_float)step->tiles.most,
+                  (gl_float)step->tiles.side, step->tiles.grows ? 1.0f : 0.0f);
     gl->Uniform4i(program->locations[UNIFORM_REGION], step->region.x, step->region.y, step->region.width,
                   step->region.height);
 }

@@ -127,6 +127,7 @@ static const struct shader {
                             BIT(DEPTH) | BIT(CORRECTS),
                             {shader_depth_glsl, shader_rays_map_glsl, shader_tile_values_frag}},
     [SHADER_TILE_RINGS] = {"tile-rings", 0, {shader_tile_rings_frag}},
+    [SHADER_TILE_BLOCKS] = {"tile-blocks", 0, {shader_tile_blocks_frag}},
     [SHADER_TILE_NEAR] = {"tile-near", 0, {shader_tile_near_frag}},
     [SHADER_TILE_FILL] = {"tile-fill", 0, {shader_tile_fill_frag}},
 };

@@ -44,14 +44,15 @@ enum glssao__map {
     MAP_SECOND_COPY,
     MAP_MOTION_COPY,
     MAP_NORMAL,
-    MAP_REBUILT,   /* normals from depth, at the estimate's size (normals.frag) */
-    MAP_DISTANCE,  /* view distance; with layers also thickness and second layer (distance.frag) */
-    MAP_TILE_ROWS, /* bounds, as tile_rows.frag writes them */
-    MAP_TILE_BOUNDS,
-    MAP_TILE_CLASS, /* 1: needs an estimate (tile_class.frag), or holds occlusion (tile_values.frag) */
-    MAP_TILE_RINGS, /* as tile_rings.frag writes them */
-    MAP_TILE_RAYS,  /* the same for a correction */
-    MAP_AMBIENT_0,  /* accessibility */
+    MAP_REBUILT,     /* normals from depth, at the estimate's size (normals.frag) */
+    MAP_DISTANCE,    /* view distance; with layers also thickness and second layer (distance.frag) */
+    MAP_TILE_ROWS,   /* bounds, as tile_rows.frag writes them */
+    MAP_TILE_BOUNDS, /* of tiles; later rings for a correction */
+    MAP_TILE_CLASS,  /* 1: needs an estimate (tile_class.frag), or holds occlusion (tile_values.frag) */
+    MAP_TILE_RINGS,  /* as tile_near.frag, then as tile_rings.frag writes them */
+    MAP_TILE_BLOCKS, /* as tile_blocks.frag writes them */
+    MAP_TILE_RAYS,   /* the same for a correction */
+    MAP_AMBIENT_0,   /* accessibility */
     MAP_AMBIENT_1,
     MAP_PAIRED_0, /* paired values (paired.glsl) */
     MAP_PAIRED_1,
@@ -97,6 +98,7 @@ enum glssao__barrier {
 typedef struct glssao__tile_range {
     int side; /* of a tile in pixels of the target; 0: the draw covers the whole target */
     int least, most;
+    bool grows; /* each point reaches as many tiles farther as its ring says */
 } glssao__tile_range;
 
 typedef struct glssao__step {

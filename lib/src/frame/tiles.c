@@ -25,13 +25,15 @@ static glssao__step *add_tile_pass(glssao__builder *b, enum glssao__shader shade
     return step;
 }
 
-/* Which tiles need bounds, so that a picture without open planes is sorted at little cost; left in MAP_TILE_CLASS. */
+/* Which tiles need bounds, so that a picture without open planes is sorted at little cost; left in MAP_TILE_RINGS. */
 static void add_tile_preview(glssao__builder *b)
 {
     glssao__step *step = add_tile_pass(b, SHADER_TILE_CLASS, MAP_NONE, MAP_TILE_CLASS);
     glssao__build_set(step, MACRO_MIDDLES, 1);
-    add_tile_pass(b, SHADER_TILE_NEAR, MAP_TILE_CLASS, MAP_TILE_RINGS)->is_horizontal = true;
-    add_tile_pass(b, SHADER_TILE_NEAR, MAP_TILE_RINGS, MAP_TILE_CLASS);
+    glssao__build_clear(b, GLSSAO_PASS_TILES, MAP_TILE_RINGS, STEP_CLEAR_TO_ZERO);
+    step = glssao__build_step(b, GLSSAO_PASS_TILES, SHADER_TILE_NEAR, MAP_TILE_RINGS);
+    glssao__build_point(step, UNIT_TILES, MAP_TILE_CLASS);
+    step->tiles = (glssao__tile_range){1, 1, 2 * MOST_RINGS, true};
 }
 
 /* Opens the tiles of a map that are at least so far from one that is needed. */
@@ -73,16 +75,22 @@ static void add_open_values(glssao__builder *b)
 /* Sorts tiles by what the estimate's rules say of their bounds; left in MAP_TILE_CLASS. */
 static void add_tile_bounds(glssao__builder *b, const int tiles[2])
 {
-    const int lines[2] = {tiles[0], glssao__tiles_read_depth(b) ? b->c.size[1] : b->c.estimate[1]};
+    /* As many along a side as tile_map.glsl says. */
+    const int rows_side = glssao__tiles_read_depth(b) && b->c.factor == 2 ? 6 : 4;
+    const int rows[2] = {rows_side * tiles[0], rows_side * tiles[1]};
     const bool planes = b->settings->technique != GLSSAO_CLASSIC;
-    glssao__build_map(b, MAP_TILE_ROWS, "tile row", GL_RGBA32F, lines);
+    glssao__build_map(b, MAP_TILE_ROWS, "tile row", GL_RGBA32F, rows);
     glssao__build_map(b, MAP_TILE_BOUNDS, "tile bound", GL_RGBA32F, tiles);
     if (planes)
         add_tile_preview(b);
-    add_tile_pass(b, SHADER_TILE_ROWS, planes ? MAP_TILE_CLASS : MAP_NONE, MAP_TILE_ROWS);
-    glssao__step *bounds = add_tile_pass(b, SHADER_TILE_BOUNDS, MAP_TILE_ROWS, MAP_TILE_BOUNDS);
+    glssao__step *step = add_tile_pass(b, SHADER_TILE_ROWS, MAP_NONE, MAP_TILE_ROWS);
+    if (planes) {
+        step->tiles = (glssao__tile_range){rows_side, 1, 1, false};
+        glssao__build_point(step, UNIT_TILES, MAP_TILE_RINGS);
+    }
+    step = add_tile_pass(b, SHADER_TILE_BOUNDS, MAP_TILE_ROWS, MAP_TILE_BOUNDS);
     if (planes)
-        glssao__build_point(bounds, UNIT_BACK, MAP_TILE_CLASS);
+        glssao__build_point(step, UNIT_BACK, MAP_TILE_RINGS);
     add_tile_pass(b, SHADER_TILE_CLASS, MAP_TILE_BOUNDS, MAP_TILE_CLASS);
 }
 
@@ -98,10 +106,13 @@ static void add_tile_values(glssao__builder *b, glssao_pass pass, enum glssao__m
     glssao__build_finish(b, step);
 }
 
-static void add_rings(glssao__builder *b, glssao_pass pass, enum glssao__map target)
+/* How far each tile and each block of tiles is from what MAP_TILE_CLASS says. */
+static void add_rings(glssao__builder *b, glssao_pass pass, enum glssao__map rings, enum glssao__map blocks)
 {
-    glssao__step *step = glssao__build_step(b, pass, SHADER_TILE_RINGS, target);
+    glssao__step *step = glssao__build_step(b, pass, SHADER_TILE_RINGS, rings);
     glssao__build_point(step, UNIT_AMBIENT, MAP_TILE_CLASS);
+    step = glssao__build_step(b, pass, SHADER_TILE_BLOCKS, blocks);
+    glssao__build_point(step, UNIT_AMBIENT, rings);
 }
 
 void glssao__add_tiles(glssao__builder *b)
@@ -110,13 +121,14 @@ void glssao__add_tiles(glssao__builder *b)
                           (b->c.estimate[1] + TILE_SIDE - 1) / TILE_SIDE};
     glssao__build_map(b, MAP_TILE_CLASS, "tile class", GL_R32F, tiles);
     glssao__build_map(b, MAP_TILE_RINGS, "tile ring", GL_R32F, tiles);
+    glssao__build_map(b, MAP_TILE_BLOCKS, "tile block", GL_RGBA32F, tiles);
     if (b->c.sorts_again)
-        glssao__build_map(b, MAP_TILE_RAYS, "tile ring of rays", GL_R32F, tiles);
+        glssao__build_map(b, MAP_TILE_RAYS, "tile block of rays", GL_RGBA32F, tiles);
     if (b->c.is_rays)
         add_tile_values(b, GLSSAO_PASS_TILES, MAP_NONE);
     else
         add_tile_bounds(b, tiles);
-    add_rings(b, GLSSAO_PASS_TILES, MAP_TILE_RINGS);
+    add_rings(b, GLSSAO_PASS_TILES, MAP_TILE_RINGS, MAP_TILE_BLOCKS);
     add_open_values(b);
 }
 
@@ -124,7 +136,7 @@ void glssao__add_correction_tiles(glssao__builder *b, enum glssao__map estimate,
 {
     const glssao_pass pass = GLSSAO_PASS_RAYS;
     add_tile_values(b, pass, estimate);
-    add_rings(b, pass, MAP_TILE_RAYS);
+    add_rings(b, pass, MAP_TILE_BOUNDS, MAP_TILE_RAYS);
     for (int i = 0; i < 2; ++i)
         add_open_tiles(b, pass, (enum glssao__map)(MAP_RAYS_0 + i), 1, b->c.rays_rings + 1);
     add_open_tiles(b, pass, corrected, 1, b->c.rays_rings + 1);

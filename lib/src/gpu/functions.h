@@ -365,7 +365,6 @@ enum {
     X(void, TexParameteri, (gl_enum target, gl_enum name, gl_int value))                                               \
     X(void, TexParameteriv, (gl_enum target, gl_enum name, const gl_int *values))                                      \
     X(void, Uniform2f, (gl_int location, gl_float x, gl_float y))                                                      \
-    X(void, Uniform3f, (gl_int location, gl_float x, gl_float y, gl_float z))                                          \
     X(void, Uniform4f, (gl_int location, gl_float x, gl_float y, gl_float z, gl_float w))                              \
     X(void, Uniform1i, (gl_int location, gl_int value))                                                                \
     X(void, Uniform4i, (gl_int location, gl_int x, gl_int y, gl_int z, gl_int w))                                      \
