@@ -659,7 +659,6 @@ static double error_of_stripes(fixture *f, const glssao_settings *settings, glss
 /* Rays of half size that take all four pixels by turns find detail of the full size. */
 TEST_GL(rays_of_other_pixels_find_detail)
 {
-    fixture *f = *state;
     for (int k = 0; k < 3; ++k) {
         const glssao_quality quality = k == 1 ? GLSSAO_ULTRA : GLSSAO_MEDIUM;
         const glssao_settings settings = make_settings(k == 0 ? GLSSAO_RAYS : GLSSAO_HORIZON, quality, 16);
