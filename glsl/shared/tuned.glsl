@@ -55,7 +55,6 @@
 #define DETAIL 0.7            // more of it where the blur takes out detail, in units of that
 #define QUIET 0.5             // share of that at full size, and once more where the frame is darker
 #define FORGET 2.0            // frames that count after a larger one
-#define SEEN 8.0              // power of the share of its surroundings that a frame saw, which it counts with
 #define SEEN_MOST 4.0         // so many times settings.history count at most, in frames that see less
 #define LOST 0.5              // recent change for the better that may be lost occluders, in units of what is not seen
 #define NARROW 4.0            // frames after which all detail counts
