@@ -19,15 +19,15 @@ const vec3 TOWARDS_EYE = vec3(0.0, 0.0, 1.0);
 // vector, in HIDDEN_STEPS.
 vec4 delivered(vec4 contents, bool sky, vec3 normal_view)
 {
-    vec3 hidden = contents.yzw / HIDDEN_STEPS;
-    vec3 open = (2.0 / 3.0) * normal_view - hidden;
-    // More than all can't be hidden: the open vector never points into the surface.
-    vec3 seen = dot(hidden, normal_view) > 2.0 / 3.0 ? -normal_view : normal_view;
-    open += max(LEAST_OPEN - dot(open, seen), 0.0) * seen;
-    open = normal_view == vec3(0.0) ? TOWARDS_EYE : open;
+    const float ALL = 2.0 / 3.0 * HIDDEN_STEPS;
+    // What is left along the normal. More than all can't be hidden: the open vector never points into the surface.
+    float left = ALL - dot(contents.yzw, normal_view);
+    float more = max(LEAST_OPEN * HIDDEN_STEPS - abs(left), 0.0);
+    vec3 open = (ALL + (left < 0.0 ? -more : more)) * normal_view - contents.yzw;
+    open = sky || normal_view == vec3(0.0) ? TOWARDS_EYE : open;
 #if TURNED
     open.xy = vec2(gRoll.x * open.x - gRoll.y * open.y, gRoll.y * open.x + gRoll.x * open.y);
 #endif
-    return sky ? vec4(1.0, TOWARDS_EYE) : vec4(contents.x, open);
+    return vec4(sky ? 1.0 : contents.x, open);
 }
 #endif

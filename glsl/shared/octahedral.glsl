@@ -25,12 +25,16 @@ const float OCTAHEDRAL_STEPS = 2047.0;
 
 float packed_direction(vec3 direction)
 {
-    vec2 square = roundEven(OCTAHEDRAL_STEPS * octahedral(direction));
+    float sum = abs(direction.x) + abs(direction.y) + abs(direction.z);
+    vec2 folded = direction.xy + max(-direction.z, 0.0) * side_of(direction.xy); // where z is below 0, sum - |y| is |x| - z
+    vec2 square = roundEven(folded * (OCTAHEDRAL_STEPS / sum));
     return 4096.0 * square.x + square.y;
 }
 
 vec3 unpacked_direction(float whole)
 {
     float x = roundEven(whole * (1.0 / 4096.0));
-    return normalize(octahedral_direction(vec2(x, whole - 4096.0 * x) / OCTAHEDRAL_STEPS));
+    vec2 square = vec2(x, whole - 4096.0 * x);
+    float z = OCTAHEDRAL_STEPS - abs(square.x) - abs(square.y);
+    return normalize(vec3(square + min(z, 0.0) * side_of(square), z)); // the same in whole numbers
 }
