@@ -53,8 +53,9 @@ bool rays_open(rays *r, int full_width, int full_height, int step, failure *why)
 /* Draws the surfaces and starts to read them back. */
 static void request_strips(rays *r, const rays_job *job, GLsync fences[RAYS_STRIPS])
 {
+    memcpy(r->offset, job->offset, sizeof r->offset);
     gl.BindFramebuffer(GL_FRAMEBUFFER, r->framebuffer);
-    scene_draw_surfaces(job->renderer, job->view, job->depth, job->normals, job->step);
+    scene_draw_surfaces(job->renderer, job->view, job->depth, job->normals, job->step, job->offset);
     gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
     for (int i = 0; i < RAYS_STRIPS; i++) {
         const int first = strip_row(r, i);
@@ -117,6 +118,14 @@ void rays_upload(const rays *r)
     gl.BindTexture(GL_TEXTURE_2D, 0);
 }
 
+void rays_choose_offset(uint32_t n, int out_offset[2])
+{
+    static const int offsets[4][2] = {{0, 0}, {1, 1}, {1, 0}, {0, 1}};
+    const int *offset = offsets[(n + n / 4) % 4];
+    out_offset[0] = offset[0];
+    out_offset[1] = offset[1];
+}
+
 bool rays_trace(rays *r, const trace_scene *s, const rays_job *job, failure *why)
 {
     const int step = job->step;
@@ -125,7 +134,12 @@ bool rays_trace(rays *r, const trace_scene *s, const rays_job *job, failure *why
     GLsync fences[RAYS_STRIPS];
     request_strips(r, job, fences);
     const trace_seen seen = {
-        .rows = (const float(*const *)[4])r->rows, .step = step, .margin = job->margin, .depth_step = 0x1p-24};
+        .rows = (const float(*const *)[4])r->rows,
+        .step = step,
+        .offset = {job->offset[0], job->offset[1]},
+        .margin = job->margin,
+        .depth_step = 0x1p-24,
+    };
     trace_picture *p = trace_picture_begin(s, job->view, &seen, NULL, &job->options, r->accessibility, why);
     bool mapped = true;
     for (int i = 0; i < RAYS_STRIPS; i++) {

@@ -269,6 +269,8 @@ glssao_frame pipeline_frame(const pipeline *p, const scene_view *view)
                           .rays_texture = p->wants.rays || p->rays_ready ? p->rays.texture : 0,
                           .motion_texture = reads_motion(p) ? p->motion : 0,
                           .cut = !p->has_last};
+    if (frame.rays_texture)
+        memcpy(frame.rays_offset, p->rays.offset, sizeof frame.rays_offset);
     memcpy(frame.projection, view->clip_from_view, sizeof frame.projection);
     memcpy(frame.view, view->view_from_world, sizeof frame.view);
     const scene_seen seen = scene_find_seen(p->renderer, view);
@@ -303,6 +305,8 @@ static bool trace_rays(pipeline *p, const scene_view *view, int index, failure *
                                   .adaptive = p->adaptive_rays,
                                   .seed = p->seed + (uint32_t)index * 0x9e3779b9u + p->frame_number * 0x85ebca6bu,
                                   .stopped = is_stopped};
+    if (p->settings.history > 0 && job.step == 2)
+        rays_choose_offset(p->frame_number, job.offset);
     return rays_trace(&p->rays, p->traced, &job, why);
 }
 

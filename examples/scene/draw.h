@@ -169,7 +169,7 @@ void scene_draw_view_distance(scene_renderer *r, const scene_view *view, unsigne
 /* The same times `scale`, in rgb: a grey picture. */
 void scene_draw_distance_picture(scene_renderer *r, const scene_view *view, unsigned depth_texture, float scale);
 
-/* Normal and view distance, as for scene_draw_view_distance, of the lower left of each `step` x `step` pixels, to
- * output 0 of the bound framebuffer, which is that much smaller, rounded up. For trace_seen. */
+/* Normal and view distance, as for scene_draw_view_distance, of one of each `step` x `step` pixels, the one at
+ * `offset`, to output 0 of the bound framebuffer, which is that much smaller, rounded up. For trace_seen. */
 void scene_draw_surfaces(scene_renderer *r, const scene_view *view, unsigned depth_texture, unsigned normal_texture,
-                         int step);
+                         int step, const int offset[2]);

@@ -83,7 +83,7 @@ void scene_draw_distance_picture(scene_renderer *r, const scene_view *view, unsi
 }
 
 void scene_draw_surfaces(scene_renderer *r, const scene_view *view, unsigned depth_texture, unsigned normal_texture,
-                         int step)
+                         int step, const int offset[2])
 {
     const draw_program *p = find(&r->pool->surfaces, "surfaces pass", shader_surfaces_frag);
     if (!p)
@@ -93,5 +93,6 @@ void scene_draw_surfaces(scene_renderer *r, const scene_view *view, unsigned dep
     draw_bind_texture(UNIT_NORMAL, normal_texture, r->nearest_sampler);
     set_distance(p, view);
     gl.Uniform1f(p->scale, (float)step);
+    gl.Uniform2f(p->offset, (float)offset[0], (float)offset[1]);
     end();
 }

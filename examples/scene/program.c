@@ -84,6 +84,7 @@ static const struct {
     {"u_numerator", offsetof(draw_program, numerator)},
     {"u_denominator", offsetof(draw_program, denominator)},
     {"u_far_depth", offsetof(draw_program, far_depth)},
+    {"u_offset", offsetof(draw_program, offset)},
 };
 
 static const struct {

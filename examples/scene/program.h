@@ -74,7 +74,7 @@ typedef struct draw_program {
     int sky_from_clip, sky, sky_tilt;
     int irradiance, sky_from_view;
     int scale, bias, red_only;
-    int numerator, denominator, far_depth;
+    int numerator, denominator, far_depth, offset;
 } draw_program;
 
 /* Compiles and links; `shared_source` (may be "") comes before the fragment shader's own, and environment.glsl where

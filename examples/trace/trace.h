@@ -69,11 +69,12 @@ bool trace_open_directions(const trace_scene *t, const scene_view *view, const t
                            trace_stats *out_stats, failure *fault);
 
 /* What a rasteriser saw of a view: a normal in view space, of any length, and in the fourth component a view distance.
- * Where nothing is seen the distance is 0. A texel stands for the lower left of `step` x `step` pixels of the view;
- * there are (width + step - 1) / step of them in a row. */
+ * Where nothing is seen the distance is 0. A texel stands for the one of `step` x `step` pixels of the view at
+ * `offset`; there are (width + step - 1) / step of them in a row. */
 typedef struct trace_seen {
     const float (*const *rows)[4]; /* bottom to top */
     int step;                      /* 1 or 2 */
+    int offset[2];                 /* x, y, below step */
     int margin;                    /* pixels of the view on each side whose texels get no rays */
     double depth_step;             /* of the window depth that the distances come from, for instance 2^-24 */
 } trace_seen;

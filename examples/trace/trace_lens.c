@@ -12,7 +12,7 @@ bool trace_lens_open(const scene_view *view, const trace_seen *seen, trace_lens 
     const int size[2] = {view->width, view->height};
     for (int i = 0; i < 2; i++) {
         out->ndc[i][0] = (float)(2.0 * seen->step / size[i]);
-        out->ndc[i][1] = (float)(1.0 / size[i] - 1);
+        out->ndc[i][1] = (float)((2 * seen->offset[i] + 1.0) / size[i] - 1);
         out->scale[i] = 1 / c[5 * i];
         out->shift[i][0] = c[12 + i];
         out->shift[i][1] = c[8 + i];

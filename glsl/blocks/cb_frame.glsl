@@ -34,3 +34,5 @@ vec4 gLastRayDirection;
 vec4 gLastRegion;           // pixels that the last frame's history covers: first and last column and row
 vec2 gHistory;              // x: most frames of a mean; y: 1 where there is a history
 vec2 gPick;                 // which texel of the block that a pixel of the estimate stands for: 0 or 1 (VARIES 1)
+vec2 gRaysPick;             // which pixel of four a texel of the host's half-size rays belongs to: 0 or 1 (VARIES 1)
+float gTurns;               // 1: another one than in the last frame, 0: the same

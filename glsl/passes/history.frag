@@ -178,10 +178,11 @@ RESULT result()
         frames = min(frames, max(FORGET, floor(gHistory.x * (1.0 - doubt))));
     vec2 means = clamp(last.xy + jump * change, 0.0, 1.0);
     change -= jump * change;
-#if RAW && !RAYS
-    // A pixel that was estimated itself counts for more than one between others.
+#if RAW
+    // A pixel that was estimated itself counts for more than one between others, if each gets its turn.
     bool picked = ((pixel - ivec2(gPick)) & 1) == ivec2(0);
-    float share = min((picked ? PICKED : (4.0 - PICKED) / 3.0) / frames, 1.0);
+    const float MOST = RAYS != 0 ? PICKED_RAYS : PICKED;
+    float share = min(mix(1.0, picked ? MOST : (4.0 - MOST) / 3.0, gTurns) / frames, 1.0);
 #else
     float share = 1.0 / frames;
 #endif

@@ -14,7 +14,7 @@ uniform sampler2D u_ambient_map;
 
 RESULT result()
 {
-    ivec2 texel = ivec2(pixel_center()) * gFactor;
+    ivec2 texel = ivec2(full_texel(floor(pixel_center())));
     float depth = fetched_depth(texel);
     vec3 normal_view = normal_view_from_map(texel);
     bool is_open = is_sky(depth) || normal_view == vec3(0.0);

@@ -16,5 +16,9 @@ float rays_of(ivec2 texel)
 {
     bool full = textureSize(u_rays_map, 0).x == textureSize(u_depth_map, 0).x;
     float share = rays_at(full ? texel : texel >> 1);
+#if VARIES
+    return full || (texel & 1) == ivec2(gRaysPick) ? share : MISSING;
+#else
     return full || (texel & 1) == ivec2(0) ? share : MISSING;
+#endif
 }

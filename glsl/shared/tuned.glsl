@@ -49,6 +49,7 @@
 #define PLANE 0.02            // how far off its plane a surface of the last frame may be, besides a pixel's width
 #define TURN 0.7              // chord of two normals of one surface
 #define PICKED 2.5            // weight of a pixel that was estimated itself; the four of a block have 4
+#define PICKED_RAYS 3.0       // the same for rays of another pixel than in the frame before
 #define LATELY 0.3            // share of a frame in the recent change
 #define NOISE 0.06            // recent change that may be noise
 #define DETAIL 0.7            // more of it where the blur takes out detail, in units of that

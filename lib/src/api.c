@@ -227,6 +227,7 @@ glssao_result glssao_accumulate(glssao_effect *effect, const glssao_frame *frame
     const glssao_settings estimate = glssao__schedule_accumulated(settings);
     glssao_frame without_rays = *frame; /* a mean needs no correction by a few of them */
     without_rays.rays_texture = 0;
+    memset(without_rays.rays_offset, 0, sizeof without_rays.rays_offset);
     call c = {.function = "glssao_accumulate", .frame = &without_rays, .settings = &estimate};
     c.estimates = glssao__accumulate_next(&effect->accumulation, &without_rays, &estimate);
     return run_call(effect, &c);

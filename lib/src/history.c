@@ -66,12 +66,18 @@ void glssao__history_fill(const glssao__history *h, const glssao__uniforms_sourc
     if (source->settings->history == 0)
         return;
     /* All four texels of a block in each four frames, in an order that differs from four to four: R2 is nearly periodic
-     * with period 4. Rays of half size belong to the lower left one. */
+     * with period 4. With rays, the host says which. */
     static const float picks[4][2] = {{0, 0}, {1, 1}, {1, 0}, {0, 1}};
     const float *pick = picks[(frames + frames / 4) % 4];
     block->gHistory[0] = (float)source->settings->history;
     for (int i = 0; i < 2; ++i)
-        block->gPick[i] = source->settings->half_resolution && !source->frame->rays_texture ? pick[i] : 0.0f;
+        block->gRaysPick[i] = source->frame->rays_texture ? (float)source->frame->rays_offset[i] : 0.0f;
+    for (int i = 0; i < 2 && source->settings->half_resolution; ++i)
+        block->gPick[i] = source->frame->rays_texture ? block->gRaysPick[i] : pick[i];
+    block->gTurns =
+        source->frame->rays_texture && memcmp(h->rays_offset, source->frame->rays_offset, sizeof h->rays_offset) == 0
+            ? 0.0f
+            : 1.0f;
     if (frames == 0)
         return;
     double now[16];
@@ -95,6 +101,7 @@ void glssao__history_keep(glssao__history *h, const glssao__uniforms_source *sou
     h->frames = frames + 1 == 2 * COUNT_PERIOD ? COUNT_PERIOD : frames + 1;
     h->margin = source->frame->margin;
     h->has_rays = source->frame->rays_texture != 0;
+    memcpy(h->rays_offset, source->frame->rays_offset, sizeof h->rays_offset);
     h->is_orthographic = source->projection->is_orthographic;
     find_view(source, h->view);
     h->settings = *source->settings;

@@ -13,6 +13,7 @@ typedef struct glssao__history {
     int frames; /* it has seen so far; 0: none */
     int margin;
     bool is_orthographic, has_rays;
+    int rays_offset[2]; /* of the frame */
     glssao_settings settings;
     double view[16];                       /* the passes' view space from world space */
     float ray_origin[4], ray_direction[4]; /* as in cbFrame */

@@ -227,6 +227,8 @@ static bool run_config(motion *m, const config *c, bench_path path, float **resu
         frame.cut = path == PATH_CUT && i == PATH_EVENT;
         if (c->settings.technique == GLSSAO_RAYS) {
             const bench_config traced = {.settings = c->settings, .rays = c->settings.sample_count};
+            rays_choose_offset(c->settings.history > 0 ? (uint32_t)i : 0, m->traced.offset);
+            memcpy(frame.rays_offset, m->traced.offset, sizeof frame.rays_offset);
             done = traced_run(&m->traced, &k->gbuffer, &traced, m->radius, (uint32_t)i, FAULT(m->error));
             frame.rays_texture = m->traced.rays.texture;
         }

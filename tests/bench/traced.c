@@ -31,6 +31,7 @@ bool traced_run(host_rays *t, const gbuffer *g, const bench_config *c, float rad
                           .view = &g->view,
                           .margin = g->margin,
                           .step = c->settings.half_resolution ? 2 : 1,
+                          .offset = {t->offset[0], t->offset[1]},
                           .options = {.radius = radius, .samples = c->rays, .seed = seed, .adaptive = c->adaptive}};
     return rays_trace(&t->rays, t->embree, &job, fault);
 }

@@ -14,6 +14,7 @@ typedef struct host_rays {
     trace_scene *embree;
     map_reader draws; /* its renderer draws full-screen passes */
     rays rays;
+    int offset[2];   /* of the pixel of each 2 x 2 at half size (rays.h) */
     double build_ms; /* of the acceleration structure, processor time of all threads */
 } host_rays;
 

@@ -606,6 +606,52 @@ TEST_GL(means_of_rays_converge)
         }
 }
 
+/* What rays of a pixel of the full size say: stripes of 3 pixels. */
+static float stripe(int x)
+{
+    return x % 6 < 3 ? 0.25f : 0.75f;
+}
+
+/* The error at rest, on the floor, after frames whose half-size rays belong to another pixel each, or to the same. */
+static double error_of_stripes(fixture *f, const glssao_settings *settings, glssao_path path, bool turns)
+{
+    static const int offsets[4][2] = {{0, 0}, {1, 1}, {1, 0}, {0, 1}};
+    const shot s = first_shot(PERSPECTIVE);
+    glssao_config config = fixture_config(f, W, H);
+    config.path = path;
+    SCOPED(effect) glssao_effect *effect = NULL;
+    if (glssao_create(&config, &effect) == GLSSAO_UNSUPPORTED_CONTEXT)
+        return fixture_clear_log(f), turns ? 0.0 : 1.0;
+    SCOPED(frame) glssao_frame frame = take(&s);
+    for (int i = 0; i < FRAMES; ++i) {
+        static float values[N / 4];
+        memcpy(frame.rays_offset, offsets[turns ? i % 4 : 0], sizeof frame.rays_offset);
+        for (int k = 0; k < N / 4; ++k)
+            values[k] = stripe(2 * (k % (W / 2)) + frame.rays_offset[0]);
+        gl.DeleteTextures(1, &frame.rays_texture);
+        frame.rays_texture = fixture_texture(GL_R32F, GL_RED, GL_FLOAT, W / 2, H / 2, values);
+        compute(effect, &frame, settings);
+    }
+    SCOPED(memory) float *result = read_result(effect);
+    double sum = 0.0;
+    for (int i = 0; i < N / 3; ++i)
+        sum += pow((double)result[i] - (double)stripe(i % W), 2.0);
+    return sqrt(sum / (N / 3));
+}
+
+/* Rays of half size that take all four pixels by turns find detail of the full size. */
+TEST_GL(rays_of_other_pixels_find_detail)
+{
+    for (int k = 0; k < 3; ++k) {
+        const glssao_quality quality = k == 1 ? GLSSAO_ULTRA : GLSSAO_MEDIUM;
+        const glssao_settings settings = make_settings(k == 0 ? GLSSAO_RAYS : GLSSAO_HORIZON, quality, 16);
+        const glssao_path path = k == 2 ? GLSSAO_PATH_COMPUTE : GLSSAO_PATH_FRAGMENT;
+        const double same = error_of_stripes(f, &settings, path, false);
+        const double other = error_of_stripes(f, &settings, path, true);
+        assert_true(other < 0.92 * same);
+    }
+}
+
 TEST_GL(every_technique_size_and_margin_runs)
 {
     for (int t = GLSSAO_CLASSIC; t <= GLSSAO_HORIZON; ++t)
@@ -652,6 +698,11 @@ TEST_GL(bad_views_are_refused_by_name)
     glssao_settings bent = settings;
     bent.bent_normals = true;
     fixture_refused(f, glssao_compute(effect, &frame, &bent), "bent normals are not reused over time");
+    frame.rays_offset[1] = 2;
+    fixture_refused(f, glssao_compute(effect, &frame, &settings), "frame.rays_offset[1] = 2");
+    frame.rays_offset[1] = 1;
+    fixture_refused(f, glssao_compute(effect, &frame, &plain), "frame.rays_offset[1] = 1");
+    frame.rays_offset[1] = 0;
     plain.history = 64;
     fixture_refused(f, glssao_compute(effect, &frame, &plain), "settings.history = 64");
     frame.motion_texture = 0;

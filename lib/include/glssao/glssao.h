@@ -189,6 +189,8 @@ typedef struct glssao_frame { /* zero a field that you don't use */
     uint32_t rays_texture;     /* optional, R8, R16, R16F or R32F, full or half size (a texel belongs to the lower left
                                   of four pixels). Red: unbiased linear accessibility from a few rays; negative, NaN:
                                   none there. Corrects the technique's result, or is all of it (GLSSAO_RAYS) */
+    int rays_offset[2];        /* settings.history > 0: x, y, 0 or 1: the pixel of four that a texel of half size belongs to
+                                  instead. Another one in each frame gives the mean the detail of the full size */
 } glssao_frame;
 
 /* ---- apply: how the result gets into a picture ---------------------------------------------------------- */

@@ -93,7 +93,7 @@ static const struct shader {
     [SHADER_SPREAD] = {"spread", BIT(BENT), {shader_pixel_glsl, shader_spread_frag}},
     [SHADER_RAYS] = {"rays",
                      BIT(NORMALS) | BIT(TURNED) | BIT(DEPTH) | BIT(OUTPUT) | BIT(COMPUTE) | BIT(PERSPECTIVE) |
-                         BIT(RAYS) | BIT(CORRECTS) | BIT(DENSE),
+                         BIT(RAYS) | BIT(CORRECTS) | BIT(DENSE) | BIT(VARIES),
                      {shader_pixel_glsl, shader_depth_glsl, shader_inverse_depth_glsl, shader_normal_map_glsl,
                       shader_paired_glsl, shader_rays_map_glsl, shader_rays_frag, shader_entry_glsl}},
     [SHADER_HISTORY] = {"history",

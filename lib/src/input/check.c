@@ -174,6 +174,10 @@ bool glssao__check_frame(const glssao_frame *frame, const glssao_settings *setti
                       "no texture, but the other layer has one");
     if (settings->technique == GLSSAO_RAYS && frame->rays_texture == 0)
         return refuse(log, "frame.rays_texture", 0, "no texture, and the rays technique has no estimate of its own");
+    for (int i = 0; i < 2; ++i)
+        if (frame->rays_offset[i] < 0 || frame->rays_offset[i] > (settings->history > 0 ? 1 : 0))
+            return refuse(log, i ? "frame.rays_offset[1]" : "frame.rays_offset[0]", frame->rays_offset[i],
+                          "want 0, or 1 with a history");
     if (settings->history > 0 && settings->bent_normals)
         return refuse(log, "settings.history", settings->history, "want 0: bent normals are not reused over time");
     return check_margin(frame, size, log) && check_viewport(frame, size, log) && check_logarithm(frame, log) &&
