@@ -142,6 +142,32 @@ static float *shoot(glssao_effect *effect, const shot *s, const glssao_settings 
     return read_result(effect);
 }
 
+/* Frees the result before. */
+static void replace(float **result, float *by)
+{
+    free(*result);
+    *result = by;
+}
+
+/* Whether the effect's result has the bits of this one. */
+static void assert_result(const glssao_effect *effect, const float *wanted)
+{
+    SCOPED(memory) float *got = read_result(effect);
+    assert_memory_equal(got, wanted, N * sizeof *got);
+}
+
+/* A few frames in motion. The caller frees. */
+static float *walk(glssao_effect *effect, shot s, const glssao_settings *settings, int frames)
+{
+    float *last = NULL;
+    for (int i = 0; i < frames; ++i) {
+        s.x = 0.05 * i;
+        s.noise = (uint32_t)i;
+        replace(&last, shoot(effect, &s, settings));
+    }
+    return last;
+}
+
 static double rms(const float *a, const float *b, int count)
 {
     double sum = 0.0;
@@ -234,10 +260,8 @@ TEST_GL(rest_converges_in_every_projection)
             SCOPED(memory) float *floor_map = make_floor(f, &s, &settings);
             SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
             float *single = shoot(effect, &s, &settings), *last = NULL;
-            for (int i = 1; i < FRAMES; ++i) {
-                free(last);
-                last = shoot(effect, &s, &settings);
-            }
+            for (int i = 1; i < FRAMES; ++i)
+                replace(&last, shoot(effect, &s, &settings));
             assert_true(rms(last, floor_map, N) < 0.75 * rms(single, floor_map, N));
             free(single);
             free(last);
@@ -252,16 +276,14 @@ TEST_GL(motion_keeps_the_history)
         const glssao_settings settings = make_settings(GLSSAO_HORIZON, GLSSAO_LOW, 16);
         SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H), *other = fixture_effect(f, W, H);
         shot s = first_shot((analytic_projection)p);
-        float *last = NULL;
+        SCOPED(memory) float *last = NULL;
         for (int i = 0; i < FRAMES; ++i) {
             s.x = 0.03 * i;
             s.z = 0.02 * i;
-            free(last);
-            last = shoot(effect, &s, &settings);
+            replace(&last, shoot(effect, &s, &settings));
         }
         SCOPED(memory) float *floor_map = make_floor(f, &s, &settings), *single = shoot(other, &s, &settings);
         assert_true(rms(last, floor_map, N) < 0.85 * rms(single, floor_map, N));
-        free(last);
     }
 }
 
@@ -274,11 +296,10 @@ TEST_GL(what_left_the_picture_still_occludes)
     settings.radius = 3.0f;
     SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
     shot s = first_shot(PERSPECTIVE);
-    float *last = NULL;
+    SCOPED(memory) float *last = NULL;
     for (int i = 0; i < 31; ++i) { /* at rest, then to the right */
         s.x = fmax(0.1 * (i - 15), 0.0);
-        free(last);
-        last = shoot(effect, &s, &settings);
+        replace(&last, shoot(effect, &s, &settings));
     }
     SCOPED(memory) float *seen = make_floor(f, &s, &settings);
     s.width += 2 * MORE;
@@ -290,7 +311,6 @@ TEST_GL(what_left_the_picture_still_occludes)
         squares[0] += fabs(lost) > 0.05 ? lost * lost : 0.0;
         squares[1] += fabs(lost) > 0.05 ? error * error : 0.0;
     }
-    free(last);
     assert_true(squares[0] > 0.1 && sqrt(squares[1] / squares[0]) < 0.65);
 }
 
@@ -308,29 +328,21 @@ TEST_GL(first_frames_and_cuts_stand_alone)
     SCOPED(frame) glssao_frame frame = take(&b);
     frame.cut = true;
     compute(effect, &frame, &settings);
-    float *cut = read_result(effect);
-    assert_memory_equal(cut, fresh, N * sizeof *cut);
-    free(cut);
+    assert_result(effect, fresh);
     /* Another radius, a frame without a history, and a resize end it too. */
     glssao_settings wider = settings;
     wider.radius = 2.0f;
     frame.cut = false;
     compute(effect, &frame, &wider);
     compute(effect, &frame, &settings);
-    cut = read_result(effect);
-    assert_memory_equal(cut, fresh, N * sizeof *cut);
-    free(cut);
+    assert_result(effect, fresh);
     compute(effect, &frame, &plain);
     compute(effect, &frame, &settings);
-    cut = read_result(effect);
-    assert_memory_equal(cut, fresh, N * sizeof *cut);
-    free(cut);
+    assert_result(effect, fresh);
     assert_int_equal(glssao_resize(effect, W + 2, H), GLSSAO_OK);
     assert_int_equal(glssao_resize(effect, W, H), GLSSAO_OK);
     compute(effect, &frame, &settings);
-    cut = read_result(effect);
-    assert_memory_equal(cut, fresh, N * sizeof *cut);
-    free(cut);
+    assert_result(effect, fresh);
 }
 
 /* The single frame is that of today: of a level that estimates at full size, to a step of R16 and what pairing rounds.
@@ -353,12 +365,7 @@ TEST_GL(same_frames_give_the_same_bits)
     float *results[2] = {NULL, NULL};
     for (int k = 0; k < 2; ++k) {
         SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
-        shot s = first_shot(PERSPECTIVE);
-        for (int i = 0; i < 6; ++i) {
-            s.x = 0.05 * i;
-            free(results[k]);
-            results[k] = shoot(effect, &s, &settings);
-        }
+        results[k] = walk(effect, first_shot(PERSPECTIVE), &settings, 6);
     }
     assert_memory_equal(results[0], results[1], N * sizeof *results[0]);
     free(results[0]);
@@ -426,10 +433,8 @@ static double left_over(fixture *f, glssao_quality quality, double from, double 
         free(*to_keep);
         *to_keep = shoot(effect, &s, &settings);
     }
-    for (int i = 0; i < FRAMES; ++i) {
-        free(never);
-        never = shoot(other, &s, &settings);
-    }
+    for (int i = 0; i < FRAMES; ++i)
+        replace(&never, shoot(other, &s, &settings));
     double sum = 0.0;
     int changed = 0;
     for (int i = 0; i < N; ++i)
@@ -467,12 +472,7 @@ TEST_GL(dispatches_do_as_draws)
             fixture_clear_log(f);
             break;
         }
-        shot s = first_shot(PERSPECTIVE);
-        for (int i = 0; i < 8; ++i) {
-            s.x = 0.05 * i;
-            free(results[k]);
-            results[k] = shoot(effect, &s, &settings);
-        }
+        results[k] = walk(effect, first_shot(PERSPECTIVE), &settings, 8);
     }
     if (results[1])
         assert_true(rms(results[0], results[1], N) < 5e-4);
@@ -497,7 +497,7 @@ TEST_GL(motion_texture_keeps_the_history_of_what_moves)
         for (int i = 0; i < N; ++i)
             motion[2 * i] = (float)(-step / W);
         SCOPED(texture) const GLuint texture = fixture_texture(GL_RG32F, GL_RG, GL_FLOAT, W, H, motion);
-        float *last = NULL;
+        SCOPED(memory) float *last = NULL;
         for (int i = 0; i < FRAMES; ++i) {
             s.x = step * pixel * i;
             SCOPED(frame) glssao_frame frame = take(&s);
@@ -505,27 +505,12 @@ TEST_GL(motion_texture_keeps_the_history_of_what_moves)
             frame.motion_texture = with ? texture : 0;
             compute(effect, &frame, &settings);
             frame.motion_texture = 0;
-            free(last);
-            last = read_result(effect);
+            replace(&last, read_result(effect));
         }
         SCOPED(memory) float *floor_map = make_floor(f, &s, &settings);
         errors[with] = rms(last, floor_map, N);
-        free(last);
     }
     assert_true(errors[1] < 0.85 * errors[0]);
-}
-
-/* A few frames in motion. The caller frees. */
-static float *walk(glssao_effect *effect, shot s, const glssao_settings *settings, int frames)
-{
-    float *last = NULL;
-    for (int i = 0; i < frames; ++i) {
-        s.x = 0.05 * i;
-        s.noise = (uint32_t)i;
-        free(last);
-        last = shoot(effect, &s, settings);
-    }
-    return last;
 }
 
 /* Whatever the host hands over: the same frames give the same bits; a cut gives those of a first frame, and without it
@@ -604,11 +589,10 @@ TEST_GL(means_of_rays_converge)
             settings.power = 2.0f;
             SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
             double errors[2];
-            float *result = NULL;
+            SCOPED(memory) float *result = NULL;
             for (int i = 0; i < FRAMES; ++i) {
                 s.noise = (uint32_t)i;
-                free(result);
-                result = shoot(effect, &s, &settings);
+                replace(&result, shoot(effect, &s, &settings));
                 double sum = 0.0;
                 int count = 0;
                 for (int y = 0; y < H / 3; ++y) /* the floor, without the sky */
@@ -619,7 +603,6 @@ TEST_GL(means_of_rays_converge)
             print_message("%s, %s: error of one frame %.4f, of the mean %.4f\n", alone ? "alone" : "correction",
                           half ? "half size" : "full size", errors[0], errors[1]);
             assert_true(errors[1] < 0.7 * errors[0]);
-            free(result);
         }
 }
 

@@ -214,32 +214,6 @@ TEST_GL(rebuilt_normals_of_a_plane_are_exact)
     }
 }
 
-TEST_GL(apply_multiplies_colour_and_leaves_alpha)
-{
-    enum { W = 64, H = 48 };
-    SCOPED(effect) glssao_effect *effect = fixture_effect(f, W, H);
-    SCOPED(frame) const glssao_frame frame = fixture_room(PERSPECTIVE, W, H);
-    glssao_settings settings = settings_at_scale(1.0f);
-    settings.half_resolution = false;
-    assert_int_equal(glssao_apply(effect, 0), GLSSAO_INVALID_ARGUMENT); /* nothing computed yet */
-    int w, h;
-    SCOPED(memory) float *access = fixture_compute(effect, &frame, &settings, &w, &h);
-
-    SCOPED(target) const fixture_target target = fixture_make_target(GL_RGBA32F, W, H);
-    gl.ClearBufferfv(GL_COLOR, 0, (const float[4]){0.5f, 2.0f, 0.25f, 0.75f});
-    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
-    assert_int_equal(glssao_apply(effect, target.framebuffer), GLSSAO_OK);
-    SCOPED(memory) float *shaded = fixture_read_texture(target.texture, W, H, 4);
-    for (int i = 0; i < W * H; ++i) {
-        assert_float_equal(shaded[4 * i + 0], 0.5f * access[i], 1e-5f);
-        assert_float_equal(shaded[4 * i + 1], 2.0f * access[i], 1e-5f);
-        assert_float_equal(shaded[4 * i + 2], 0.25f * access[i], 1e-5f);
-        assert_float_equal(shaded[4 * i + 3], 0.75f, 0.0f);
-    }
-    glssao_stats stats = glssao_get_stats(effect);
-    assert_int_equal(stats.passes[GLSSAO_PASS_APPLY].draw_calls, 1);
-}
-
 TEST_GL(skipped_frame_is_open)
 {
     glssao_effect *effect = fixture_shared_effect(f, 90, 60);

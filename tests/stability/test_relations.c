@@ -73,19 +73,23 @@ static void for_each_configuration(fixture *f, relation check)
     }
 }
 
-static void check_repeats(fixture *f, const configuration *c, const picture *first)
+/* A test of each configuration c, with the picture that it gives. */
+#define RELATION(name)                                                                                                 \
+    static void check_##name(fixture *f, const configuration *c, const picture *first);                                \
+    TEST_GL(name)                                                                                                      \
+    {                                                                                                                  \
+        for_each_configuration(f, check_##name);                                                                       \
+    }                                                                                                                  \
+    static void check_##name(fixture *f, const configuration *c, const picture *first)
+
+RELATION(runs_repeat)
 {
     SCOPED(picture) picture again = plain(f, &c->settings);
     if (!same_bits(first, &again))
         fail_msg("%s: another picture", c->name);
 }
 
-TEST_GL(runs_repeat)
-{
-    for_each_configuration(f, check_repeats);
-}
-
-static void check_scale(fixture *f, const configuration *c, const picture *first)
+RELATION(scale_changes_nothing)
 {
     static const double scales[] = {0x1p-13, 0x1p13, 1e-4, 1e4};
     for (int i = 0; i < 4; ++i) {
@@ -98,12 +102,7 @@ static void check_scale(fixture *f, const configuration *c, const picture *first
     }
 }
 
-TEST_GL(scale_changes_nothing)
-{
-    for_each_configuration(f, check_scale);
-}
-
-static void check_directions(fixture *f, const configuration *c, const picture *first)
+RELATION(depth_directions_agree)
 {
     static const analytic_projection others[] = {PERSPECTIVE_INFINITE, PERSPECTIVE_REVERSED_ZERO_TO_ONE,
                                                  PERSPECTIVE_INFINITE_REVERSED_ZERO_TO_ONE};
@@ -116,15 +115,10 @@ static void check_directions(fixture *f, const configuration *c, const picture *
     }
 }
 
-TEST_GL(depth_directions_agree)
-{
-    for_each_configuration(f, check_directions);
-}
-
 /* The lower left part of the picture, by an off-centre projection. It must equal the crop, except for a margin on its
  * right and above, where the picture continues. The classic technique's random vectors stretch over the target, so its
  * noise differs. */
-static void check_tile(fixture *f, const configuration *c, const picture *first)
+RELATION(tiles_are_crops)
 {
     enum { TILE = 72, MARGIN = 28 };
     analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
@@ -148,13 +142,8 @@ static void check_tile(fixture *f, const configuration *c, const picture *first)
     free(tile.values);
 }
 
-TEST_GL(tiles_are_crops)
-{
-    for_each_configuration(f, check_tile);
-}
-
 /* Noise, sample positions and the texel that stands for four at half size do not turn along. */
-static void check_turn(fixture *f, const configuration *c, const picture *first)
+RELATION(quarter_turns_turn_the_picture)
 {
     const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
     SCOPED(picture) picture turned = shade_room(f, &view, W, H, 1.0, TURNED, &c->settings);
@@ -169,14 +158,9 @@ static void check_turn(fixture *f, const configuration *c, const picture *first)
         fail_msg("%s: a quarter turn: %g apart, bias %g", c->name, sum / (W * H), bias / (W * H));
 }
 
-TEST_GL(quarter_turns_turn_the_picture)
-{
-    for_each_configuration(f, check_turn);
-}
-
 /* The filters compare stored normals, which project to a plane that has no place for those straight away from the eye.
  */
-static void check_away(fixture *f, const configuration *c, const picture *first)
+RELATION(normals_may_look_away)
 {
     const analytic_view view = analytic_make_view(PERSPECTIVE, (double)W / H, 0.5, 40.0, 1.0);
     SCOPED(picture) picture away = shade_room(f, &view, W, H, 1.0, LOOKING_AWAY, &c->settings);
@@ -185,12 +169,7 @@ static void check_away(fixture *f, const configuration *c, const picture *first)
         fail_msg("%s: normals that look away: %g apart", c->name, apart);
 }
 
-TEST_GL(normals_may_look_away)
-{
-    for_each_configuration(f, check_away);
-}
-
-static void check_radius(fixture *f, const configuration *c, const picture *first)
+RELATION(greater_radius_never_brightens_the_mean)
 {
     (void)first;
     /* The last is a million times the distance of what is farthest. */
@@ -211,14 +190,9 @@ static void check_radius(fixture *f, const configuration *c, const picture *firs
     }
 }
 
-TEST_GL(greater_radius_never_brightens_the_mean)
-{
-    for_each_configuration(f, check_radius);
-}
-
 /* Later rounds of the planar blur weigh neighbours by likeness, which a power changes: each by less than half the
  * difference at which a neighbour counts no more (BLUR_ALIKE), and never in the mean. */
-static void check_power(fixture *f, const configuration *c, const picture *first)
+RELATION(greater_power_never_brightens)
 {
     picture before = *first, after;
     const bool weighs = c->settings.blur == GLSSAO_BLUR_PLANAR && c->settings.blur_rounds > 1;
@@ -238,11 +212,6 @@ static void check_power(fixture *f, const configuration *c, const picture *first
         before = after;
     }
     free(before.values);
-}
-
-TEST_GL(greater_power_never_brightens)
-{
-    for_each_configuration(f, check_power);
 }
 
 int main(int argc, char **argv)

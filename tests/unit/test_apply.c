@@ -122,6 +122,7 @@ TEST_GL(each_option_follows_its_formula)
                 const gl_counts counts = gl_counter_take();
                 const bool dispatches = path == GLSSAO_PATH_COMPUTE && formats[k].is_image;
                 assert_true(counts.dispatches == dispatches && counts.draws == !dispatches && counts.unordered == 0);
+                assert_int_equal(glssao_get_stats(r.effect).passes[GLSSAO_PASS_APPLY].draw_calls, 1);
                 SCOPED(memory) float *got = apply_read_target(&t);
                 /* GL_FRAMEBUFFER_SRGB is off: what is stored is multiplied, and was cleared so. */
                 check_picture(&r, &options[i], &formats[k], true, got, what);
