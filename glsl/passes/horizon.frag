@@ -390,6 +390,14 @@ vec3 step_to(vec2 offset, vec2 map_uv, vec3 ray, float distance)
     return vec3(across, 0.0) + ray * (there - distance);
 }
 
+// Accessibility from what is left open. It is below 0 where one slice of a surface that leans along it hides more than all; slices
+// across the lean hide less, and the blur or the mean over frames needs both. pow() is undefined below 0, and at 0 for a power
+// so small that it is flushed to 0.
+float accessibility_from(float open, float exponent)
+{
+    return min(pow(max(open, 1e-6), exponent), 1.0) + min(open, 0.0) * min(exponent, 1.0);
+}
+
 RESULT result()
 {
     vec2 uv = (full_texel(floor(pixel_center())) + 0.5) * gFullTexel;
@@ -445,24 +453,22 @@ RESULT result()
         occlusion += slice_occlusion(p, (noise.x + float(i)) / float(SLICES));
     }
     occlusion /= float(SLICES);
-    // pow() is undefined below 0, which rounding can leave (as it can leave more than 1), and at 0 for a power so small that it
-    // is flushed to 0.
-    float share = max(1.0 - far_fade(distance) * occlusion, 1e-6);
+    float share = 1.0 - far_fade(distance) * occlusion;
 #if BENT
     vec3 hidden = far_fade(distance) * hidden_vector / float(SLICES);
 #if STEPS < 12
-    hidden *= (1.0 - pow(share, CALIBRATION)) / max(1.0 - share, 1e-4); // it grows as the occlusion does
+    hidden *= (1.0 - accessibility_from(share, CALIBRATION)) / max(1.0 - share, 1e-4); // it grows as the occlusion does
 #endif
     // It is taken off the stored normal later, which may be that of the other side.
     hidden += (2.0 / 3.0) * (stored_view - normal_view);
     hidden = clamp(hidden * HIDDEN_STEPS, -2047.0, 2047.0);
 #endif
 #if OUTPUT == OUTPUT_SUM && BENT
-    return vec4(min(pow(share, CALIBRATION), 1.0), hidden);
+    return vec4(accessibility_from(share, CALIBRATION), hidden);
 #elif OUTPUT == OUTPUT_SUM
-    return gAccumulation.xy * min(pow(share, CALIBRATION), 1.0);
+    return gAccumulation.xy * accessibility_from(share, CALIBRATION);
 #else
-    float accessibility = clamp(pow(share, CALIBRATION * gPower), 0.0, 1.0);
+    float accessibility = accessibility_from(share, CALIBRATION * gPower);
 #if BENT
     return ambient(vec4(accessibility, hidden), linear, code);
 #else

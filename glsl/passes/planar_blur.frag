@@ -57,7 +57,7 @@ RESULT result()
     float blurred = accessibility_in(contents);
     float difference = blurred < 0.0 ? 0.0 : 2.0 * blurred - 1.0;
     CONTENTS estimate = contents_of(PAIRED(textureLod(u_rays_map, uv, 0.0)));
-    float before = pow(accessibility_in(estimate), 1.0 / gPower);
+    float before = pow(max(accessibility_in(estimate), 1e-6), 1.0 / gPower);
     contents = corrected(estimate, before, clamp(before + difference, 0.0, 1.0));
 #endif
     return ambient(contents, center.y, normal_code(center));

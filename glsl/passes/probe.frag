@@ -31,13 +31,12 @@ void main()
     vec2 cell = floor(gl_FragCoord.xy);
     vec2 texel = min(floor(gProbe.xy + (cell + place(uvec2(cell))) * gProbe.zw), size - 1.0);
     vec2 uv = (texel + 0.5) / size;
-    // The bases of pow() are above 0, since each estimate is.
 #if BENT
     vec2 sums = vec2(textureLod(u_ambient_map, uv, 0.0).r, textureLod(u_other_map, uv, 0.0).r);
 #else
     vec2 sums = textureLod(u_ambient_map, uv, 0.0).rg;
 #endif
-    vec2 means = sums / gAccumulation.zw;
+    vec2 means = max(sums / gAccumulation.zw, 1e-6);
     float difference = pow(means.x, gPower) - pow(means.y, gPower);
     bool surface = textureLod(u_distance_map, uv, 0.0).r < FAR_AWAY;
     o_difference = surface ? vec2(difference * difference, 1.0) : vec2(0.0);

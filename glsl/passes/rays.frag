@@ -23,7 +23,7 @@ RESULT result()
     float share = rays_of(texel);
 #if CORRECTS
     float estimate = accessibility_of(textureLod(u_ambient_map, pixel_uv(), 0.0).rg);
-    float difference = share - pow(estimate, 1.0 / gPower);
+    float difference = share - pow(max(estimate, 1e-6), 1.0 / gPower);
     share = share < 0.0 || is_open ? MISSING : clamp(0.5 + 0.5 * difference, 0.0, 1.0);
 #else
     share = is_open ? 1.0 : share;

@@ -24,11 +24,10 @@ RESULT result()
     float sum = sums.x + sums.y;
 #endif
     CONTENTS mean = sum / (gAccumulation.z + gAccumulation.w);
-    // The base of pow() is above 0, since each estimate is.
 #if BENT
-    mean.x = pow(mean.x, gPower);
+    mean.x = pow(max(mean.x, 1e-6), gPower);
 #else
-    mean = pow(mean, gPower);
+    mean = pow(max(mean, 1e-6), gPower);
 #endif
     return ambient(mean, linear_from_distance(textureLod(u_distance_map, uv, 0.0).r),
                    normal_code(normal_view_at_uv(uv)));

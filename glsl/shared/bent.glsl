@@ -28,6 +28,6 @@ vec4 delivered(vec4 contents, bool sky, vec3 normal_view)
 #if TURNED
     open.xy = vec2(gRoll.x * open.x - gRoll.y * open.y, gRoll.y * open.x + gRoll.x * open.y);
 #endif
-    return vec4(sky ? 1.0 : contents.x, open);
+    return vec4(sky ? 1.0 : max(contents.x, 0.0), open);
 }
 #endif

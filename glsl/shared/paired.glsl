@@ -47,8 +47,8 @@ float accessibility_of(vec2 paired)
     return uintBitsToFloat(floatBitsToUint(paired.x) & ~1023u);
 }
 
-// Accessibility is rounded to the 13 bits that are left, about 4 steps of R16 near 1. The floor, which R16 rounds to 0,
-// avoids denormal numbers, which drivers may flush.
+// Accessibility is rounded to the 13 bits that are left, about 4 steps of R16 near 1. An estimate may be below 0
+// (passes/horizon.frag); what is blurred is not. 2e-6, which R16 rounds to 0, avoids denormal numbers, which drivers may flush.
 // RAYS: the value comes from the host's rays. It may be missing, and is linear.
 
 vec2 paired_accessibility(float accessibility, float linear, uint code)
@@ -57,7 +57,7 @@ vec2 paired_accessibility(float accessibility, float linear, uint code)
     if (accessibility < 0.0)
         return vec2(uintBitsToFloat(floatBitsToUint(MISSING) | code), linear);
 #endif
-    uint bits = floatBitsToUint(max(accessibility, 2e-6)) + 512u;
+    uint bits = floatBitsToUint(abs(accessibility) < 2e-6 ? 2e-6 : accessibility) + 512u;
     return vec2(uintBitsToFloat((bits & ~1023u) | code), linear);
 }
 
@@ -180,10 +180,13 @@ AMBIENT ambient(float accessibility, float linear, uint code)
 
 #if RAW
 // Estimate and blurred estimate as one number of 24 bits over 2^24, which a float holds exactly: 1 to 4095 each, 0 where the
-// value is missing. Two open ones are 1.
+// value is missing. Two open ones are 1. The estimate may be below 0.
+const float PAIR_STEPS = 2594.0; // from 0 to 1 ...
+const float PAIR_STEPS_BELOW = 1500.0; // ... and below 0
+
 float packed_pair(vec2 pair)
 {
-    vec2 codes = floor(clamp(pair, 0.0, 1.0) * 4094.0 + 1.5);
+    vec2 codes = floor(clamp(pair * PAIR_STEPS, -PAIR_STEPS_BELOW, PAIR_STEPS) + PAIR_STEPS_BELOW + 1.5);
 #if RAYS
     codes = mix(codes, vec2(0.0), lessThan(pair, vec2(0.0)));
 #endif
@@ -195,10 +198,11 @@ vec2 unpacked_pair(float packed_values)
     float whole = packed_values * 16777216.0 - 1.0;
     float high = floor(whole * (1.0 / 4096.0));
     vec2 codes = vec2(high, whole - 4096.0 * high);
+    vec2 pair = (codes - PAIR_STEPS_BELOW - 1.0) * (1.0 / PAIR_STEPS);
 #if RAYS
-    return mix((codes - 1.0) * (1.0 / 4094.0), vec2(MISSING), equal(codes, vec2(0.0)));
+    return mix(pair, vec2(MISSING), equal(codes, vec2(0.0)));
 #else
-    return (codes - 1.0) * (1.0 / 4094.0);
+    return pair;
 #endif
 }
 #endif

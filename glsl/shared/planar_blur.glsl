@@ -77,6 +77,10 @@ CONTENTS blurred(PAIRED before_2, PAIRED before, PAIRED center, PAIRED after, PA
     vec4 taps = vec4(accessibility_of(before_2), accessibility_of(before), accessibility_of(after),
                      accessibility_of(after_2));
     float own = accessibility_of(center);
+#if !RAYS
+    // A value below 0 is part of a mean: without enough of the others it would be a speck.
+    own = dot(weights, vec4(1.0)) < 2.0 ? max(own, 0.0) : own;
+#endif
     float mean = weighted_mean(own, 1.0, taps, weights);
     // What is left without any tap keeps its noise, which shows where it is dark among bright neighbours.
     float least = weights.y + weights.z == 0.0 ? min(taps.y, taps.z) - BLUR_ALONE : 0.0;

@@ -158,6 +158,8 @@ static double check(setup *s, const float *depth, const vagueness *most, const c
             double low, high;
             const double value = (double)got[y * width + x];
             horizon_model(&s->input, x, y, &low, &high);
+            low = fmax(low, 0.0); /* the map has no sign */
+            high = fmax(high, 0.0);
             const double outside = fmax(low - value, value - high);
             worst = fmax(worst, outside);
             if (!(outside <= tolerance) && wrong++ < 3)

@@ -104,6 +104,7 @@ static pass_constants constants_of(const setup *s, int round, bool corrects)
     c.tolerance *= (double)s->settings.radius;
     c.near *= (double)s->settings.radius;
     c.apart = 1 << round;
+    c.are_rays = true;
     c.alike = round > 0 && !corrects ? horizon_rays_alike() : 0.0;
     c.prior = round == 0 && corrects ? horizon_correction_prior() : 0.0;
     horizon_depth_step(s->effect, c.depth_step);

@@ -139,6 +139,7 @@ enum {
  * pass_constants. */
 typedef struct row {
     texel taps[5];
+    bool are_rays;
     double alone, alike, prior;
 } row;
 
@@ -159,13 +160,14 @@ static double blurred(const truth *t, const void *user)
     double sum = 0.0, total = 0.0, joined = 0.0;
     for (int i = 0; i < 5; ++i)
         joined += weights[i];
+    const double own = !r->are_rays && joined < 3.0 ? fmax(taps[2].value, 0.0) : taps[2].value;
     for (int i = 0; i < 5; ++i) {
         const double off = taps[i].value - taps[2].value;
         if (r->alike > 0.0 && taps[2].value >= 0.0)
             weights[i] *= fmax(1.0 - off * off / (r->alike * r->alike), 0.0);
-        if (taps[i].value < 0.0)
+        if (r->are_rays && taps[i].value < 0.0)
             continue;
-        sum += weights[i] * taps[i].value;
+        sum += weights[i] * (i == 2 ? own : taps[i].value);
         total += weights[i];
     }
     if (total <= 0.0)
@@ -173,13 +175,18 @@ static double blurred(const truth *t, const void *user)
     double mean = sum / total;
     if (r->prior > 0.0) /* the prior's taps have no difference, and all 4 taps outweigh it */
         mean = 0.5 + (mean - 0.5) * joined / (joined + r->prior) * (4.0 + r->prior) / 4.0;
-    return is_alone && taps[2].value >= 0.0 ? fmax(mean, fmin(taps[1].value, taps[3].value) - r->alone) : mean;
+    if (r->are_rays && taps[2].value < 0.0)
+        return mean;
+    return fmax(mean, is_alone ? fmin(taps[1].value, taps[3].value) - r->alone : 0.0);
 }
 
 void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic, const pass_constants *constants,
                        int x, int y, double *out_low, double *out_high)
 {
-    row r = {.alone = constants->alone, .alike = constants->alike, .prior = constants->prior};
+    row r = {.are_rays = constants->are_rays,
+             .alone = constants->alone,
+             .alike = constants->alike,
+             .prior = constants->prior};
     texel *taps = r.taps;
     const int apart = constants->apart > 0 ? constants->apart : 1;
     for (int i = 0; i < 5; ++i)

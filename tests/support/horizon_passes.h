@@ -23,14 +23,15 @@ typedef struct pass_constants {
     double chord;                   /* between two unit normals on different sides of a crease */
     double normal_step;
     int apart;            /* pixels between neighbours of the first round; 0: 1 */
+    bool are_rays;        /* values below 0 are missing; else they are part of a mean, as in passes/horizon.frag */
     double alike;         /* values of rays that differ by so much do not count; 0: all do */
     double prior;         /* taps without a difference that count besides those of the window; 0: of a mean */
     double fall;          /* upsampling without normals: see upsample_model */
     double depth_step[3]; /* step of the depth format at view distance t: coefficients of 1, t and t^2 */
 } pass_constants;
 
-/* One direction of the first round; one later round. In the first, values below 0 are missing, and so is the result of
- * none but such, which is -1. */
+/* One direction of the first round; one later round. Of rays, values below 0 are missing, and so is the result of none
+ * but such, which is -1. */
 void planar_blur_model(const paired_map *map, bool horizontal, bool orthographic, const pass_constants *constants,
                        int x, int y, double *out_low, double *out_high);
 void wide_blur_model(const paired_map *map, bool orthographic, const pass_constants *constants, int x, int y,
