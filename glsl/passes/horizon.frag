@@ -390,12 +390,13 @@ vec3 step_to(vec2 offset, vec2 map_uv, vec3 ray, float distance)
     return vec3(across, 0.0) + ray * (there - distance);
 }
 
-// Accessibility from what is left open. It is below 0 where one slice of a surface that leans along it hides more than all; slices
-// across the lean hide less, and the blur or the mean over frames needs both. pow() is undefined below 0, and at 0 for a power
-// so small that it is flushed to 0.
+// Accessibility from what is left open. It is below 0 where a single slice of a surface that leans along it hides more than all;
+// slices across the lean hide less, and the blur needs both. Two slices lie across each other. pow() is undefined below 0, and
+// at 0 for a power so small that it is flushed to 0.
 float accessibility_from(float open, float exponent)
 {
-    return min(pow(max(open, 1e-6), exponent), 1.0) + min(open, 0.0) * min(exponent, 1.0);
+    float below = SLICES == 1 ? min(open, 0.0) * min(exponent, 1.0) : 0.0;
+    return min(pow(max(open, 1e-6), exponent), 1.0) + below;
 }
 
 RESULT result()

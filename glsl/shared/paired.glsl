@@ -180,13 +180,10 @@ AMBIENT ambient(float accessibility, float linear, uint code)
 
 #if RAW
 // Estimate and blurred estimate as one number of 24 bits over 2^24, which a float holds exactly: 1 to 4095 each, 0 where the
-// value is missing. Two open ones are 1. The estimate may be below 0.
-const float PAIR_STEPS = 2594.0; // from 0 to 1 ...
-const float PAIR_STEPS_BELOW = 1500.0; // ... and below 0
-
+// value is missing. Two open ones are 1.
 float packed_pair(vec2 pair)
 {
-    vec2 codes = floor(clamp(pair * PAIR_STEPS, -PAIR_STEPS_BELOW, PAIR_STEPS) + PAIR_STEPS_BELOW + 1.5);
+    vec2 codes = floor(clamp(pair, 0.0, 1.0) * 4094.0 + 1.5);
 #if RAYS
     codes = mix(codes, vec2(0.0), lessThan(pair, vec2(0.0)));
 #endif
@@ -198,11 +195,10 @@ vec2 unpacked_pair(float packed_values)
     float whole = packed_values * 16777216.0 - 1.0;
     float high = floor(whole * (1.0 / 4096.0));
     vec2 codes = vec2(high, whole - 4096.0 * high);
-    vec2 pair = (codes - PAIR_STEPS_BELOW - 1.0) * (1.0 / PAIR_STEPS);
 #if RAYS
-    return mix(pair, vec2(MISSING), equal(codes, vec2(0.0)));
+    return mix((codes - 1.0) * (1.0 / 4094.0), vec2(MISSING), equal(codes, vec2(0.0)));
 #else
-    return pair;
+    return (codes - 1.0) * (1.0 / 4094.0);
 #endif
 }
 #endif

@@ -78,8 +78,10 @@ CONTENTS blurred(PAIRED before_2, PAIRED before, PAIRED center, PAIRED after, PA
                      accessibility_of(after_2));
     float own = accessibility_of(center);
 #if !RAYS
-    // A value below 0 is part of a mean: without enough of the others it would be a speck.
-    own = dot(weights, vec4(1.0)) < 2.0 ? max(own, 0.0) : own;
+    // What is below 0 is part of a mean over slices. Where not all taps count, it would make a speck.
+    bool counts_all = dot(weights, vec4(1.0)) == 3.0;
+    own = counts_all ? own : max(own, 0.0);
+    taps = counts_all ? taps : max(taps, 0.0);
 #endif
     float mean = weighted_mean(own, 1.0, taps, weights);
     // What is left without any tap keeps its noise, which shows where it is dark among bright neighbours.

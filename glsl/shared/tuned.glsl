@@ -58,5 +58,5 @@
 #define SEEN_MOST 4.0         // so many times settings.history count at most, in frames that see less
 #define LOST 0.5              // recent change for the better that may be lost occluders, in units of what is not seen
 #define NARROW 4.0            // frames after which all detail counts
-#define SHRINK 0.25           // spread of detail that counts as noise, in units of its square
+#define SHRINK 0.4            // spread of detail that counts as noise, in units of its square
 #define SHRINK_RAYS 0.5       // the same for rays, which have more noise

@@ -137,7 +137,7 @@ RELATION(tiles_are_crops)
             bias += apart;
             ++count;
         }
-    if (sum / count > (c->settings.technique == GLSSAO_CLASSIC ? 8e-3 : 1.2e-3) || fabs(bias) / count > 2e-3)
+    if (sum / count > (c->settings.technique == GLSSAO_CLASSIC ? 8e-3 : 1e-3) || fabs(bias) / count > 2e-3)
         fail_msg("%s: a tile is %g apart, bias %g", c->name, sum / count, bias / count);
     free(tile.values);
 }

@@ -253,9 +253,10 @@ static seen_side side_seen(const point *p)
 }
 
 /* Below 0 where one slice alone hides more than all. */
-static double accessibility_from(double open, double exponent)
+static double accessibility_from(const horizon_input *in, double open, double exponent)
 {
-    return fmin(pow(fmax(open, 1e-6), exponent), 1.0) + fmin(open, 0.0) * fmin(exponent, 1.0);
+    const double below = in->slices == 1 ? fmin(open, 0.0) * fmin(exponent, 1.0) : 0.0;
+    return fmin(pow(fmax(open, 1e-6), exponent), 1.0) + below;
 }
 
 static void estimate(const point *p, double *out_low, double *out_high)
@@ -275,8 +276,8 @@ static void estimate(const point *p, double *out_low, double *out_high)
     occlusion.low *= share;
     occlusion.high *= share;
     const double exponent = in->constants.calibration * in->power;
-    *out_low = accessibility_from(1.0 - occlusion.high, exponent);
-    *out_high = accessibility_from(1.0 - occlusion.low, exponent);
+    *out_low = accessibility_from(in, 1.0 - occlusion.high, exponent);
+    *out_high = accessibility_from(in, 1.0 - occlusion.low, exponent);
 }
 
 void horizon_model(const horizon_input *in, int x, int y, double *out_low, double *out_high)
@@ -319,7 +320,7 @@ bool horizon_model_open(const horizon_input *in, int x, int y, double out[3])
         occlusion += 0.5 * (one.low + one.high) / in->slices;
     }
     const double normal[3] = {p.normal.x.v, p.normal.y.v, p.normal.z.v}, share = 1.0 - occlusion;
-    const double darker = 1.0 - accessibility_from(share, in->constants.calibration);
+    const double darker = 1.0 - accessibility_from(in, share, in->constants.calibration);
     const double grows = in->steps < 12 ? darker / fmax(1.0 - share, 1e-4) : 1.0;
     for (int axis = 0; axis < 3; ++axis)
         out[axis] = 2.0 / 3.0 * normal[axis] - grows * sum[axis];

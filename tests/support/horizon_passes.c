@@ -160,14 +160,14 @@ static double blurred(const truth *t, const void *user)
     double sum = 0.0, total = 0.0, joined = 0.0;
     for (int i = 0; i < 5; ++i)
         joined += weights[i];
-    const double own = !r->are_rays && joined < 3.0 ? fmax(taps[2].value, 0.0) : taps[2].value;
+    const double lowest = !r->are_rays && joined < 4.0 ? 0.0 : -1.0; /* a mean over slices needs all taps */
     for (int i = 0; i < 5; ++i) {
         const double off = taps[i].value - taps[2].value;
         if (r->alike > 0.0 && taps[2].value >= 0.0)
             weights[i] *= fmax(1.0 - off * off / (r->alike * r->alike), 0.0);
         if (r->are_rays && taps[i].value < 0.0)
             continue;
-        sum += weights[i] * (i == 2 ? own : taps[i].value);
+        sum += weights[i] * fmax(taps[i].value, lowest);
         total += weights[i];
     }
     if (total <= 0.0)
