@@ -7,8 +7,8 @@
 // out u_bent_target  UPSAMPLE 1, BENT 1 or OUTPUT_BENT: bent normal and accessibility
 // ROUNDS: how many rounds, 0 to 2. WIDE 1: the first of them is not the first of the blur.
 //
-// Invocations lie along a row of the tile, one for each texel and for each that the blur reads around it, so that no address
-// needs a division. Those at the ends of a row compute values that nothing reads.
+// Invocations lie along a row of the tile, one for each texel and for each that the blur reads around it, so that the blur's
+// addresses need no division. Those at the ends of a row compute values that nothing reads.
 
 layout(local_size_x = GROUP_X, local_size_y = GROUP_Y) in;
 uniform sampler2D u_ambient_map;
